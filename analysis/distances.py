@@ -70,11 +70,6 @@ class Distances:
         return self.values[-1]
 
     @property
-    def mean_over_spheres(self) -> np.ndarray:
-        """Mean over the spheres at each moment, shape (k,), in units."""
-        return self.values.mean(axis=1)
-
-    @property
     def mean(self) -> float:
         """Mean over the spheres and the moments, in units."""
         return float(self.values.mean())

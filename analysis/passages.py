@@ -74,9 +74,9 @@ class Wall:
 
 def sample_wire(positions: np.ndarray) -> np.ndarray:
     """Points at s = 0, 0.1, ... 0.9 of each element and the last sphere: (..., n + 1, 3) to (..., 10 n + 1, 3)."""
-    share = np.arange(SAMPLES)[:, None] / SAMPLES
+    fraction = np.arange(SAMPLES)[:, None] / SAMPLES
     first, second = positions[..., :-1, None, :], positions[..., 1:, None, :]
-    points = (1.0 - share) * first + share * second
+    points = (1.0 - fraction) * first + fraction * second
     points = points.reshape(*positions.shape[:-2], -1, 3)
     return np.concatenate([points, positions[..., -1:, :]], axis=-2)
 

@@ -30,7 +30,7 @@ _FILM_SIZE = (640, 400)
 _OVERSAMPLING = 2
 _THINNEST = 1.0 / 400.0  # radius of the wire over what the picture spans: less would be no pixel wide
 _SEEN_THROUGH = 0.5  # how much a catheter tints what is in it
-_LATER_COVERS = 0.03  # share of its radius by which a wire lies over one before it in the same place
+_LATER_COVERS = 0.03  # fraction of its radius by which a wire lies over one before it in the same place
 _PIECES = 12  # triangles are cut to so small a part of what the picture spans: one behind the camera is not drawn
 _TEXT = (225, 225, 230)
 _FOLLOWING = 4.0  # zoom where the tip is followed and nothing else is said
@@ -97,8 +97,8 @@ class Stage:
 
 def bend_colours(values: np.ndarray, full: float) -> np.ndarray:
     """Grey to red, shape (v, 3), for curvatures (v,) in 1/unit; ``full`` is the curvature of full red."""
-    share = np.clip(values / full, 0.0, 1.0)[:, None]
-    return (1.0 - share) * GREY + share * RED
+    fraction = np.clip(values / full, 0.0, 1.0)[:, None]
+    return (1.0 - fraction) * GREY + fraction * RED
 
 
 def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,

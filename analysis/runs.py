@@ -116,6 +116,12 @@ class StudyRuns:
     runs: tuple[Run, ...]
     missing: tuple[str, ...]  # keys of the runs that left nothing to read
 
+    def required(self) -> tuple[Run, ...]:
+        """Runs made for their positions, or LogError where none left a log."""
+        if not self.untimed:
+            raise LogError(f"{self.folder}: no run of this study left a log")
+        return self.untimed
+
     @property
     def untimed(self) -> tuple[Run, ...]:
         """Runs made for their positions."""

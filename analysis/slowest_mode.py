@@ -2,7 +2,7 @@
 
 With gains, a step is linear in the distances u from the new rest as long as the wire stays straight. One link of rest
 length l and gain g, between two spheres of inverse mass w, moves each of them by gamma = g w/(2 w + 4 wq l^2) times its
-stretch, with wq = 1: the share 4 wq l^2 of the correction goes to the orientation, points along the quaternion there
+stretch, with wq = 1: the fraction 4 wq l^2 of the correction goes to the orientation, points along the quaternion there
 and is lost when that is normalised. Long elements and heavy spheres (small w) therefore lose most of the gain.
 
 In sweep order each link sees its left sphere already moved by the link before it, which raises a slow mode's stretch
@@ -39,7 +39,7 @@ class SlowestMode:
         When the envelope of the prediction error falls below the threshold, in s; 0 where it never was above, infinite
         without a threshold.
     effective_gain : float
-        2 gamma, the share of a link's stretch that an iteration takes out, dimensionless.
+        2 gamma, the fraction of a link's stretch that an iteration takes out, dimensionless.
     """
 
     relaxation_time: float

@@ -96,7 +96,7 @@ def closed_form_along(elements: int) -> float:
 
 
 def limit_along(elements: int, sweeps: int, damping: float = 0.0) -> float:
-    """Largest stretch gain of a straight wire that is moved along itself, and loses a share of its speed a step."""
+    """Largest stretch gain of a straight wire that is moved along itself, and loses a fraction of its speed a step."""
     return _largest(lambda gain: _sweep_along(elements, gain), sweeps, 1.0, 100.0, damping)
 
 
@@ -177,10 +177,10 @@ def _sweep_along(elements: int, gain: float) -> np.ndarray:
     l, w = LENGTH / elements, _inverse_masses(elements)
     sweep = np.eye(elements + 1)
     for j in range(elements):
-        share = gain / (w[j] + w[j + 1] + 4.0 * l * l)
+        fraction = gain / (w[j] + w[j + 1] + 4.0 * l * l)
         stretch = sweep[j + 1] - sweep[j]
-        sweep[j] += w[j] * share * stretch
-        sweep[j + 1] -= w[j + 1] * share * stretch
+        sweep[j] += w[j] * fraction * stretch
+        sweep[j + 1] -= w[j + 1] * fraction * stretch
     return sweep[1:, 1:]
 
 
@@ -190,11 +190,11 @@ def _sweep_across(elements: int, stretch_gain: float, bend_gain: float) -> np.nd
     sweep = np.eye(2 * elements + 1)
     places, angles = sweep[:elements + 1], sweep[elements + 1:]  # views: rows are what a value is made of
     for j in range(elements):
-        share = stretch_gain / (w[j] + w[j + 1] + 4.0 * l * l)
+        fraction = stretch_gain / (w[j] + w[j + 1] + 4.0 * l * l)
         error = (places[j + 1] - places[j]) / l - angles[j]
-        places[j] += w[j] * l * share * error
-        places[j + 1] -= w[j + 1] * l * share * error
-        angles[j] += 4.0 * l * l * share * error
+        places[j] += w[j] * l * fraction * error
+        places[j + 1] -= w[j + 1] * l * fraction * error
+        angles[j] += 4.0 * l * l * fraction * error
     for j in range(elements - 1):
         turn = bend_gain / l * (angles[j + 1] - angles[j])
         angles[j] += turn

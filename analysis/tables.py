@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from analysis.errors import displacement_errors, steady_state_entry, total_error
-from analysis.logs import LogError, PositionLog, read_log
+from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, RelaxationError, fit_relaxation, relaxation_error
 from analysis.runs import Run, read_study
 
@@ -121,9 +121,8 @@ def read_table(folder: Path, key: str) -> StudyTable:
         The study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it was run.
     """
     study = read_study(folder)
+    study.required()
     rows = [_measure(run, study.timed(run.key), run.number(key)) for run in study.along(key)]
-    if not rows:
-        raise LogError(f"{folder}: no run of this study left a log")
     return StudyTable(study.name, key, tuple(sorted(rows, key=lambda row: row.value)), study.missing)
 
 

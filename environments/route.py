@@ -1,10 +1,8 @@
-"""The way through a vessel's centreline to a target: distance that is left, and where the way goes on."""
+"""The route along a vessel's centreline to a target: remaining distance, and the next point."""
 
 from __future__ import annotations
 
-import json
 from collections.abc import Mapping, Sequence
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -72,11 +70,6 @@ class Route:
         while index != self.target and self.left[index] > goal:
             index = int(self.next[index])
         return self.points[index]
-
-
-def read_anatomy(file: Path) -> Mapping[str, Any]:
-    """An anatomy.json."""
-    return json.loads(file.read_text(encoding="utf-8"))
 
 
 def _index_of(anatomy: Mapping[str, Any], target: str | int | Sequence[Any], points: np.ndarray) -> int:

@@ -56,11 +56,10 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
     for axes, charted in zip(figure.axes, found):
         _draw_published(axes, charted)
     caption = (
-        "Figure chart, error against latency: wall time of one time step, of the same runs. A display of "
-        f"90 Hz has {number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step "
-        "below the line keeps up with its loop; whether the simulation then runs in real time is seen in the chart of "
-        "cost."
-        f"{_published(found)}"
+        "Figure chart, error against latency: wall time of one time step, of the same runs. A display of 90 Hz has "
+        f"{number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step below the "
+        "line keeps up with its loop; whether the simulation then runs in real time is seen in the chart of "
+        f"cost.{_published(found)}"
     )
     add_caption(figure, caption)
     return figure, caption

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import lru_cache
 from typing import Any
 
@@ -56,6 +56,24 @@ def _xpbd(substeps: int, sweeps: int) -> dict[str, Any]:
     return {"substeps": substeps, "constraintSolverSteps": sweeps}
 
 
+def _small_steps(
+    scene: Callable[[int, float, Mapping[str, Any]], dict[str, Any]], step: float, stable: Mapping[int, float],
+    sweeps: Sequence[tuple[int, int, int]],
+) -> list[Setting]:
+    """A scene (of n, time step and the solver's keys) with the methods of small steps: explicit at each n that
+    `stable` has a substep for, xpbd with each (n, substeps, iterations)."""
+    made = []
+    for n, limit in stable.items():
+        small, substep = _explicit(step, limit)
+        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
+            f"explicit-{n}", "explicit", scene(n, step, {"solver": "explicit", **small}))))
+    return made + [
+        Setting("xpbd", *settings.small_steps(n, step / k, m), case(
+            f"xpbd-{n}-{k}-{m}", "xpbd", scene(n, step, {"solver": "xpbd", **_xpbd(k, m)})))
+        for n, k, m in sweeps
+    ]
+
+
 def _at_rest() -> scenes.Asking[Asked]:
     gain = yield from base_gain()
     stable = yield from _limits(_COUNTS)
@@ -92,8 +110,7 @@ def _at_rest() -> scenes.Asking[Asked]:
 
 def _let_go() -> scenes.Asking[Asked]:
     gain = yield from base_gain()
-    counts = (10, 20, 30)
-    stable = yield from _limits(counts)
+    stable = yield from _limits((10, 20, 30))
     made = [
         Setting("direct", *settings.direct(scheme, n, dt),
                 case(f"{scheme}-{n}-{dt}", "direct", release(n, dt, {"integrator": scheme})))
@@ -104,15 +121,8 @@ def _let_go() -> scenes.Asking[Asked]:
             ("esdirk4", 12, 2e-3), ("esdirk4", 16, 1e-3), ("esdirk4", 30, 5e-4),
         )
     ]
-    for n in counts:
-        small, substep = _explicit(2e-4, stable[n])
-        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
-            f"explicit-{n}", "explicit", release(n, 2e-4, {"solver": "explicit", **small}))))
-    made += [
-        Setting("xpbd", *settings.small_steps(n, 2e-4 / k, m), case(
-            f"xpbd-{n}-{k}-{m}", "xpbd", release(n, 2e-4, {"solver": "xpbd", **_xpbd(k, m)})))
-        for n, k, m in ((10, 45, 1), (20, 80, 1), (30, 80, 1), (30, 120, 1), (30, 200, 1), (30, 60, 3), (30, 20, 30))
-    ]
+    made += _small_steps(release, 2e-4, stable, (
+        (10, 45, 1), (20, 80, 1), (30, 80, 1), (30, 120, 1), (30, 200, 1), (30, 60, 3), (30, 20, 30)))
     for k, changed in enumerate(settings.PBD_CHANGES):
         method = {**settings.PBD, **changed, "bendStiffness": gain}
         shape = elastica.tip_loaded(RELEASE_LOAD, np.linspace(0.0, 1.0, method["numberRodElements"] + 1))
@@ -146,8 +156,7 @@ def _swing_error(run: Run) -> float:
 
 def _pendulum() -> scenes.Asking[Asked]:
     gain = yield from base_gain()
-    counts = (4, 8, 15)
-    stable = yield from _limits(counts, {"proximalEnd": "held"})
+    stable = yield from _limits((4, 8, 15), {"proximalEnd": "held"})
 
     def motion(n: int, step: float, more: Mapping[str, Any]) -> dict[str, Any]:
         return {"numberRodElements": n, "proximalEnd": "held", "gravity": [0.0, -settings.GRAVITY, 0.0],
@@ -162,15 +171,7 @@ def _pendulum() -> scenes.Asking[Asked]:
             ("esdirk4", 2, 4e-2), ("esdirk4", 4, 2e-2), ("esdirk4", 8, 4e-3), ("esdirk4", 16, 2e-3),
         )
     ]
-    for n in counts:
-        small, substep = _explicit(1e-3, stable[n])
-        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
-            f"explicit-{n}", "explicit", motion(n, 1e-3, {"solver": "explicit", **small}))))
-    made += [
-        Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(
-            f"xpbd-{n}-{k}-{m}", "xpbd", motion(n, 1e-3, {"solver": "xpbd", **_xpbd(k, m)})))
-        for n, k, m in ((4, 100, 1), (4, 400, 1), (10, 225, 1), (20, 400, 1), (10, 100, 3))
-    ]
+    made += _small_steps(motion, 1e-3, stable, ((4, 100, 1), (4, 400, 1), (10, 225, 1), (20, 400, 1), (10, 100, 3)))
     weight = [0.0, -settings.GRAVITY / scenes.UNIT, 0.0]
     for k, changed in enumerate((*settings.PBD_CHANGES, {"constraintSolverSteps": 50, "numberRodElements": 8})):
         method = {**settings.PBD, **changed, "bendStiffness": gain}
@@ -248,7 +249,8 @@ def _linear(n: int) -> np.ndarray:
 
 
 def pbd_twist_error(n: int) -> float:
-    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last take half a share."""
+    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last have
+    half of it."""
     found = (np.arange(n) - 0.5) / (n - 2)
     return float(np.max(np.abs(found - _linear(n))[2:-2]))
 

@@ -47,8 +47,8 @@ class _Axis:
 
     def at(self, value: float) -> float:
         """The place of a value."""
-        share = (math.log10(value) - self._low) / (self._high - self._low)
-        return self._first + share * (self._last - self._first)
+        fraction = (math.log10(value) - self._low) / (self._high - self._low)
+        return self._first + fraction * (self._last - self._first)
 
     @property
     def decades(self) -> list[float]:

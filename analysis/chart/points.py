@@ -149,7 +149,7 @@ class Problem:
 
 @dataclass(frozen=True)
 class Charted:
-    """A problem with all its points; it has no lines with gates."""
+    """A problem with all its points, and none of the lines with gates that a finding has."""
 
     problem: Problem
     points: Sequence[Point]

@@ -79,8 +79,8 @@ def tuned_gain(wire: Wire, rate: float, duration: float, sag: float) -> scenes.A
         high = min((g for g in gains if seen[g] < sag), default=math.nan)
         if not low < high:
             return math.nan
-    share = math.log(seen[low] / sag) / math.log(seen[low] / seen[high])
-    return low * (high / low) ** share
+    fraction = math.log(seen[low] / sag) / math.log(seen[low] / seen[high])
+    return low * (high / low) ** fraction
 
 
 def tip_sag(run: Run, wire: Wire) -> float:

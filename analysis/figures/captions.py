@@ -122,9 +122,8 @@ def _time_step(table: StudyTable) -> list[str]:
         sentences.append(
             "It is perfectly linear, as in the thesis. The thesis's reason, more iterations in the same in-game time, "
             "is only part of the answer: without forces the method, step by step, does not contain Δt at all. All "
-            "these "
-            f"runs are one and the same sequence of positions (same Δx at the end, steady from step {steps[0]:g} on) "
-            "with another time written beside each step."
+            f"these runs are one and the same sequence of positions (same Δx at the end, steady from step {steps[0]:g} "
+            "on) with another time written beside each step."
         )
     sentences.append(_constant(table, "(b) The step time"))
     sentences.append(_steady(table, "Δt"))

@@ -12,7 +12,6 @@ from analysis.comparisons import WireRun, read_wire
 from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.figures.wording import number, span
 from analysis.gain import RULES
-from analysis.logs import LogError
 from analysis.runs import read_study
 
 _STYLE = {"barycentric": ("C0", "o"), "thesis": ("C3", "^")}
@@ -53,10 +52,7 @@ def read_rests(folder: Path) -> list[Rest]:
     LogError
         A file cannot be read, or nothing was run.
     """
-    study = read_study(folder)
-    rests = [_measure(read_wire(run)) for run in study.untimed]
-    if not rests:
-        raise LogError(f"{folder}: no run of this study left a log")
+    rests = [_measure(read_wire(run)) for run in read_study(folder).required()]
     return sorted(rests, key=lambda rest: (rest.rule, rest.position))
 
 
@@ -117,12 +113,10 @@ def contact_rule_caption(rests: list[Rest]) -> str:
         "inertia, both ends free.",
         f"(a) Lever rule, weights 1 - s and s: {_which(lever)}.",
         f"(b) As published: {_sign(seed)}, because its normal is scaled to a hundredth and the point to which an end "
-        "is "
-        f"drawn lies almost on the obstacle; {_which(seed)}.",
+        f"is drawn lies almost on the obstacle; {_which(seed)}.",
         f"(c) At the end the element rests {_depths(lever)} under the lever rule and {_depths(seed)} under the "
-        "published "
-        f"one, whose element is {span([rest.shrunk for rest in seed], 2)} units shorter then (lever rule: at most "
-        f"{number(max(abs(rest.shrunk) for rest in lever), 2)}).",
+        f"published one, whose element is {span([rest.shrunk for rest in seed], 2)} units shorter then (lever rule: at "
+        f"most {number(max(abs(rest.shrunk) for rest in lever), 2)}).",
     ))
 
 

@@ -72,11 +72,11 @@ def along_line(points: np.ndarray, knots: np.ndarray) -> tuple[np.ndarray, np.nd
     lengths = np.linalg.norm(axes, axis=1)
     starts = np.concatenate([[0.0], np.cumsum(lengths)])[:-1]
     offsets = points[:, None] - knots[:-1]
-    share = np.clip(np.einsum("pki,ki->pk", offsets, axes) / lengths**2, 0.0, 1.0)
-    distances = np.linalg.norm(offsets - share[..., None] * axes, axis=-1)
+    fraction = np.clip(np.einsum("pki,ki->pk", offsets, axes) / lengths**2, 0.0, 1.0)
+    distances = np.linalg.norm(offsets - fraction[..., None] * axes, axis=-1)
     best = distances.argmin(axis=1)
     rows = np.arange(len(points))
-    return starts[best] + share[rows, best] * lengths[best], distances[rows, best]
+    return starts[best] + fraction[rows, best] * lengths[best], distances[rows, best]
 
 
 @styled
@@ -127,12 +127,10 @@ def drives_caption(rows: dict[str, DriveRow]) -> str:
     radius = push.wire.run.value("vessel")["radius"]
     asked = push.wire.run.measured("driveAsked")
     parts = [
-        f"Figure pulling. A wire of {push.wire.run.number('guidewireLength'):g} units in a lumen of radius "
-        f"{radius:g} that "
-        f"turns round, after {push.wire.motion.steps[-1]} steps of "
+        f"Figure pulling. A wire of {push.wire.run.number('guidewireLength'):g} units in a lumen of radius {radius:g} "
+        f"that turns round, after {push.wire.motion.steps[-1]} steps of "
         f"{push.wire.run.number('displacementPerStep'):g} units ({asked:g} asked of the first sphere, black; dotted: "
-        "its "
-        f"way)."
+        "its way)."
     ]
     for name, (key, (label, _)) in zip("abcd", _DRIVES.items()):
         parts.append(f"({name}) {label[0].upper()}{label[1:]}: {_came_to(rows[key], radius)}")
@@ -146,8 +144,7 @@ def _came_to(row: DriveRow, radius: float) -> str:
     if farthest > radius:
         told = (
             f"the first sphere does not see the wall and leaves the lumen, up to {number(farthest)} units from its "
-            "middle "
-            f"line, and the wire is pulled after it: {passages} of its points pass the wall; "
+            f"middle line, and the wire is pulled after it: {passages} of its points pass the wall; "
         )
     else:
         told = f"the first sphere stays within {number(farthest)} units of the middle line; "
@@ -176,10 +173,8 @@ def read_twists(folder: Path) -> list[TwistRow]:
     """
     rows = [
         TwistRow(run.variant, int(run.number("constraintSolverSteps")), read_twist(run))
-        for run in read_study(folder).untimed
+        for run in read_study(folder).required()
     ]
-    if not rows:
-        raise LogError(f"{folder}: no run of this study left a log")
     return sorted(rows, key=lambda row: row.solver_steps)
 
 

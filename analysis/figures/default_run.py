@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from analysis.errors import displacement_errors, mean_error, total_error
 from analysis.figures.style import add_caption, letter, new_figure, styled
 from analysis.figures.wording import number, percent
-from analysis.logs import LogError, PositionLog, read_log
+from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, relaxation_error
 from analysis.runs import Run, read_study
 from analysis.tables import measure_relaxation, steady_state_step
@@ -44,9 +44,7 @@ def read_default_run(folder: Path, spheres: str = "last", most_entries: int | No
         Thin the log to about so many entries.
     """
     study = read_study(folder)
-    if not study.untimed:
-        raise LogError(f"{folder}: no run of this study left a log")
-    run = study.untimed[0]
+    run = study.required()[0]
     steps = 0 if run.summary is None else int(run.measured("steps"))
     every = 1 if most_entries is None else max(1, steps // most_entries)
     log = read_log(run.folder, spheres=spheres, every=every)

@@ -129,11 +129,10 @@ def _cost(elements: list[GainRow], spheres: list[GainRow]) -> str:
     ])
     return (
         f"(d) With element contact a step takes {number(first.step_time.median, 2)} ms at n = {first.elements}, "
-        f"{number(touching.step_time.median, 2)} at n = {touching.elements} and "
-        f"{number(longest.step_time.median, 2)} at "
-        f"n = {longest.elements} (median of the steps, then of {first.step_time.count} runs, made one at a time, "
-        f"{beside([row.others_busy for row in (*elements, *spheres)])}), in the median of all n "
-        f"{percent(abs(extra))} {'more' if extra >= 0.0 else 'less'} than with spheres only."
+        f"{number(touching.step_time.median, 2)} at n = {touching.elements} and {number(longest.step_time.median, 2)} "
+        f"at n = {longest.elements} (median of the steps, then of {first.step_time.count} runs, made one at a time, "
+        f"{beside([row.others_busy for row in (*elements, *spheres)])}), in the median of all n {percent(abs(extra))} "
+        f"{'more' if extra >= 0.0 else 'less'} than with spheres only."
     )
 
 
@@ -175,8 +174,7 @@ def _flat(table: GainTable) -> str:
         return ""
     return (
         "A plane is no trial of sphere contact: an element lies before it wherever both its spheres do. Only at an "
-        "edge, "
-        "here the plates', can a long element pass between two spheres."
+        "edge, here the plates', can a long element pass between two spheres."
     )
 
 
@@ -188,7 +186,6 @@ def _length(table: GainTable) -> str:
     if lost < 0.02:
         return ""
     return (
-        f"With m = {run.number('constraintSolverSteps'):g} the wire with n = {table.reference.elements} is "
-        "compressed, by "
-        f"{percent(lost)} of its length at the end: much of (c) is this lag."
+        f"With m = {run.number('constraintSolverSteps'):g} the wire with n = {table.reference.elements} is compressed, "
+        f"by {percent(lost)} of its length at the end: much of (c) is this lag."
     )

@@ -42,11 +42,10 @@ def reference_caption(runs: tuple[WireRun, ...]) -> str:
     twice = float(np.interp(0.5 * reference.end, reference.motion.time, y))
     sentences.append(
         f"The reference is large, not a limit: at the same moment y is {told}; and since without forces the positions "
-        f"at step k are the same for every Δt, twice the Δt shows the first half of this very run at half the pace "
+        "at step k are the same for every Δt, twice the Δt shows the first half of this very run at half the pace "
         f"(dashed) and ends at {number(twice)}. More iterations in a second of in-game time, or more elements, make "
-        "another, "
-        f"stiffer wire. Distances to such a reference in the next figures are distances between two wires of different "
-        f"stiffness, not errors that go to 0."
+        "another, stiffer wire. Distances to such a reference in the next figures are distances between two wires of "
+        "different stiffness, not errors that go to 0."
     )
     return " ".join(sentence for sentence in sentences if sentence)
 
@@ -73,8 +72,7 @@ def perturbation_caption(figure: str, table: ComparisonTable, proportional: bool
     x, mean = table.column("value"), table.column("mean_distance")
     sentences = [
         f"Figure {figure}. {scene}, {symbol} = {x.min():g} to {x.max():g}{_UNITS[table.key]} ({x.size} runs, else "
-        "Table "
-        f"4.1{_BETWEEN if figure in _PLATES else ''}), against the reference run ({describe(table.reference)}). "
+        f"Table 4.1{_BETWEEN if figure in _PLATES else ''}), against the reference run ({describe(table.reference)}). "
         f"{_other_references(table)}",
         f"(a, b) At the end the wires are {span([row.end_distance.mean() for row in table.rows])} units from the "
         f"reference on average over their spheres.",
@@ -147,8 +145,7 @@ def _resonance(table: ComparisonTable, low: float, high: float, claim: str) -> l
     if relative_spread(swing) < _SAME:
         sentences.append(
             f"A resonance would show in the run itself, but the last sphere swings by {number(swing[0])} units in "
-            "every "
-            f"one of them."
+            "every one of them."
         )
     elif maxima(x, swing).size == 0:
         sentences.append(
@@ -170,9 +167,8 @@ def _equal_steps(table: ComparisonTable) -> str:
     if table.key == "timeStep" and spread < _SAME:
         return (
             f"(d) At equal step number all these runs are one and the same, {number(steps[0])} units from the "
-            "reference "
-            f"(relative spread {number(spread, 1)}): without forces the method does not contain Δt, and all of (c) "
-            f"is the clock."
+            f"reference (relative spread {number(spread, 1)}): without forces the method does not contain Δt, and all "
+            "of (c) is the clock."
         )
     x, symbol = table.column("value"), _SYMBOLS[table.key]
     return (
@@ -259,10 +255,9 @@ def _proportional(table: ComparisonTable) -> list[str]:
     linear = x[off < _LINEAR].max()
     return [
         f"All motions are scaled to the reference's displacement of {size:g} units, so that in a linear problem all "
-        "wires "
-        f"would lie on the one of the smallest displacement. Those up to {linear:g} units do, to "
-        f"{percent(_LINEAR, 1)} of "
-        f"the displacement; at {x[-1]:g} units the farthest sphere is {percent(off[-1])} of it away.",
+        f"wires would lie on the one of the smallest displacement. Those up to {linear:g} units do, to "
+        f"{percent(_LINEAR, 1)} of the displacement; at {x[-1]:g} units the farthest sphere is {percent(off[-1])} of "
+        "it away.",
         _equal_steps(table),
     ]
 
@@ -271,11 +266,9 @@ def _collision_steps(table: ComparisonTable) -> list[str]:
     mean, x = table.column("mean_distance"), table.column("value")
     verdict = (
         f"As the thesis says, the distance falls with more solver steps, by {percent(1.0 - mean[-1] / mean[0])} from "
-        "the "
-        f"first run to the last." if _falls(table) else
+        "the first run to the last." if _falls(table) else
         f"The thesis says that it falls with more solver steps; it goes from {number(mean[0])} units at m = {x[0]:g} "
-        "to "
-        f"{number(mean[-1])} at m = {x[-1]:g}, with local maxima at m = {_told(maxima(x, mean))}."
+        f"to {number(mean[-1])} at m = {x[-1]:g}, with local maxima at m = {_told(maxima(x, mean))}."
     )
     return [verdict, _equal_steps(table), _sunk(table)]
 
@@ -285,13 +278,12 @@ def _collision_time_step(table: ComparisonTable) -> list[str]:
     small = mean[x <= _SMALL_TIME_STEP]
     if small.size == 0:
         return [_equal_steps(table), _sunk(table)]
-    share = small.max() / mean.max()
+    fraction = small.max() / mean.max()
     verdict = (
-        f"As the thesis says, it is nearly zero up to Δt = {_SMALL_TIME_STEP:g} s: at most {percent(share)} of its "
-        "largest "
-        f"value." if share < 0.05 else
+        f"As the thesis says, it is nearly zero up to Δt = {_SMALL_TIME_STEP:g} s: at most {percent(fraction)} of its "
+        "largest value." if fraction < 0.05 else
         f"The thesis has it nearly zero up to Δt = {_SMALL_TIME_STEP:g} s; it is {span(small)} units there, up to "
-        f"{percent(share)} of its largest value."
+        f"{percent(fraction)} of its largest value."
     )
     top = int(mean.argmax())
     if _trend(x[: top + 1], mean[: top + 1]) < _CLEAR:
@@ -311,11 +303,9 @@ def _collision_elements(table: ComparisonTable) -> list[str]:
     mean, x = table.column("mean_distance"), table.column("value")
     verdict = (
         f"As the thesis says, it falls with more elements, by {percent(1.0 - mean[-1] / mean[0])} from the first run "
-        "to "
-        f"the last." if _falls(table) else
+        "to the last." if _falls(table) else
         f"The thesis sees a decreasing trend; it goes from {number(mean[0])} units at n = {x[0]:g} to "
-        f"{number(mean[-1])} at "
-        f"n = {x[-1]:g}."
+        f"{number(mean[-1])} at n = {x[-1]:g}."
     )
     return [verdict, *_resonance(table, x_low(table), x_high(table), "some kind of resonance"), _equal_steps(table),
             _sunk(table)]
@@ -352,8 +342,7 @@ def _sunk(table: ComparisonTable) -> str:
 _PLATES = ("4.15", "4.16", "4.17", "4.18")
 _BETWEEN = (
     "; the first two thirds of the wire lie between two plates, because a wire that is held at one point only turns "
-    "away "
-    "from the wall and round for ever"
+    "away from the wall and round for ever"
 )
 _CLAIMS: dict[str, Callable[[ComparisonTable], list[str]]] = {
     "4.11": _transversal_steps,

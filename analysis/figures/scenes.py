@@ -30,14 +30,12 @@ def draw_scenes(wall: GainTable, vessel: GainTable) -> tuple[Figure, str]:
         _draw(axes, wire, last)
     caption = (
         f"Figure scenes. A wire of {wires[0].run.number('numberRodElements'):g} rod elements, cut by the plane x = 0. "
-        f"(a) Its first sphere is pushed by {wires[0].run.number('displacement'):g} units and held; the tip slides "
-        "up the "
-        f"wall. (b) It is pushed along its first element by "
+        f"(a) Its first sphere is pushed by {wires[0].run.number('displacement'):g} units and held; the tip slides up "
+        "the wall. (b) It is pushed along its first element by "
         f"{lasts[1] * wires[1].run.number('displacementPerStep'):g} units into an arch with a branch. The deepest that "
-        f"the wire's surface reaches into the wall in these runs is "
+        "the wire's surface reaches into the wall in these runs is "
         f"{number(wires[0].run.measured('maxPenetration'), 2)} and "
-        f"{number(wires[1].run.measured('maxPenetration'), 2)} "
-        f"units of r = {wires[0].run.number('sphereRadius'):g}."
+        f"{number(wires[1].run.measured('maxPenetration'), 2)} units of r = {wires[0].run.number('sphereRadius'):g}."
     )
     add_caption(figure, caption)
     return figure, caption

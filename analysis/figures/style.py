@@ -64,8 +64,8 @@ def add_caption(figure: Figure, caption: str) -> None:
     text_height = len(lines) * _CAPTION_SIZE * _LINE_SPACING / 72.0
     below = text_height + 2 * _MARGIN
     figure.set_size_inches(width, height + below)
-    share = below / (height + below)
-    figure.get_layout_engine().set(rect=(0.0, share, 1.0, 1.0 - share))
+    fraction = below / (height + below)
+    figure.get_layout_engine().set(rect=(0.0, fraction, 1.0, 1.0 - fraction))
     figure.text(
         _MARGIN / width,
         (below - _MARGIN) / (height + below),

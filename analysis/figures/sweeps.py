@@ -62,26 +62,22 @@ def draw_sweep(view: SweepView, table: StudyTable) -> tuple[Figure, str]:
     panels = figure.subplot_mosaic([["a", "b", "c"], ["d", "e", "legend"]])
     values = table.column("value")
 
-    letter(panels["a"], "a", "relaxation time")
-    panels["a"].plot(values, table.column("relaxation.time"), "o-")
-    panels["a"].set_ylabel(r"relaxation time $\tau$ (s)")
-
-    letter(panels["b"], "b", "average step time")
-    _draw_spread(panels["b"], table, lambda row: row.step_time)
-    panels["b"].set_ylabel("real time per step (ms)")
-
-    letter(panels["c"], "c", "in-game time to steady state")
-    panels["c"].plot(values, table.column("steady_state_time"), "o-")
-    panels["c"].set_ylabel("in-game time (s)")
-
-    letter(panels["d"], "d", "computation time to steady state")
-    _draw_spread(panels["d"], table, lambda row: row.computation_time)
-    panels["d"].set_ylabel("real time (s)")
-
-    letter(panels["e"], "e", "total error at the end")
-    panels["e"].plot(values, table.column("total_error"), "o-")
+    for name, title, column, unit in (
+        ("a", "relaxation time", "relaxation.time", r"relaxation time $\tau$ (s)"),
+        ("c", "in-game time to steady state", "steady_state_time", "in-game time (s)"),
+        ("e", "total error at the end", "total_error", r"total error $\Delta_x$ (units)"),
+    ):
+        letter(panels[name], name, title)
+        panels[name].plot(values, table.column(column), "o-")
+        panels[name].set_ylabel(unit)
     panels["e"].set_yscale("log")
-    panels["e"].set_ylabel(r"total error $\Delta_x$ (units)")
+    for name, title, timed, unit in (
+        ("b", "average step time", lambda row: row.step_time, "real time per step (ms)"),
+        ("d", "computation time to steady state", lambda row: row.computation_time, "real time (s)"),
+    ):
+        letter(panels[name], name, title)
+        _draw_spread(panels[name], table, timed)
+        panels[name].set_ylabel(unit)
 
     modes = [SlowestMode.of(row.run) for row in table.rows]
     for axes, times in (

@@ -117,8 +117,8 @@ def gain_wave(rule: str, elements: int, vessel: dict) -> Wave:
 def box_passages(wave: Wave) -> int:
     """Of the wave's samples through the lower side of BOX, from its closed form."""
     y = wave.positions[..., 1]
-    share = np.arange(10) / 10
-    samples = ((1.0 - share) * y[:, :-1, None] + share * y[:, 1:, None]).reshape(len(y), -1)
+    fraction = np.arange(10) / 10
+    samples = ((1.0 - fraction) * y[:, :-1, None] + fraction * y[:, 1:, None]).reshape(len(y), -1)
     samples = np.concatenate([samples, y[:, -1:]], axis=1)
     low = BOX[0, 1]
     return int(np.count_nonzero((samples[:-1] > low) & (samples[1:] < low)))

@@ -36,7 +36,7 @@ def test_same_wire_in_other_elements_and_steps_has_no_distance(elements: int, ti
 def test_shifted_wire_is_at_the_shift(tmp_path: Path) -> None:
     found = distances(wire(4, 0.5, 10, shift=(3.0, 0.0, 4.0)), wire(24, 0.05, 100))
     np.testing.assert_allclose(found.final, 5.0, rtol=1e-14)
-    np.testing.assert_allclose(found.mean_over_spheres, 5.0, rtol=1e-14)
+    np.testing.assert_allclose(found.values.mean(axis=1), 5.0, rtol=1e-14)
     assert found.mean == pytest.approx(5.0, rel=1e-14)
     np.testing.assert_allclose(found.arc_length, [0.0, 3.0, 6.0, 9.0, 12.0])
 
@@ -47,7 +47,7 @@ def test_equal_step_number_is_another_moment_than_equal_time() -> None:
     found = distances(run, reference, match="step")
     np.testing.assert_array_equal(found.steps, np.arange(11))
     expected = np.arange(11) * 0.25 * np.linalg.norm(RATE)
-    np.testing.assert_allclose(found.mean_over_spheres, expected, atol=1e-14)
+    np.testing.assert_allclose(found.values.mean(axis=1), expected, atol=1e-14)
     np.testing.assert_allclose(distances(run, reference, match="time").values, 0.0, atol=1e-14)
 
 

@@ -23,10 +23,10 @@ def slowest_factor(chain: Chain) -> float:
     sweep = np.eye(n + 1)
     for j in range(n):
         first = 0.0 if j == 0 else weight
-        share = chain.stretch_gain / (first + weight + 4.0 * l * l)
+        fraction = chain.stretch_gain / (first + weight + 4.0 * l * l)
         link = np.eye(n + 1)
-        link[j, [j, j + 1]] += share * first * np.array([-1.0, 1.0])
-        link[j + 1, [j, j + 1]] -= share * weight * np.array([-1.0, 1.0])
+        link[j, [j, j + 1]] += fraction * first * np.array([-1.0, 1.0])
+        link[j + 1, [j, j + 1]] -= fraction * weight * np.array([-1.0, 1.0])
         sweep = link @ sweep
     return float(np.max(np.abs(np.linalg.eigvals(sweep[1:, 1:])))) ** chain.constraint_solver_steps
 
@@ -66,7 +66,7 @@ def test_run_shows_the_closed_form(default_chain: Chain) -> None:
     assert 0.0 <= late <= 0.5 * mode.period
 
 
-def test_prediction_error_is_the_sweeps_share_of_the_next_distance(default_chain: Chain) -> None:
+def test_prediction_error_is_the_sweeps_fraction_of_the_next_distance(default_chain: Chain) -> None:
     """Delta_p = (1 - a)/a |u_{k+1}|, once the other modes are gone."""
     a = slowest_factor(default_chain)
     distance = np.abs(default_chain.z[:, -1] - default_chain.rest[-1] - default_chain.displacement)

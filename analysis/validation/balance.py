@@ -75,17 +75,17 @@ def _energy() -> Plan:
         _, place, speed = _modal(runs[case.key], shape)
         omega = 2.0 * math.pi * (1.0 / period if name.startswith("pbd") else frequency)
         energy = place**2 + (speed / omega) ** 2
-        share = energy / energy[0]
-        series[name] = share
-        results.append(Result(f"energy of the first mode after {_PERIODS} periods, n = {n}", name, share[-1], 1.0,
-                              abs(share[-1] - 1.0), None, "of the start", wall_time_per_second(runs[case.key])))
+        fraction = energy / energy[0]
+        series[name] = fraction
+        results.append(Result(f"energy of the first mode after {_PERIODS} periods, n = {n}", name, fraction[-1], 1.0,
+                              abs(fraction[-1] - 1.0), None, "of the start", wall_time_per_second(runs[case.key])))
 
     def draw(figure) -> None:
         axes = figure.add_subplot()
-        for k, (name, share) in enumerate(series.items()):
-            shown = np.maximum(share, 1e-12)
+        for k, (name, fraction) in enumerate(series.items()):
+            shown = np.maximum(fraction, 1e-12)
             axes.plot(
-                np.arange(len(share)), shown, pictures.MARKERS[k], markevery=10, fillstyle="none", label=name,
+                np.arange(len(fraction)), shown, pictures.MARKERS[k], markevery=10, fillstyle="none", label=name,
                 linestyle="--" if name.startswith("pbd") else "-",
             )
         axes.set_yscale("log")

@@ -31,7 +31,7 @@ def thick_frequencies(wire: Wire, count: int) -> np.ndarray:
     State (w, t, m, q) over s/L: deflection, turn of the section, couple, shear force, each in units of L, 1, EI/L and
     EI/L^2. Held at 0; couple and force vanish at 1, which the exponential of the state's matrix has to allow.
     """
-    slender = wire.second_moment / (wire.area * wire.length**2)  # I/(A L^2), also the rotary inertia's share
+    slender = wire.second_moment / (wire.area * wire.length**2)  # I/(A L^2), also the rotary inertia's fraction
     shear = wire.bending / (wire.shearing * wire.length**2)  # EI/(GA L^2)
 
     def condition(b: float) -> float:

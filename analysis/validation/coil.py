@@ -81,11 +81,9 @@ def _plan() -> Plan:
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        f"A straight wire of {2e3 * _WIRE.radius:g} mm is pushed from a straight tube into a helical "
-        f"one, without friction "
-        f"and with a clearance of {_LUMEN - 1e3 * _WIRE.radius:g} mm: the force of the hub over EI "
-        f"kappa²/2. Worst: hub "
-        f"{percent(max(r.error for r in results[::2]))}, wall per length "
+        f"A straight wire of {2e3 * _WIRE.radius:g} mm is pushed from a straight tube into a helical one, without "
+        f"friction and with a clearance of {_LUMEN - 1e3 * _WIRE.radius:g} mm: the force of the hub over EI kappa²/2. "
+        f"Worst: hub {percent(max(r.error for r in results[::2]))}, wall per length "
         f"{percent(max(r.error for r in results[1::2]))}."))
 
 

@@ -1,4 +1,4 @@
-"""Checks of a wire that rubs on walls, against closed forms of Coulomb's law."""
+"""Checks of friction between wire and walls, against closed forms of Coulomb's law."""
 
 from __future__ import annotations
 

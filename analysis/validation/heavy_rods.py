@@ -112,11 +112,9 @@ def _bend_twist(curvatures: tuple[float, ...]) -> Plan:
                 f"{what} {'its plane' if what == 'leaves' else 'to it'}", exact, found, _GATE, "EI/L³"))
             drawn["direct", f"kappa L = {turns:g}, {what}"] = found
     caption = (
-        "A rod, a circular arc at rest, hangs from a clamp that looks down: the weight at which it "
-        "leaves its plane, and at "
-        f"which it returns. GJ/EI = {number(BASE.torsion / BASE.bending, 4)}; reference: where the "
-        f"linearised equations "
-        f"out of the plane have a solution. Worst: {percent(max(r.error for r in results))}."
+        "A rod, a circular arc at rest, hangs from a clamp that looks down: the weight at which it leaves its plane, "
+        f"and at which it returns. GJ/EI = {number(BASE.torsion / BASE.bending, 4)}; reference: where the linearised "
+        f"equations out of the plane have a solution. Worst: {percent(max(r.error for r in results))}."
     )
     return Finding(tuple(results), branches("weight w L³/EI (1)", "distance from the plane (L)", drawn), caption)
 
@@ -186,9 +184,8 @@ def _arch(slacks: tuple[float, ...]) -> Plan:
         drawn["direct", f"slack {percent(slack)}"] = found
     caption = (
         "An arch, bent between two clamps on one axis by their approach (slack, over its length), under its own weight "
-        "against its height: how far its middle has left the side on which it stood. Reference: the "
-        "largest weight of its "
-        f"symmetrical shapes in the plane. Worst: {percent(max(r.error for r in results))}."
+        "against its height: how far its middle has left the side on which it stood. Reference: the largest weight of "
+        f"its symmetrical shapes in the plane. Worst: {percent(max(r.error for r in results))}."
     )
     return Finding(tuple(results), branches("weight w L³/EI (1)", "middle below the chord (L)", drawn), caption)
 

@@ -82,9 +82,8 @@ def _elements() -> Plan:
         series[static.title] = (_COUNTS, errors)
     caption = (
         "Place of the tip in nine rest shapes over the number of elements, n = 20 to 160, against the elastica (and "
-        "the rod in space for the 45° bend): off by at most "
-        f"{percent(max(r.error for r in results))}. What many elements leave over is the stretch and shear that the "
-        "elastica does not have."
+        f"the rod in space for the 45° bend): off by at most {percent(max(r.error for r in results))}. What many "
+        "elements leave over is the stretch and shear that the elastica does not have."
     )
     draw = pictures.orders("number of elements n", "error of the tip's position (of its distance)", series,
                            [(-2.0, "order 2")], (GATE, "gate"))

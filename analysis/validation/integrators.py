@@ -137,8 +137,7 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load
     of = {(r.what.split(":")[0], r.solver[5:]): r.error for r in results}
     same = [problem for problem in _PROBLEMS if of[problem, "Euler, Euler"] < _ROUNDING]
     sentences = [
-        "Four predictors, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run "
-        "and for "
+        "Four predictors, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run and for "
         f"a wire whose elements start rotated by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}."
     ]
     if same:
@@ -157,8 +156,7 @@ def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load
     sentences.append(f"Median time of a step, {problem}, of runs made one at a time, {load}: " + ", ".join(
         f"{method} {number(1e3 * costs[problem, method], 3)} ms" for method in _METHODS) + ".")
     sentences.append(
-        "With pbd there is no limit in the time step that one of them could be nearer to; the choice of m changes "
-        "the "
+        "With pbd there is no limit in the time step that one of them could be nearer to; the choice of m changes the "
         "motion far more."
     )
     return " ".join(sentences)

@@ -85,11 +85,8 @@ def _joint() -> Plan:
         fine = np.linspace(0.0, math.pi, 200)
         panel.plot(fine, fine, color="0.6", linewidth=2.5, label="θ")
         panel.plot(fine, np.sin(fine), "--", color="0.6", linewidth=2.5, label="sin θ")
-        for marker, (name, couples) in zip(pictures.MARKERS, series.items()):
-            panel.plot(_ANGLES, couples, marker, fillstyle="none", label=name)
-        panel.set_xlabel("angle θ of the joint (rad)")
-        panel.set_ylabel("couple (K)")
-        pictures.outside_legend(panel)
+        pictures.marks(panel, {name: (_ANGLES, couples) for name, couples in series.items()},
+                       "angle θ of the joint (rad)", "couple (K)")
 
     caption = (
         "A wire of one element behind one joint, turned by θ: the clamp's couple as the run's summary states it, for "
@@ -100,7 +97,7 @@ def _joint() -> Plan:
 
 
 _NODES = 4
-_SHARE = 1e-3  # of an element's length: the stretch and shear of the bent shape
+_STRAIN = 1e-3  # of an element's length: the stretch and shear of the bent shape
 _TURN_STEP = 1e-4  # rad, half of a central difference's
 _SIDES = tuple((axis, sign) for axis in range(3) for sign in (-1, 1))
 
@@ -110,7 +107,7 @@ def _bent() -> tuple[list[Rotation], np.ndarray]:
     turns = [Rotation.from_rotvec([0.3, -0.2, 0.4]), Rotation.from_rotvec([-0.4, 0.5, 0.9]),
              Rotation.from_rotvec([0.2, 0.7, -0.3])]
     wave = np.sin(1.0 + np.arange(3 * _NODES)).reshape(_NODES, 3)
-    return turns, _SHARE * BASE.length / (_NODES - 1) * (wave - wave[0])
+    return turns, _STRAIN * BASE.length / (_NODES - 1) * (wave - wave[0])
 
 
 def _gradients() -> Plan:
@@ -118,7 +115,7 @@ def _gradients() -> Plan:
     turns, shifts = _bent()
     length = BASE.length / len(turns)
     common = {"numberRodElements": len(turns), "maxSimulationSteps": 0, "distalEnd": "clamped"}
-    shift = 1e-4 * _SHARE * length  # m; the axial strain is what changes most quickly
+    shift = 1e-4 * _STRAIN * length  # m; the axial strain is what changes most quickly
     base = Rotation.from_rotvec(_TURN)
     middle = {"chain": Case("chain", common, start=_chain(turns, length, shifts))}
     sides: dict[tuple[str, int, int], Case] = {}
@@ -153,24 +150,20 @@ def _gradients() -> Plan:
         results.append(Result(f"{what} as gradient of the energy", "direct", float(np.linalg.norm(stated)), size,
                               float(np.linalg.norm(stated - derivative)) / size, EXACT, unit,
                               wall_time(runs[middle[at].key])))
-        components[what.replace(": ", ",\n")] = (stated / size, derivative / size)
+        components[what.replace(": ", ",\n")] = (derivative / size, stated / size)
     results += [not_run("gradient of the energy", solver, _NO_COUPLE) for solver in ("explicit", "xpbd")]
 
     def draw(figure) -> None:
         panel = figure.add_subplot()
         panel.plot([-1.0, 1.0], [-1.0, 1.0], color="0.6", linewidth=2.5, label="equal")
-        for marker, (name, (stated, derivative)) in zip(pictures.MARKERS, components.items()):
-            panel.plot(derivative, stated, marker, fillstyle="none", label=name)
-        panel.set_xlabel("component of the energy's gradient (of its size)")
-        panel.set_ylabel("component that the run states")
-        pictures.outside_legend(panel)
+        pictures.marks(panel, components, "component of the energy's gradient (of its size)",
+                       "component that the run states")
 
     caption = (
         "Forces and couples that runs state, by components, against central differences of the energy that other runs "
         "state, whose start is shifted or turned a little. Three elements, bent, twisted, stretched and sheared "
-        "between two clamps; and one joint, bent and twisted by "
-        f"{number(float(np.linalg.norm(_TURN)), 3)} rad at once. Largest difference "
-        f"{number(max(r.error for r in results if not r.reason), 1)}."
+        f"between two clamps; and one joint, bent and twisted by {number(float(np.linalg.norm(_TURN)), 3)} rad at "
+        f"once. Largest difference {number(max(r.error for r in results if not r.reason), 1)}."
     )
     return Finding(tuple(results), draw, caption)
 
@@ -234,25 +227,25 @@ def _joint_law() -> Plan:
     n = 8
     couples = (0.05, 0.2, 0.5, 0.8)  # of K; above 1 the Darboux law has no rest shape
     stiffness = BASE.bending * n / BASE.length
-    laws = {"rotationVector": lambda share: share, "darboux": math.asin}
+    laws = {"rotationVector": lambda fraction: fraction, "darboux": math.asin}
     cases = [
-        Case(run_key(law, {"share": share}), scenes.at_rest({
+        Case(run_key(law, {"fraction": fraction}), scenes.at_rest({
             "bendLaw": law, "clampRule": "halfElement", "numberRodElements": n, "solverTolerance": 1e-12,
-            "tipMoment": [share * stiffness, 0.0, 0.0]}))
-        for law in laws for share in couples
+            "tipMoment": [fraction * stiffness, 0.0, 0.0]}))
+        for law in laws for fraction in couples
     ]
     runs = yield cases
     results, series = [], {}
     for law, expected in laws.items():
         angles = []
-        for share in couples:
-            run = runs[run_key(law, {"share": share})]
+        for fraction in couples:
+            run = runs[run_key(law, {"fraction": fraction})]
             d = last_state(run).directors
             angle = math.atan2(float(np.linalg.norm(np.cross(d[3], d[4]))), float(d[3] @ d[4]))
             angles.append(angle)
-            exact = expected(share)
-            results.append(Result(f"one joint under the couple {share:g} K: its angle", f"direct, {law}", angle, exact,
-                                  abs(angle / exact - 1.0), 1e-6, "rad", wall_time(run)))
+            exact = expected(fraction)
+            results.append(Result(f"one joint under the couple {fraction:g} K: its angle", f"direct, {law}", angle,
+                                  exact, abs(angle / exact - 1.0), 1e-6, "rad", wall_time(run)))
         series[law] = angles
 
     def draw(figure) -> None:
@@ -260,11 +253,8 @@ def _joint_law() -> Plan:
         fine = np.linspace(0.0, 0.8, 100)
         axes.plot(fine, fine, color="0.6", linewidth=2.5, label="couple = K angle")
         axes.plot(np.arcsin(fine), fine, "--", color="0.6", linewidth=2.5, label="couple = K sin(angle)")
-        for marker, (law, angles) in zip(pictures.MARKERS, series.items()):
-            axes.plot(angles, couples, marker, fillstyle="none", label=law)
-        axes.set_xlabel("angle of the joint (rad)")
-        axes.set_ylabel("couple (K)")
-        pictures.outside_legend(axes)
+        pictures.marks(axes, {law: (angles, couples) for law, angles in series.items()},
+                       "angle of the joint (rad)", "couple (K)")
 
     caption = "One joint in the middle of a wire under a couple: its angle by both laws, K = EI/l."
     return Finding(tuple(results), draw, caption)

@@ -77,7 +77,7 @@ def _order() -> Plan:
 _AXIAL_ELEMENTS = 4
 _AXIAL_WIRE = Wire(radius=50e-3)  # so thick that shear, which an axial motion does not know, does not set the step
 _AXIAL_STEPS = (20, 40, 80, 160)  # a period
-_AXIAL_SHARE = 1e-5  # extension of the wire
+_AXIAL_STRAIN = 1e-5  # extension of the wire
 
 
 def _axial() -> Plan:
@@ -85,7 +85,7 @@ def _axial() -> Plan:
     n, wire = _AXIAL_ELEMENTS, _AXIAL_WIRE
     chain = BarChain(n, wire.line_density * wire.length / n, wire.stretching * n / wire.length, 0.0)
     omega, mode = chain.first_mode()
-    start_places = wire.length * (np.arange(n + 1) / n + _AXIAL_SHARE * mode)
+    start_places = wire.length * (np.arange(n + 1) / n + _AXIAL_STRAIN * mode)
     start = {"positions": [[0.0, 0.0, float(z)] for z in start_places / scenes.UNIT],
              "orientations": [[0.0, 0.0, 0.0, 1.0]] * n}
     period = 2.0 * math.pi / omega
@@ -107,7 +107,7 @@ def _axial() -> Plan:
         for steps in _AXIAL_STEPS:
             states = read_states(runs[cases[name, steps].key])
             moved = np.array([state.positions[-1, 2] - wire.length for state in states])
-            exact = wire.length * _AXIAL_SHARE * mode[-1] * np.cos(omega * np.array([s.time for s in states]))
+            exact = wire.length * _AXIAL_STRAIN * mode[-1] * np.cos(omega * np.array([s.time for s in states]))
             errors.append(rms_error(moved, exact))
         measured = -math.log2(errors[-1] / errors[-2])
         results.append(Result(

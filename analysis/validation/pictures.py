@@ -82,6 +82,17 @@ def orders(
     return draw
 
 
+def marks(
+    axes: Axes, series: Mapping[str, tuple[Sequence[float], Sequence[float]]], x_label: str, y_label: str
+) -> None:
+    """Adds points (x, y) by name, labels and a legend beside the axes."""
+    for marker, (name, (x, y)) in zip(_cycle(len(series)), series.items()):
+        axes.plot(x, y, marker, fillstyle="none", label=name)
+    axes.set_xlabel(x_label)
+    axes.set_ylabel(y_label)
+    outside_legend(axes)
+
+
 def outside_legend(axes: Axes) -> None:
     """A legend beside the axes, where it hides nothing."""
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))

@@ -102,9 +102,8 @@ def _between(thrusts: Sequence[float]) -> Plan:
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        "A column between two planes, clamped on the line halfway, touches one of them: the force of "
-        "the plane against the "
-        f"thrust. It touches in a point up to 16 pi² EI/L², and lies flat in the middle beyond. Worst: "
+        "A column between two planes, clamped on the line halfway, touches one of them: the force of the plane against "
+        "the thrust. It touches in a point up to 16 pi² EI/L², and lies flat in the middle beyond. Worst: "
         f"{percent(max(r.error for r in results))}."))
 
 

@@ -93,12 +93,11 @@ def as_markdown(report: Report) -> str:
     """The same for people, with the pictures between the tables."""
     lines = [
         "# Validation of the material rod", "",
-        f"{_counted(report)}. Errors are relative unless "
-        "stated; cost is wall time in s, or per simulated second where the check is of a motion, on the machine that "
-        "made the runs and beside whatever else ran there; of a rest shape it is the search alone. A line with a "
-        "reason instead of figures says why a solver was not run. pbd has gains instead of a material: it has lines "
-        "where a gain can be computed from the material, and otherwise stands in the chart of error against wall "
-        "time, where its gain is tuned to the wire's sag.", "",
+        f"{_counted(report)}. Errors are relative unless stated; cost is wall time in s, or per simulated second where "
+        "the check is of a motion, on the machine that made the runs and beside whatever else ran there; of a rest "
+        "shape it is the search alone. A line with a reason instead of figures says why a solver was not run. pbd has "
+        "gains instead of a material: it has lines where a gain can be computed from the material, and otherwise "
+        "stands in the chart of error against wall time, where its gain is tuned to the wire's sag.", "",
         *(f"Not made: {check.title} ({reason})." for check, reason in report.missing.items()),
         *([""] if report.missing else []),
     ]

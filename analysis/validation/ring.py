@@ -27,7 +27,7 @@ _ELEMENTS = {"direct": 96, "explicit": 48, "xpbd": 32}
 _RATE = 200.0  # 1/s, of the motion near the limit
 _DURATION = 0.05  # s
 _RAMP = 5e-3  # s: turned at once, the last joint would take the shorter way
-_LOST = 0.1  # share of its twist; a ring that passes through itself loses two turns
+_LOST = 0.1  # fraction of its twist; a ring that passes through itself loses two turns
 
 
 def _ring(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
@@ -58,9 +58,8 @@ def _ring(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
     caption = (
         "A wire that is straight at rest, closed to a ring and twisted: its distance from its plane (root mean "
         "square), or the fraction of its twist that it lost by passing through itself. Both ends are clamped to one "
-        "frame by "
-        "a half-element joint each, so every element is free to move with respect to it. The direct solver's rest "
-        "shapes stay plane up to " + ", ".join(f"{number(r.value, 4)}" for r in results[:3])
+        "frame by a half-element joint each, so every element is free to move with respect to it. The direct solver's "
+        "rest shapes stay plane up to " + ", ".join(f"{number(r.value, 4)}" for r in results[:3])
         + " rad (dashed); Michell and Zajac: " + ", ".join(f"{number(r.reference, 4)}" for r in results[:3])
         + f" rad. explicit and xpbd are displaced by {PUSH:g} L, twisted, and move, damped, for "
         f"{1e3 * _DURATION:g} ms."
@@ -104,7 +103,7 @@ def _start(n: int) -> dict[str, Any]:
 
 
 def _left(wire: Wire, run: Run) -> float:
-    """Root mean square distance of the nodes from their plane over L, or the share of twist lost where it is large."""
+    """Root mean square distance of the nodes from their plane over L, or the fraction of twist lost if large."""
     if passed_through_itself(run):
         return math.inf
     if run.outcome == "failed":

@@ -22,7 +22,7 @@ CLAMPS_ALONG_Z: dict[str, Any] = {"proximalFrame": [0.0, 0.0, 0.0, 1.0], "distal
 SCENE = "params/cantilever.json"  # the base wire, clamped
 
 _SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
-_EXPLICIT_SHARE = 0.75  # of the explicit solver's stable substep
+_EXPLICIT_FRACTION = 0.75  # of the explicit solver's stable substep
 _SWEEPS = 3  # of xpbd in a substep; they nearly converge where it is at most
 _XPBD_SHEAR = 4.0  # of the time in which an element turns against its shear, and
 _XPBD_AXIAL = 1.0 / 3.0  # of the time that sound takes along an element
@@ -103,7 +103,7 @@ def small_steps(
 
 def explicit_steps(step: float, stable: float) -> dict[str, Any]:
     """Substeps of the explicit solver, which is stable up to a substep of `stable`, s."""
-    return {"substeps": math.ceil(step / (_EXPLICIT_SHARE * stable))}
+    return {"substeps": math.ceil(step / (_EXPLICIT_FRACTION * stable))}
 
 
 def xpbd_steps(wire: Wire, step: float, elements: int) -> dict[str, Any]:

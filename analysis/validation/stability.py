@@ -45,7 +45,7 @@ class Limit:
     cost : float
         Wall time of all runs, s.
     low, high : float
-        Ends of the interval in which the load lies, shares of the expected one.
+        Ends of the interval in which the load lies, fractions of the expected one.
     """
 
     load: float
@@ -98,7 +98,7 @@ def limit(
 
 
 PUSH = 1e-4  # of L, off the first shape at the start of a motion
-_SHARES = (0.90, 0.94, 0.98, 1.02, 1.06, 1.10)  # of the expected limit
+_FRACTIONS = (0.90, 0.94, 0.98, 1.02, 1.06, 1.10)  # of the expected limit
 
 
 def pushed(
@@ -107,9 +107,9 @@ def pushed(
     case: Callable[[str, float], Case],
     left: Callable[[Run], float],
     push: float = PUSH,
-    shares: Sequence[float] = _SHARES,
+    fractions: Sequence[float] = _FRACTIONS,
 ) -> Search:
-    """Where a push dies out and where it grows, at shares of the expected limit, the two next to 1 first and the rest
+    """Where a push dies out and where it grows, at fractions of the expected limit, those next to 1 first and the rest
     only where those do not show both.
 
     Parameters
@@ -118,25 +118,25 @@ def pushed(
     case : from a name and a load to a run.
     left : from a run to the distance, over L, that the rod is away from its first shape.
     push : that distance at the start.
-    shares : ascending, half of them below 1.
+    fractions : ascending, half of them below 1.
 
     Returns
     -------
     Limit : with its interval; that is not a number where every push does the same.
     """
-    inner = len(shares) // 2
+    inner = len(fractions) // 2
     cost, seen = 0.0, {}
-    for asked in ((shares[inner - 1], shares[inner]), (*shares[:inner - 1], *shares[inner + 1:])):
-        cases = {share: case(f"{name}{value_text(share)}", share * expected) for share in asked}
+    for asked in ((fractions[inner - 1], fractions[inner]), (*fractions[:inner - 1], *fractions[inner + 1:])):
+        cases = {fraction: case(f"{name}{value_text(fraction)}", fraction * expected) for fraction in asked}
         runs = yield list(cases.values())
-        seen |= {share: left(runs[one.key]) for share, one in cases.items()}
+        seen |= {fraction: left(runs[one.key]) for fraction, one in cases.items()}
         cost += sum(wall_time(runs[one.key]) for one in cases.values())
-        if seen[shares[inner - 1]] < push <= seen[shares[inner]]:
+        if seen[fractions[inner - 1]] < push <= seen[fractions[inner]]:
             break
-    below = [share for share in seen if seen[share] < push]
-    above = [share for share in seen if not seen[share] < push]
+    below = [fraction for fraction in seen if seen[fraction] < push]
+    above = [fraction for fraction in seen if not seen[fraction] < push]
     low, high = max(below, default=math.nan), min(above, default=math.nan)
-    loads = {share * expected: distance for share, distance in seen.items()}
+    loads = {fraction * expected: distance for fraction, distance in seen.items()}
     return Limit(math.nan, loads, cost, low, high) if low < high else Limit(math.nan, loads, cost)
 
 
@@ -153,8 +153,8 @@ def pushed_line(what: str, solver: str, expected: float, found: Limit, gate: flo
     if found.low < found.high:
         ends = f"between {found.low:g} and {found.high:g} of the reference"
     else:
-        shares = [load / expected for load in found.seen]
-        ends = f"none found from {number(min(shares), 2)} to {number(max(shares), 2)} of the reference"
+        fractions = [load / expected for load in found.seen]
+        ends = f"none found from {number(min(fractions), 2)} to {number(max(fractions), 2)} of the reference"
     return Result(f"{what}, {ends}", solver, 0.5 * (found.low + found.high) * expected, expected,
                   max(abs(found.low - 1.0), abs(found.high - 1.0)), gate, unit, found.cost,
                   "farther end of the interval")
@@ -205,8 +205,8 @@ def passed_through_itself(run: Run) -> bool:
 
 
 def _lost_turn(run: Run) -> float:
-    """Share of its turn that a rod has lost: one that leaves its shape may pass through itself and come back to it with
-    fewer turns, which the torque shows."""
+    """Fraction of its turn that a rod has lost: one that leaves its shape may pass through itself and come back to it
+    with fewer turns, which the torque shows."""
     if passed_through_itself(run):
         return 1.0
     turn = run.number("distalRotation")
@@ -277,10 +277,9 @@ def _couple(tension: float, pushing: Sequence[str] = tuple(MOVING)) -> Plan:
     caption = (
         f"A straight rod between clamps, one rotated, under the tension T L²/EI = {tension:g}: its distance from the "
         f"axis. The direct solver's rest shapes stay straight up to M L/EI = {number(found.load, 5)} (dashed; "
-        f"Greenhill: {number(exact, 5)}); below it the distance is rounding. "
-        f"explicit and xpbd, whose clamps cannot slide, are displaced by {PUSH:g} L, rotated, and move, damped: the "
-        "disturbance decays or grows. With clamps held apart the rod leaves its axis at the same couple, since it "
-        "shortens by the square of the distance only."
+        f"Greenhill: {number(exact, 5)}); below it the distance is rounding. explicit and xpbd, whose clamps cannot "
+        f"slide, are displaced by {PUSH:g} L, rotated, and move, damped: the disturbance decays or grows. With clamps "
+        "held apart the rod leaves its axis at the same couple, since it shortens by the square of the distance only."
     )
     draw = branches("couple of the straight rod M L/EI (1)", "distance from the axis (L), or fraction of turns lost",
                     drawn)
@@ -297,7 +296,7 @@ def _hump(wire: Wire, n: int) -> dict[str, Any]:
 
 
 _COLUMN_GATE = 1e-2
-_COLUMN_SHARES = (0.97, 0.98, 0.992, 1.008, 1.02, 1.03)
+_COLUMN_FRACTIONS = (0.97, 0.98, 0.992, 1.008, 1.02, 1.03)
 
 
 def _column(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
@@ -323,7 +322,7 @@ def _column(pushing: Sequence[str] = tuple(MOVING)) -> Plan:
                    start: Mapping[str, Any] = start) -> Case:
             return Case(key, {**damped, **case(load, wire)}, start=start)
 
-        bracket = yield from pushed(f"{solver}-", exact, moving, partial(_off_axis, wire), shares=_COLUMN_SHARES)
+        bracket = yield from pushed(f"{solver}-", exact, moving, partial(_off_axis, wire), fractions=_COLUMN_FRACTIONS)
         results.append(pushed_line(f"column, r = {1e3 * wire.radius:g} mm, n = {n}: critical load", solver, exact,
                                    bracket, _COLUMN_GATE, "EI/L²"))
         drawn[solver, "after a disturbance"] = bracket

@@ -126,11 +126,8 @@ def _torsion(solvers: Sequence[str] = ALL) -> Plan:
         n = len(profiles["direct"])
         arc = (np.arange(n) + 0.5) / n
         axes.plot([0.0, 1.0], [0.0, turn], color="0.6", linewidth=2.5, label="linear profile")
-        for marker, (name, twists) in zip(pictures.MARKERS, profiles.items()):
-            axes.plot(arc, twists, marker, fillstyle="none", label=name)
-        axes.set_xlabel("s/L")
-        axes.set_ylabel("turn of the element (rad)")
-        pictures.outside_legend(axes)
+        pictures.marks(axes, {name: (arc, twists) for name, twists in profiles.items()}, "s/L",
+                       "turn of the element (rad)")
 
     caption = (
         "A straight wire between two clamps, one turned by 90°: turn of each element against the linear profile. "
@@ -163,9 +160,8 @@ def _spatial_bend(solvers: Sequence[str] = ALL) -> Plan:
     caption = (
         "The bend of Bathe and Bolourchi (1979), an arc of 45° and radius 100 of a unit square section, loaded at its "
         "tip across its plane. Tip: "
-        f"{', '.join(number(float(v), 5) for v in last_state(runs['direct']).positions[-1])} "
-        f"(direct), {', '.join(number(float(v), 5) for v in exact)} (boundary value problem); off by "
-        f"{percent(tip.error)}."
+        f"{', '.join(number(float(v), 5) for v in last_state(runs['direct']).positions[-1])} (direct), "
+        f"{', '.join(number(float(v), 5) for v in exact)} (boundary value problem); off by {percent(tip.error)}."
     )
     references = {"without load": rest, "tip, boundary value problem": exact[[2, 0]][None]}
     draw = pictures.shapes(references, drawn, ("z (units)", "x (units)"))
@@ -231,8 +227,7 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
     told = [f"{number(forces[r.solver], 5)} N ({r.solver}, off by {percent(r.error)})" for r in results[:len(solvers)]]
     caption = (
         "A cantilever whose tip rests on a frictionless plane, own weight: nodes (points) on the boundary value "
-        f"problem's solution (line). Force at the tip: "
-        f"{', '.join(told)}, reference {number(newtons, 5)} N."
+        f"problem's solution (line). Force at the tip: {', '.join(told)}, reference {number(newtons, 5)} N."
     )
     return Finding(results, draw, caption)
 

@@ -119,9 +119,10 @@ def _push(y: np.ndarray, f: float) -> float:
     return 4.0 * y[1] * y[3] + 3.0 * y[2] ** 2 - y[1] ** 4 + f * y[1] ** 2 + np.cos(y[0])
 
 
-def _loading(share: float) -> Plan:
-    """For this share of the run."""
-    case = Case("direct", {"maxSimulationSteps": round(share * _DURATION / _STEP), "logEvery": 10, "logFormat": "npz"})
+def _loading(fraction: float) -> Plan:
+    """For this fraction of the run."""
+    steps = round(fraction * _DURATION / _STEP)
+    case = Case("direct", {"maxSimulationSteps": steps, "logEvery": 10, "logFormat": "npz"})
     runs = yield [case]
     run: Run = runs[case.key]
     log = read_log(run.folder, spheres="all")
@@ -148,7 +149,7 @@ def _loading(share: float) -> Plan:
         f"{_DURATION:g} s; its weight leans by a thousandth. It snakes from {number(up, 4)} sqrt(EI w/c) on (endless "
         f"wire 2, between clamps {number(clamped, 4)})"
     )
-    if share == 1.0:
+    if fraction == 1.0:
         down = _onset(load[~rising], across[~rising])
         comes = _first(load[rising], above[rising] > _WOUND)
         goes = _first(load[~rising], above[~rising] < _WOUND)
@@ -257,9 +258,9 @@ _FAR_BELOW = 0.91  # of the even helix's load: there it unwinds
 _ENDS = (0.9 * EVEN_HELIX, 1.01 * EVEN_HELIX)
 
 
-def _loading_check(share: float) -> Check:
+def _loading_check(fraction: float) -> Check:
     return Check("tube-buckling", tubes.SECTION, "a wire in a straight tube snakes and winds up",
-                 partial(_loading, share), SCENE)
+                 partial(_loading, fraction), SCENE)
 
 
 def _helix_check(loads: Sequence[float]) -> Check:

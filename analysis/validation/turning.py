@@ -6,11 +6,12 @@ Energies and momenta are summed up here from logged places, velocities and orien
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
+from matplotlib.figure import Figure
 
 from analysis.figures.wording import number, percent
 from analysis.runs import Run
@@ -92,12 +93,28 @@ _SPIN_GATES = {"trbdf2": (3e-4, 1e-4), "esdirk3": (3e-4, 1e-4), "esdirk4": (3e-4
 _MOMENTUM_GATE = 1e-9
 
 
-def _pendulum_share(wire: Wire, run: Run) -> float:
+def _pendulum_energy(wire: Wire, run: Run) -> float:
     """Change of a pendulum's energy over m g L/2, with its sign."""
     states = read_states(run)
     first, last = (_balance(wire, state) for state in (states[0], states[-1]))
     change = last.energy - first.energy + _GRAVITY * (last.mass_moment - first.mass_moment)[1]
     return change / (0.5 * wire.line_density * wire.length**2 * _GRAVITY)
+
+
+def _errors(names: Sequence[str], errors: Mapping[tuple[str, str], float]) -> Callable[[Figure], None]:
+    """A row for each name with the errors of all schemes, by (name, scheme)."""
+
+    def draw(figure: Figure) -> None:
+        axes = figure.add_subplot()
+        for k, scheme in enumerate(_STAGES):
+            axes.plot([max(errors[name, scheme], 1e-16) for name in names], range(len(names)),
+                      pictures.MARKERS[k % 8], color=f"C{k}", fillstyle="none", label=scheme)
+        axes.set_yticks(range(len(names)), names, fontsize=6)
+        axes.set_xscale("log")
+        axes.set_xlabel("error (1)")
+        pictures.outside_legend(axes)
+
+    return draw
 
 
 def _large_turns() -> Plan:
@@ -110,9 +127,9 @@ def _large_turns() -> Plan:
     runs = yield [*pendulums.values(), *spins.values()]
     results = []
     for (scheme, name), case in pendulums.items():
-        share = _pendulum_share(wires[name], runs[case.key])
-        results.append(Result(f"pendulum let go level{name}, 2 s at 1 ms: energy", f"direct, {scheme}", share, 0.0,
-                              abs(share), _ENERGY_GATES[scheme], "m g L/2", None, "m g L/2"))
+        fraction = _pendulum_energy(wires[name], runs[case.key])
+        results.append(Result(f"pendulum let go level{name}, 2 s at 1 ms: energy", f"direct, {scheme}", fraction, 0.0,
+                              abs(fraction), _ENERGY_GATES[scheme], "m g L/2", None, "m g L/2"))
     for scheme, case in spins.items():
         states = read_states(runs[case.key])
         first, last = (_balance(BASE, state) for state in (states[0], states[-1]))
@@ -129,23 +146,13 @@ def _large_turns() -> Plan:
         results.append(Result("free wire spun at 40 rad/s, 1 s at 0.5 ms: momentum over m w L/2", f"direct, {scheme}",
                               pushed, 0.0, pushed, _MOMENTUM_GATE))
 
-    def draw(figure) -> None:
-        axes = figure.add_subplot()
-        names = list(dict.fromkeys(r.what for r in results))
-        for k, scheme in enumerate(_STAGES):
-            mine = [(names.index(r.what), max(r.error, 1e-16)) for r in results if r.solver == f"direct, {scheme}"]
-            axes.plot([e for _, e in mine], [p for p, _ in mine], pictures.MARKERS[k % 8], color=f"C{k}",
-                      fillstyle="none", label=scheme)
-        axes.set_yticks(range(len(names)), names, fontsize=6)
-        axes.set_xscale("log")
-        axes.set_xlabel("error (1)")
-        pictures.outside_legend(axes)
-
     caption = (
         "Wires that turn far, so that their stiff stretch is driven all the time. " + "; ".join(
             f"{r.what}, {r.solver[8:]}: {percent(r.value)}" for r in results if "momentum over" not in r.what) + "."
     )
-    return Finding(tuple(results), draw, caption, width=11.0)
+    names = list(dict.fromkeys(r.what for r in results))
+    errors = {(r.what, r.solver[8:]): r.error for r in results}
+    return Finding(tuple(results), _errors(names, errors), caption, width=11.0)
 
 
 def _with_start(scene: tuple[dict[str, Any], dict[str, Any]]) -> tuple[dict[str, Any], int, dict[str, Any]]:
@@ -165,12 +172,12 @@ _STIFF_STEPS = (150, 300, 600, 1200)
 def _tumble(wire: Wire, steps: int, scheme: str) -> tuple[dict[str, Any], int, dict[str, Any]]:
     """A free wire that tumbles in space while it bends and twists."""
     n = 6
-    share = np.linspace(-0.5, 0.5, n + 1)
-    middle = 0.5 * (share[1:] + share[:-1])
+    fraction = np.linspace(-0.5, 0.5, n + 1)
+    middle = 0.5 * (fraction[1:] + fraction[:-1])
     rate = np.array([_TUMBLE, 0.3 * _TUMBLE, 0.0])
-    places = np.stack([0.0 * share, 0.0 * share, wire.length * (share + 0.5)], axis=1)
+    places = np.stack([0.0 * fraction, 0.0 * fraction, wire.length * (fraction + 0.5)], axis=1)
     velocities = np.cross(rate, places - [0.0, 0.0, 0.5 * wire.length])
-    velocities[:, 0] += 0.5 * share**2
+    velocities[:, 0] += 0.5 * fraction**2
     spins = rate + np.stack([0.0 * middle, middle / wire.length, 10.0 * middle], axis=1)
     start = {"positions": (places / scenes.UNIT).tolist(), "orientations": [[0, 0, 0, 1]] * n,
              "velocities": (velocities / scenes.UNIT).tolist(), "angularVelocities": spins.tolist()}
@@ -300,7 +307,7 @@ def _schemes() -> Plan:
         if name in problems:
             error, unit = problems[name].error(run, runs[exact[name].key]), "RMS"
         elif name.startswith("pendulum"):
-            error, unit = abs(_pendulum_share(BASE, run)), "m g L/2"
+            error, unit = abs(_pendulum_energy(BASE, run)), "m g L/2"
         elif name.startswith("spin"):
             states = read_states(run)
             error = abs(_balance(BASE, states[-1]).energy / _balance(BASE, states[0]).energy - 1.0)
@@ -313,23 +320,13 @@ def _schemes() -> Plan:
     by = {key: r.error for key, r in zip(cases, results)}
     means = {scheme: float(np.exp(np.mean([math.log(by[name, scheme]) for name in names]))) for scheme in _STAGES}
 
-    def draw(figure) -> None:
-        axes = figure.add_subplot()
-        for k, scheme in enumerate(_STAGES):
-            axes.plot([by[name, scheme] for name in names], range(len(names)), pictures.MARKERS[k % 8], color=f"C{k}",
-                      fillstyle="none", label=scheme)
-        axes.set_yticks(range(len(names)), names, fontsize=6)
-        axes.set_xscale("log")
-        axes.set_xlabel("error (1)")
-        pictures.outside_legend(axes)
-
     caption = (
         f"The schemes on {len(names)} motions, with the same number of solved stages, which is what a motion costs: a "
         "scheme of k stages takes steps k times as long. Errors: " + "; ".join(
             f"{name}: " + ", ".join(f"{scheme} {percent(by[name, scheme])}" for scheme in _STAGES) for name in names)
         + ". Geometric means: " + ", ".join(f"{scheme} {percent(mean)}" for scheme, mean in means.items()) + "."
     )
-    return Finding(tuple(results), draw, caption, width=11.0)
+    return Finding(tuple(results), _errors(names, by), caption, width=11.0)
 
 
 def _step_text(run: Run) -> str:

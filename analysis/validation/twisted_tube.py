@@ -207,11 +207,9 @@ def _plan() -> Plan:
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        "A rod between clamps on the axis of a tube, one of which turns and slides, touches the wall "
-        "in its middle: the "
-        f"force there from the couple at which it leaves its axis, "
-        f"{number(twisted.clamped_moment(), 5)} EI/L, to that at "
-        f"which the contact splits, {number(splits(), 5)}. Worst: "
+        "A rod between clamps on the axis of a tube, one of which turns and slides, touches the wall in its middle: "
+        f"the force there from the couple at which it leaves its axis, {number(twisted.clamped_moment(), 5)} EI/L, to "
+        f"that at which the contact splits, {number(splits(), 5)}. Worst: "
         f"{percent(max(r.error for r in results if r.unit))}."))
 
 

@@ -152,8 +152,9 @@ def _clearance(nodes: np.ndarray, knots: np.ndarray, lumen: float) -> np.ndarray
     knots : ndarray, shape (k, 3)
     lumen : the tube's radius.
     """
-    share = (np.arange(_SAMPLES) / _SAMPLES)[None, :, None]
-    points = np.concatenate([(nodes[:-1, None] * (1.0 - share) + nodes[1:, None] * share).reshape(-1, 3), nodes[-1:]])
+    fraction = (np.arange(_SAMPLES) / _SAMPLES)[None, :, None]
+    inner = nodes[:-1, None] * (1.0 - fraction) + nodes[1:, None] * fraction
+    points = np.concatenate([inner.reshape(-1, 3), nodes[-1:]])
     least = np.full(len(points), np.inf)
     for start, end in zip(knots[:-1], knots[1:]):
         axis = end - start

@@ -8,7 +8,7 @@ sin(phi/2) = k cd(lambda, k) at the hub for k = sin(phi_tip/2). Up to lambda = p
 the tip; beyond, the tip snaps where the hub's angle is largest.
 
 A tube with a play of c does not force its curvature on the ends of the wire: over a length of sqrt(2 c/|k_0 - k_t|)
-they bend as they like, which takes that share from what is held, so the snap comes earlier by a term with sqrt(c).
+they bend as they like, which takes that fraction from what is held, so the snap comes earlier by a term with sqrt(c).
 """
 
 from __future__ import annotations

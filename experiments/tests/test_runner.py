@@ -140,7 +140,7 @@ def test_no_process_is_left_behind(fake, tmp_path):
             os.kill(process, 0)
 
 
-def test_the_real_runner_ends_its_run_where_whoever_started_it_is_gone(runner_command, tmp_path):
+def test_the_real_runner_ends_its_run_when_its_parent_process_is_gone(runner_command, tmp_path):
     endless = '{"id": 1, "out": "%s", "set": {"deltaThreshold": 0, "maxSimulationSteps": 100000000}}' % tmp_path
     attached = subprocess.Popen([*runner_command, "-lines", "-attached"], stdin=subprocess.PIPE, text=True,
                                 stdout=subprocess.PIPE)

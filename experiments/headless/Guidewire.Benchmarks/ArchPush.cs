@@ -1,13 +1,10 @@
-using System;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>A nitinol wire (r = 0.4 mm, 300 mm) that is pushed 150 mm from a straight sheath into
     /// <see cref="ArchWalls"/>.</summary>
     internal sealed class ArchPush
     {
-        private const double Way = 150.0;        // mm
+        private const double Insertion = 150.0;  // mm
 
         private readonly SimulationParameters _parameters;
 
@@ -33,11 +30,11 @@ namespace Guidewire.Benchmarks
                     Integrator = Integrator.ImplicitEuler,
                     TimeStep = timeStep,
                     DeltaThreshold = 0.0,
-                    MaxSimulationSteps = (int)Math.Round(Way / (speed * timeStep)),
+                    MaxSimulationSteps = (int)Math.Round(Insertion / (speed * timeStep)),
                 },
                 Drive = { Kind = Drive.Displace, Displacement = 0.0, DisplacementPerStep = speed * timeStep },
             };
-            Duration = Way / speed;
+            Duration = Insertion / speed;
         }
 
         /// <summary>s of simulated time.</summary>
@@ -49,7 +46,7 @@ namespace Guidewire.Benchmarks
             return Simulation.Create(_parameters);
         }
 
-        /// <summary>The whole push from its start; its Newton iterations a step.</summary>
+        /// <summary>Runs the push to its end and returns its Newton iterations per step.</summary>
         public static double Finish(Simulation run)
         {
             while (run.Outcome == Outcome.Running)

@@ -1,6 +1,3 @@
-using System;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>The vessel of <see cref="ArchPush"/>: a straight sheath, half a circle of radius 30 mm, and straight

@@ -1,8 +1,3 @@
-using System;
-using System.Diagnostics;
-using System.Globalization;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>A nitinol wire of 300 mm and 0.36 mm in 60 elements, fed into <see cref="ArchWalls"/>: in a catheter
@@ -10,13 +5,11 @@ namespace Guidewire.Benchmarks
     internal sealed class CoaxialFeed
     {
         private const double Length = 300.0;      // mm
+        private const double Insertion = 100.0;   // mm
         public const int Elements = 60;
-        private const double Way = 100.0;         // mm
-        private const double Speed = 0.02;        // m/s
-        private const double TimeStep = 0.02;     // s
         private const int Rounds = 7;
 
-        private static readonly int Steps = (int)Math.Round(1e-3 * Way / (Speed * TimeStep));
+        private static readonly int Steps = (int)Math.Round(1e-3 * Insertion / (FedWire.Speed * FedWire.TimeStep));
 
         private readonly Simulation _run;
 
@@ -28,30 +21,14 @@ namespace Guidewire.Benchmarks
         /// <summary>Of the wire in a catheter over so many of its elements; 0: alone.</summary>
         public static SimulationParameters Parameters(int covered)
         {
-            var drive = new DriveParameters { Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = Speed };
-            var parameters = new SimulationParameters
-            {
-                Scene =
-                {
-                    NumberRodElements = Elements,
-                    GuidewireLength = Length,
-                    GuidewireOffset = -Length,
-                    ProximalEnd = ProximalEnd.Clamped,
-                    Walls = new ContactShape[] { ArchWalls.Tube() },
-                },
-                Material = { WireRadius = 0.18e-3, YoungsModulus = 60e9, ShearModulus = 23e9, MassDamping = 20.0 },
-                Method =
-                {
-                    Solver = Solver.Direct,
-                    Integrator = Integrator.ImplicitEuler,
-                    TimeStep = TimeStep,
-                    DeltaThreshold = 0.0,
-                    MaxSimulationSteps = Steps,
-                },
-                Drive = { Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = Speed },
-            };
+            SimulationParameters parameters = FedWire.Parameters(Length, Elements, ArchWalls.Tube(), Steps);
+            parameters.Drive.InsertionSpeed = FedWire.Speed;
             if (covered > 0)
             {
+                var drive = new DriveParameters
+                {
+                    Kind = Drive.Displace, Displacement = 0.0, InsertionSpeed = FedWire.Speed,
+                };
                 var catheter = new Catheter { Length = Length * covered / Elements, Elements = covered, Drive = drive };
                 catheter.Material.WireRadius = 0.4e-3;
                 catheter.Material.InnerRadius = 0.25e-3;
@@ -81,10 +58,10 @@ namespace Guidewire.Benchmarks
                 {
                     // Every round makes the same steps: the shortest counts, which nothing else has interrupted.
                     long before = GC.GetAllocatedBytesForCurrentThread();
-                    one[k] = Math.Min(one[k], both.Step());
+                    one[k] = Math.Min(one[k], FedWire.Step(both._run, false));
                     garbage = round > 0 && k > 0
                         ? Math.Max(garbage, GC.GetAllocatedBytesForCurrentThread() - before) : garbage;
-                    other[k] = Math.Min(other[k], alone.Step());
+                    other[k] = Math.Min(other[k], FedWire.Step(alone._run, false));
                 }
                 iterations = both._run.Report()!.WallIterations / Steps;
                 iterationsAlone = alone._run.Report()!.WallIterations / Steps;
@@ -107,18 +84,6 @@ namespace Guidewire.Benchmarks
                 sum += time;
             }
             return sum;
-        }
-
-        private double Step()
-        {
-            long start = Stopwatch.GetTimestamp();
-            _run.Step();
-            double time = 1e6 * (Stopwatch.GetTimestamp() - start) / Stopwatch.Frequency;
-            if (_run.Outcome == Outcome.Failed)
-            {
-                throw new InvalidOperationException(_run.Reason);
-            }
-            return time;
         }
     }
 }

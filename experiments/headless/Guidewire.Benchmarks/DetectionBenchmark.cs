@@ -1,6 +1,4 @@
-using System;
 using BenchmarkDotNet.Attributes;
-using Guidewire.Core;
 
 namespace Guidewire.Benchmarks
 {

@@ -1,6 +1,3 @@
-using System;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>The wire of the free cantilever, at rest under its tip force, and its motion once let go.</summary>

@@ -1,7 +1,3 @@
-using System;
-using System.Collections.Generic;
-using System.Diagnostics;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>Two pieces of work timed in turns, because what else a machine does changes within seconds: the ratio

@@ -1,7 +1,3 @@
-using System;
-using System.Globalization;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>Steps whose sweeps run in the lanes of a vector register against the same steps with scalar sweeps, in

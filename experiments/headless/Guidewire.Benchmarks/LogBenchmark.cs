@@ -1,7 +1,4 @@
-using System;
-using System.IO;
 using BenchmarkDotNet.Attributes;
-using Guidewire.Core;
 using Guidewire.Io;
 
 namespace Guidewire.Benchmarks

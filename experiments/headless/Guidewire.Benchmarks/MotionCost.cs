@@ -1,6 +1,4 @@
-using System.IO;
 using Guidewire.Cli;
-using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;

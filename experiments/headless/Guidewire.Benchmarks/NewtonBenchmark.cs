@@ -1,7 +1,4 @@
-using System;
-using System.Collections.Generic;
 using BenchmarkDotNet.Attributes;
-using Guidewire.Core;
 
 namespace Guidewire.Benchmarks
 {

@@ -1,8 +1,3 @@
-using System;
-using System.Collections.Generic;
-using System.Globalization;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>What the parts of a Newton iteration of the direct solver cost, each timed in turns with the scalar

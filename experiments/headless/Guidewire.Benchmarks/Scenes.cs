@@ -1,5 +1,3 @@
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>Scenes that more than one benchmark steps.</summary>

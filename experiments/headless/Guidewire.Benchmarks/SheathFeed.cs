@@ -1,9 +1,3 @@
-using System;
-using System.Collections.Generic;
-using System.Diagnostics;
-using System.Globalization;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>A nitinol wire of 0.36 mm in elements of 5 mm, fed into <see cref="ArchWalls"/>: 1.8 m of it from a
@@ -15,58 +9,33 @@ namespace Guidewire.Benchmarks
         private const double Whole = 1800.0;      // mm
         private const double Depth = 60.0;          // mm, into the arch
         private const double Amplitude = 10.0;    // mm, to and fro
-        private const double Speed = 0.02;        // m/s
-        private const double TimeStep = 0.02;     // s
         private const double Early = 0.1;         // of an element, by which it is simulated before it is out
         private const int Rounds = 9;
         private const int Swings = 4;
 
-        private static readonly int InsertionSteps = (int)Math.Round(1e-3 * Depth / (Speed * TimeStep));
-        private static readonly int SwingSteps = (int)Math.Round(4e-3 * Amplitude / (Speed * TimeStep));
+        private static readonly int InsertionSteps = (int)Math.Round(1e-3 * Depth / (FedWire.Speed * FedWire.TimeStep));
+        private static readonly int SwingSteps = (int)Math.Round(4e-3 * Amplitude / (FedWire.Speed * FedWire.TimeStep));
 
         private readonly Simulation _run;
         private readonly int _nodes;
-        private int _out;
+        private int _nodesOutside;
 
         private SheathFeed(ContactShape wall, bool isSheathed)
         {
             double length = isSheathed ? Whole : Body;
             double depth = 1e-3 * Depth;
-            var times = new List<double> { 0.0, depth / Speed };
+            var times = new List<double> { 0.0, depth / FedWire.Speed };
             var insertions = new List<double> { 0.0, depth };
             for (int k = 0; k < 2 * Swings; k++)
             {
-                times.Add(times[times.Count - 1] + (k == 0 ? 1e-3 : 2e-3) * Amplitude / Speed);
+                times.Add(times[times.Count - 1] + (k == 0 ? 1e-3 : 2e-3) * Amplitude / FedWire.Speed);
                 insertions.Add(depth + (k % 2 == 0 ? 1e-3 : -1e-3) * Amplitude);
             }
-            var parameters = new SimulationParameters
-            {
-                Scene =
-                {
-                    NumberRodElements = (int)Math.Round(length / Element),
-                    GuidewireLength = length,
-                    GuidewireOffset = -length,
-                    ProximalEnd = ProximalEnd.Clamped,
-                    Walls = new[] { wall },
-                    Sheath = isSheathed ? new Sheath { Exit = new Vector3d(0.0, 0.0, Depth - Body) } : null,
-                },
-                Material = { WireRadius = 0.18e-3, YoungsModulus = 60e9, ShearModulus = 23e9, MassDamping = 20.0 },
-                Method =
-                {
-                    Solver = Solver.Direct,
-                    Integrator = Integrator.ImplicitEuler,
-                    TimeStep = TimeStep,
-                    DeltaThreshold = 0.0,
-                    MaxSimulationSteps = InsertionSteps + Swings * SwingSteps,
-                },
-                Drive =
-                {
-                    Kind = Drive.Displace,
-                    Displacement = 0.0,
-                    Table = new DriveTable(new TimeTable(times.ToArray(), insertions.ToArray()),
-                        new TimeTable(new[] { 0.0 }, new[] { 0.0 })),
-                },
-            };
+            SimulationParameters parameters = FedWire.Parameters(length, (int)Math.Round(length / Element), wall,
+                InsertionSteps + Swings * SwingSteps);
+            parameters.Scene.Sheath = isSheathed ? new Sheath { Exit = new Vector3d(0.0, 0.0, Depth - Body) } : null;
+            parameters.Drive.Table = new DriveTable(new TimeTable(times.ToArray(), insertions.ToArray()),
+                new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
             _run = Simulation.Create(parameters);
             _nodes = _run.State.SphereCount;
         }
@@ -103,9 +72,9 @@ namespace Guidewire.Benchmarks
                 {
                     enters[k] = sheathed.Enters() && k > 0;
                     long before = GC.GetAllocatedBytesForCurrentThread();
-                    one[k] = Math.Min(one[k], sheathed.Step());
+                    one[k] = Math.Min(one[k], FedWire.Step(sheathed._run, true));
                     long left = GC.GetAllocatedBytesForCurrentThread() - before;
-                    other[k] = Math.Min(other[k], alone.Step());
+                    other[k] = Math.Min(other[k], FedWire.Step(alone._run, true));
                     bool counts = round > 0 && k > 0 && k < InsertionSteps;
                     garbage = counts && enters[k] ? Math.Max(garbage, left) : garbage;
                     usual = counts && !enters[k] ? Math.Max(usual, left) : usual;
@@ -145,22 +114,9 @@ namespace Guidewire.Benchmarks
             {
                 outside += _run.State.Positions[i].Z >= Depth - Body - Early * Element ? 1 : 0;
             }
-            bool enters = outside > _out;
-            _out = outside;
+            bool enters = outside > _nodesOutside;
+            _nodesOutside = outside;
             return enters;
-        }
-
-        private double Step()
-        {
-            long start = Stopwatch.GetTimestamp();
-            _run.Step();
-            _run.Hub(); // as who feeds it reads off
-            double time = 1e6 * (Stopwatch.GetTimestamp() - start) / Stopwatch.Frequency;
-            if (_run.Outcome == Outcome.Failed)
-            {
-                throw new InvalidOperationException(_run.Reason);
-            }
-            return time;
         }
 
         private static double Median(List<double> values)

@@ -1,6 +1,3 @@
-using System;
-using Guidewire.Core;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>The default wire (thesis table 4.1) with sweeps of one's choice, let go from a wave along its whole

@@ -1,5 +1,4 @@
 using BenchmarkDotNet.Attributes;
-using Guidewire.Core;
 
 namespace Guidewire.Benchmarks
 {

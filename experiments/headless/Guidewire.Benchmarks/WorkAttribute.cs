@@ -1,5 +1,3 @@
-using System;
-
 namespace Guidewire.Benchmarks
 {
     /// <summary>How much work one call of a benchmark does: a number times the product of its parameters.</summary>

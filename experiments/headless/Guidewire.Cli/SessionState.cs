@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Runtime.InteropServices;
 using Guidewire.Core;
 
 namespace Guidewire.Cli
@@ -114,13 +115,7 @@ namespace Guidewire.Cli
 
         private void Put(string name, Vector3d[] values)
         {
-            Span<double> numbers = Next(name, values.Length, 3);
-            for (int i = 0; i < values.Length; i++)
-            {
-                numbers[3 * i] = values[i].X;
-                numbers[3 * i + 1] = values[i].Y;
-                numbers[3 * i + 2] = values[i].Z;
-            }
+            MemoryMarshal.Cast<Vector3d, double>(values).CopyTo(Next(name, values.Length, 3));
         }
 
         private void PutOne(string name, in Vector3d value)
@@ -131,14 +126,7 @@ namespace Guidewire.Cli
 
         private void Put(string name, Quaterniond[] values)
         {
-            Span<double> numbers = Next(name, values.Length, 4);
-            for (int j = 0; j < values.Length; j++)
-            {
-                numbers[4 * j] = values[j].X;
-                numbers[4 * j + 1] = values[j].Y;
-                numbers[4 * j + 2] = values[j].Z;
-                numbers[4 * j + 3] = values[j].W;
-            }
+            MemoryMarshal.Cast<Quaterniond, double>(values).CopyTo(Next(name, values.Length, 4));
         }
 
         private Span<double> Next(string name, int rows, int columns)

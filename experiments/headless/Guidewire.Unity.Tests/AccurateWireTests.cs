@@ -1,9 +1,4 @@
 using System;
-using Guidewire.Core;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

@@ -1,14 +1,8 @@
 using System;
-using System.Collections.Generic;
 using System.Diagnostics;
-using System.IO;
 using System.Text.RegularExpressions;
 using Guidewire.Editor;
-using Guidewire.Runtime;
 using Newtonsoft.Json.Linq;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

@@ -1,11 +1,5 @@
 using System;
-using System.IO;
-using Guidewire.Core;
 using Guidewire.Io;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

@@ -1,8 +1,4 @@
 using System;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

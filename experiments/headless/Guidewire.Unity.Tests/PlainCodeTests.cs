@@ -1,8 +1,5 @@
 using System;
-using System.IO;
 using System.Linq;
-using Guidewire.Core;
-using NUnit.Framework;
 
 namespace Guidewire.Unity.Tests
 {

@@ -1,7 +1,5 @@
 using System.Collections;
-using NUnit.Framework;
 using UnityEngine.TestTools;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

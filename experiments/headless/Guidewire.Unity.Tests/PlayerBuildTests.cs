@@ -1,10 +1,6 @@
-using System.IO;
 using Guidewire.Editor;
-using NUnit.Framework;
 using UnityEditor;
 using UnityEditor.Build.Reporting;
-using UnityEngine;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

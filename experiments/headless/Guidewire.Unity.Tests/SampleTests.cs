@@ -1,13 +1,6 @@
 using System;
-using System.Collections.Generic;
-using System.IO;
 using System.Reflection;
-using Guidewire.Core;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
 using UnityEngine.InputSystem;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

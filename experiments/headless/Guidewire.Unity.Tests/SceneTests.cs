@@ -1,10 +1,3 @@
-using System.Collections.Generic;
-using Guidewire.Core;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
-
 namespace Guidewire.Unity.Tests
 {
     [TestFixture]

@@ -1,11 +1,3 @@
-using System.Collections.Generic;
-using System.IO;
-using Guidewire.Core;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
-
 namespace Guidewire.Unity.Tests
 {
     /// <summary>A scene file of the project, played frame by frame.</summary>

@@ -1,13 +1,8 @@
-using System.Collections.Generic;
-using System.IO;
 using System.Reflection;
 using System.Text.RegularExpressions;
 using Guidewire.Io;
-using NUnit.Framework;
-using UnityEngine;
 using UnityEngine.Serialization;
 using UnityEngine.TestTools;
-using UnityStubs;
 
 namespace Guidewire.Unity.Tests
 {

@@ -1,10 +1,6 @@
 using System;
-using System.Collections.Generic;
-using System.IO;
 using System.Reflection;
 using System.Text.RegularExpressions;
-using Guidewire.Runtime;
-using NUnit.Framework;
 
 namespace Guidewire.Unity.Tests
 {

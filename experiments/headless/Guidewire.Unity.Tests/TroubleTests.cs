@@ -1,10 +1,3 @@
-using System.IO;
-using Guidewire.Core;
-using Guidewire.Runtime;
-using NUnit.Framework;
-using UnityEngine;
-using UnityStubs;
-
 namespace Guidewire.Unity.Tests
 {
     /// <summary>What a user can do wrong: the scene stops with a message on the screen and in the console, and a reset

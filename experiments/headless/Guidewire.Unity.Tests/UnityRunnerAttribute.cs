@@ -1,11 +1,7 @@
 using System;
-using System.IO;
 using Guidewire.Unity.Tests;
-using NUnit.Framework;
 using NUnit.Framework.Interfaces;
-using UnityEngine;
 using UnityEngine.TestTools;
-using UnityStubs;
 
 [assembly: UnityRunner]
 

@@ -1,6 +1,3 @@
-using System;
-using System.Collections.Generic;
-
 namespace Guidewire.UnityCheck
 {
     /// <summary>One assembly of Unity's, as its definition says.</summary>

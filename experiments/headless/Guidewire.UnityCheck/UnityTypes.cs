@@ -1,8 +1,3 @@
-using System;
-using System.Collections.Generic;
-using System.Linq;
-using Microsoft.CodeAnalysis;
-
 namespace Guidewire.UnityCheck
 {
     /// <summary>What Unity's own rules ask of symbols.</summary>

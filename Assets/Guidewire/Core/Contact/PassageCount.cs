@@ -95,9 +95,9 @@ namespace Guidewire.Core
             return isWhole;
         }
 
-        // Whether the wire led from point k out through the disc of a rim, and from there a straight way leads to
-        // where the point is now: an end that is drawn out and aside leaves by the rim, though its straight way cuts
-        // the lip. Beside the vessel no straight way from the disc leads.
+        // Whether the wire led from point k out through the disc of a rim, and from there a straight line leads to
+        // where the point is now: an end that is drawn out and aside leaves by the rim, though its straight line cuts
+        // the lip. Beside the vessel no straight line from the disc leads.
         private bool LeavesByRim(ContactShape wall, Vector3d[] from, int k, in Vector3d after)
         {
             return LeavesByRim(wall, from, k, -1, after) || LeavesByRim(wall, from, k, 1, after);
@@ -125,7 +125,7 @@ namespace Guidewire.Core
             return false;
         }
 
-        // Where a straight way from a point inside to one outside leaves, by bisection, on the outer side.
+        // Where a straight line from a point inside to one outside leaves, by bisection, on the outer side.
         private static Vector3d Border(ContactShape wall, Vector3d inside, Vector3d outside)
         {
             for (int halving = 0; halving < Halvings; halving++)

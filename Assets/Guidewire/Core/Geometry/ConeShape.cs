@@ -123,7 +123,7 @@ namespace Guidewire.Core
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double clearance, double resolution, int hint)
         {
-            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, clearance, resolution);
+            return SweptTest.Impact(new ConvexWall(this), a0, b0, a1, b1, clearance, resolution);
         }
 
         /// <summary>Where the segment is nearest, as at an edge. Its weight fades where that is not defined: along a
@@ -212,25 +212,6 @@ namespace Guidewire.Core
                 Normal = normal;
                 FromAxis = fromAxis;
                 IsOnSide = isOnSide;
-            }
-        }
-
-        private readonly struct Body : IConvexBody
-        {
-            private readonly ConeShape _cone;
-
-            public Body(ConeShape cone)
-            {
-                _cone = cone;
-            }
-
-            public double Closest(in Vector3d a, in Vector3d b, out double s, out Vector3d point)
-            {
-                int hint = -1;
-                _cone.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
-                s = contact.Position;
-                point = contact.Point;
-                return contact.Distance;
             }
         }
     }

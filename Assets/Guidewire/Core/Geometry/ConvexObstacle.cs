@@ -125,7 +125,7 @@ namespace Guidewire.Core
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double clearance, double resolution, int hint)
         {
-            return SweptTest.Impact(new Body(this), a0, b0, a1, b1, clearance, resolution);
+            return SweptTest.Impact(new ConvexWall(this), a0, b0, a1, b1, clearance, resolution);
         }
 
         /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest
@@ -178,25 +178,6 @@ namespace Guidewire.Core
             {
                 ConvexEdge.Add(a, b, _points[edge.Start], _points[edge.End], _radius,
                     ConvexEdge.Weight(edge.Angle), range, edgeContacts);
-            }
-        }
-
-        private readonly struct Body : IConvexBody
-        {
-            private readonly ConvexObstacle _obstacle;
-
-            public Body(ConvexObstacle obstacle)
-            {
-                _obstacle = obstacle;
-            }
-
-            public double Closest(in Vector3d a, in Vector3d b, out double s, out Vector3d point)
-            {
-                int hint = -1;
-                _obstacle.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
-                s = contact.Position;
-                point = contact.Point;
-                return contact.Distance;
             }
         }
     }

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>A convex body at rest, seen from a segment. Implemented by structs only, so that the swept test
-    /// compiles once per kind of body and calls nothing through a table.</summary>
+    /// compiles once per kind of body.</summary>
     internal interface IConvexBody
     {
         /// <summary>Closest points of segment a b (parameter s) and the body; the distance is returned, 0 or less

@@ -55,14 +55,14 @@ namespace Guidewire.Core
                 for (int k = 0; k < 4 && !(Width > width); k++)
                 {
                     Vector3d forward = k % 2 == 0 ? u : v;
-                    FollowRidge(start + (k < 2 ? step : -step) * forward, step * (k % 2 == 0 ? v : u));
+                    FollowMaximum(start + (k < 2 ? step : -step) * forward, step * (k % 2 == 0 ? v : u));
                 }
                 step = Width > width ? Math.Min(2.0 * step, 0.5 * Width) : 0.5 * step;
             }
         }
 
         // To the largest ball on the line from middle - half to middle + half, if that is larger: golden section.
-        private void FollowRidge(in Vector3d middle, in Vector3d half)
+        private void FollowMaximum(in Vector3d middle, in Vector3d half)
         {
             double low = -0.7;    // with the step to the middle, within the ball
             double high = 0.7;

@@ -53,7 +53,7 @@ namespace Guidewire.Core
             return Log(beyond, found).LengthSquared < Log(beyond, sampled).LengthSquared ? found : sampled;
         }
 
-        // The rotation from one frame to another, the shorter way.
+        // The rotation from one frame to another, of at most half a turn.
         private static Vector3d Log(in Quaterniond from, in Quaterniond to)
         {
             Quaterniond between = from.Conjugate * to;

@@ -79,16 +79,6 @@ namespace Guidewire.Core
             AddAt(ref first, 3 * stride, odd.GetUpper());
         }
 
-        /// <summary>Adds to one number of each structure.</summary>
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static void Add(ref double first, int stride, Vector256<double> a)
-        {
-            first += a.GetElement(0);
-            Unsafe.Add(ref first, stride) += a.GetElement(1);
-            Unsafe.Add(ref first, 2 * stride) += a.GetElement(2);
-            Unsafe.Add(ref first, 3 * stride) += a.GetElement(3);
-        }
-
         /// <summary>sum + a0 + a1 + a2 + a3, one after the other.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double Sum(double sum, Vector256<double> a)

@@ -64,7 +64,7 @@ namespace Guidewire.Io
             if (!double.TryParse(number, NumberStyles.Float, CultureInfo.InvariantCulture, out value)
                 || double.IsNaN(value) || double.IsInfinity(value))
             {
-                return "a number, a space and a unit, such as \"" + Example(dimension) + "\"";
+                return "a number, a space and a unit, such as \"" + Words(dimension).Example + "\"";
             }
             foreach ((string known, Dimension of, double size) in Units)
             {
@@ -72,11 +72,11 @@ namespace Guidewire.Io
                 {
                     value *= size;
                     return of == dimension ? null
-                        : Noun(dimension) + ", and " + (unit.Length == 0 ? "this has no unit"
-                            : unit + " is the unit of " + Noun(of)) + ": allowed are " + Of(dimension);
+                        : Words(dimension).Noun + ", and " + (unit.Length == 0 ? "this has no unit"
+                            : unit + " is the unit of " + Words(of).Noun) + ": allowed are " + Of(dimension);
                 }
             }
-            return Noun(dimension) + " in a known unit, not '" + unit + "': allowed are " + Of(dimension);
+            return Words(dimension).Noun + " in a known unit, not '" + unit + "': allowed are " + Of(dimension);
         }
 
         private static string Of(Dimension dimension)
@@ -92,41 +92,22 @@ namespace Guidewire.Io
             return string.Join(", ", words);
         }
 
-        private static string Noun(Dimension dimension)
+        private static (string Noun, string Example) Words(Dimension dimension)
         {
             switch (dimension)
             {
                 case Dimension.Length:
-                    return "a length";
+                    return ("a length", "0.035 in");
                 case Dimension.Angle:
-                    return "an angle";
+                    return ("an angle", "45 deg");
                 case Dimension.Modulus:
-                    return "a modulus";
+                    return ("a modulus", "60.3 GPa");
                 case Dimension.Stiffness:
-                    return "a stiffness EI or GJ";
+                    return ("a stiffness EI or GJ", "1.2e-3 N m2");
                 case Dimension.Density:
-                    return "a density";
+                    return ("a density", "6450 kg/m3");
                 default:
-                    return "a number without a unit";
-            }
-        }
-
-        private static string Example(Dimension dimension)
-        {
-            switch (dimension)
-            {
-                case Dimension.Length:
-                    return "0.035 in";
-                case Dimension.Angle:
-                    return "45 deg";
-                case Dimension.Modulus:
-                    return "60.3 GPa";
-                case Dimension.Stiffness:
-                    return "1.2e-3 N m2";
-                case Dimension.Density:
-                    return "6450 kg/m3";
-                default:
-                    return "0.05";
+                    return ("a number without a unit", "0.05");
             }
         }
     }

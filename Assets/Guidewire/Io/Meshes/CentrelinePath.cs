@@ -13,7 +13,7 @@ namespace Guidewire.Io
     internal sealed class CentrelinePath
     {
         private readonly Anatomy _anatomy;
-        private readonly int[] _before;   // on the way to the inlet, -1 there
+        private readonly int[] _before;   // next point towards the inlet, -1 there
 
         /// <param name="anatomy">The vessel.</param>
         /// <param name="inlet">Where distances begin.</param>

@@ -98,7 +98,7 @@ namespace Guidewire.Io
         /// <summary>Ends and centreline of the vessel as it is placed, or null where no file says them.</summary>
         internal Anatomy? Anatomy { get; set; }
 
-        /// <summary>The way from the inlet to the target, or null where there is no inlet.</summary>
+        /// <summary>The path from the inlet to the target, or null where there is no inlet.</summary>
         internal CentrelinePath? Path { get; set; }
 
         /// <summary>The files of loads over time as their key has them, or null.</summary>

@@ -29,5 +29,22 @@ namespace Guidewire.Core.Tests
             action();
             return count() - before;
         }
+
+        /// <summary>Bytes that further steps of a run allocate, after as many as bring it into its usual course.
+        /// </summary>
+        public static long LeftBySteps(Simulation run, int before, int steps)
+        {
+            for (int k = 0; k < before; k++)
+            {
+                run.Step();
+            }
+            return LeftBy(() =>
+            {
+                for (int k = 0; k < steps; k++)
+                {
+                    run.Step();
+                }
+            });
+        }
     }
 }

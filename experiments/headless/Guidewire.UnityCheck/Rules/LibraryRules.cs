@@ -1,10 +1,3 @@
-using System;
-using System.Collections.Generic;
-using System.Linq;
-using Microsoft.CodeAnalysis;
-using Microsoft.CodeAnalysis.CSharp;
-using Microsoft.CodeAnalysis.CSharp.Syntax;
-
 namespace Guidewire.UnityCheck.Rules
 {
     /// <summary>What compiles here and not in Unity: members that NUnit 3.6 has and Unity's fork of 3.5 has not, the

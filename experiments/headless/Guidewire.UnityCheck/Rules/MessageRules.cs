@@ -1,10 +1,3 @@
-using System;
-using System.Collections.Generic;
-using System.Linq;
-using Microsoft.CodeAnalysis;
-using Microsoft.CodeAnalysis.CSharp;
-using Microsoft.CodeAnalysis.CSharp.Syntax;
-
 namespace Guidewire.UnityCheck.Rules
 {
     /// <summary>Unity's messages, coroutines and calls by name: methods that nobody would miss before the scene stands

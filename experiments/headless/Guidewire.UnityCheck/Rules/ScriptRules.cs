@@ -1,8 +1,3 @@
-using System.Linq;
-using Microsoft.CodeAnalysis;
-using Microsoft.CodeAnalysis.CSharp;
-using Microsoft.CodeAnalysis.CSharp.Syntax;
-
 namespace Guidewire.UnityCheck.Rules
 {
     /// <summary>Behaviours: called like their file, attachable, made by Unity alone; and what Unity calls when it

@@ -89,7 +89,7 @@ namespace Guidewire.Core
             slope = new Vector3d(-sense * y, sense * x, 0.0);
         }
 
-        /// <summary>Energy that does not go with the joint's rotation, J, and its derivatives by t.</summary>
+        /// <summary>Energy that does not depend on the joint's rotation, J, and its derivatives by t.</summary>
         public double HeldAt(double t, out double slope, out double second)
         {
             if (Cosine == 0.0 && Sine == 0.0)

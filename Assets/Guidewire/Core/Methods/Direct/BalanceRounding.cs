@@ -13,7 +13,7 @@ namespace Guidewire.Core
     /// Of a rod held at both ends the supports' forces remain uncertain by it.</remarks>
     internal sealed class BalanceRounding
     {
-        private const double LastPlace = 1.0 / (1L << 52);
+        private const double MachineEpsilon = 1.0 / (1L << 52);
         private const double Resolution = 1e-7;   // N: forces below do not matter
 
         private readonly MaterialRod _rod;
@@ -39,7 +39,7 @@ namespace Guidewire.Core
                 AxialSpring = Math.Max(AxialSpring, rod.StretchStiffness[j] / rod.Length[j]);
             }
             _holdsEnd = supports.Distal != DistalEnd.Free;
-            IsLarge = LastPlace * _totalLength * AxialSpring > Resolution;
+            IsLarge = MachineEpsilon * _totalLength * AxialSpring > Resolution;
         }
 
         /// <summary>The largest EA/l, N/m.</summary>
@@ -50,14 +50,14 @@ namespace Guidewire.Core
 
         /// <summary>By how much the forces of two supports may be wrong, N; 0 of one, or where it does not
         /// matter.</summary>
-        public double OfSupports => IsLarge && _holdsEnd ? LastPlace * _totalLength * AxialSpring : 0.0;
+        public double OfSupports => IsLarge && _holdsEnd ? MachineEpsilon * _totalLength * AxialSpring : 0.0;
 
         /// <summary>A stage begins.</summary>
         /// <param name="stageLength">h, s.</param>
         /// <returns>The force that may be unbalanced besides in any element, N; 0 where it is large.</returns>
         public double BeginStage(RodShape shape, double stageLength)
         {
-            _distance = LastPlace * (shape.X[0].Length + _totalLength);
+            _distance = MachineEpsilon * (shape.X[0].Length + _totalLength);
             double perMass = _mass / (stageLength * stageLength);
             _ofMass = _distance * perMass;
             return IsLarge ? 0.0 : _distance * (_factor * AxialSpring + perMass);

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core.Tests
@@ -27,6 +28,28 @@ namespace Guidewire.Core.Tests
             string[] asked = (Environment.GetEnvironmentVariable(variable) ?? "0:0").Split(new[] { ':' });
             return (int.Parse(asked[0], CultureInfo.InvariantCulture),
                 int.Parse(asked[1], CultureInfo.InvariantCulture));
+        }
+
+        /// <summary>The runs of these seeds; one that cannot start is a line instead.</summary>
+        public static IEnumerable<T> Runs<T>(int first, int count, Func<int, T> make, List<string> cannotStart)
+            where T : class
+        {
+            for (int seed = first; seed < first + count; seed++)
+            {
+                T? run = null;
+                try
+                {
+                    run = make(seed);
+                }
+                catch (ArgumentException error)
+                {
+                    cannotStart.Add("seed " + seed + ": " + error.Message);
+                }
+                if (run != null)
+                {
+                    yield return run;
+                }
+            }
         }
 
         public double Number(double from, double to)

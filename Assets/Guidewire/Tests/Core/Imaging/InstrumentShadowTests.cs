@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -19,7 +20,8 @@ namespace Guidewire.Core.Tests
             const double Length = 60.0;
             ImagedInstrument wire = Straight(Length, fromRays, inPicture, radius, Weak);
             double capsule = Math.PI * radius * radius * (Length + 4.0 / 3.0 * radius);
-            Assert.That(Sum(Depths(wire)) / Weak, Is.EqualTo(capsule).Within(OnePercent * capsule));
+            Assert.That(Depths(wire).Sum(depth => (double)depth) / Weak,
+                Is.EqualTo(capsule).Within(OnePercent * capsule));
         }
 
         [Test]
@@ -72,7 +74,8 @@ namespace Guidewire.Core.Tests
                 x[i] = new Vector3d(s * Ring * Math.Sin(angle), Ring * Math.Cos(angle), c * Ring * Math.Sin(angle));
             }
             double volume = Math.PI * radius * radius * (1.5 * Math.PI * Ring + 4.0 / 3.0 * radius);
-            Assert.That(Sum(Depths(Of(x, radius, 0.0, Weak))) / Weak, Is.EqualTo(volume).Within(OnePercent * volume));
+            Assert.That(Depths(Of(x, radius, 0.0, Weak)).Sum(depth => (double)depth) / Weak,
+                Is.EqualTo(volume).Within(OnePercent * volume));
         }
 
         [Test]
@@ -81,7 +84,7 @@ namespace Guidewire.Core.Tests
             ImagedInstrument solid = Straight(24.0, 70.0, 20.0, 2.0, Weak);
             ImagedInstrument hollow = Of(solid.Positions, 2.0, 1.5, Weak);
             double wall = Math.PI * (2.0 * 2.0 - 1.5 * 1.5) * (24.0 + 4.0 / 3.0 * 2.0);
-            Assert.That(Sum(Depths(hollow)) / Weak, Is.EqualTo(wall).Within(OnePercent * wall));
+            Assert.That(Depths(hollow).Sum(depth => (double)depth) / Weak, Is.EqualTo(wall).Within(OnePercent * wall));
             int middle = (Pixels / 2) * Pixels + Pixels / 2;
             Assert.That(Depths(hollow)[middle] / Depths(solid)[middle], Is.EqualTo(0.25).Within(0.02));
         }
@@ -128,7 +131,7 @@ namespace Guidewire.Core.Tests
             ImagedInstrument wire = Straight(500.0, 90.0, 30.0, 0.8, 0.5);
             float[] inside = Depths(Straight(200.0, 90.0, 30.0, 0.8, 0.5));
             Assert.That(Depths(wire), Is.EqualTo(inside).Within(1e-5f));
-            Assert.That(Sum(Depths(Moved(wire, new Vector3d(0.0, 400.0, 400.0)))), Is.Zero);
+            Assert.That(Depths(Moved(wire, new Vector3d(0.0, 400.0, 400.0))).Sum(depth => (double)depth), Is.Zero);
         }
 
         private static ImagedInstrument Straight(double length, double fromRays, double inPicture, double radius,
@@ -164,16 +167,6 @@ namespace Guidewire.Core.Tests
             var depths = new float[Pixels * Pixels];
             new InstrumentShadow(depths, Pixels).Add(wire, new CArm(0.0, 0.0, Vector3d.Zero, Pixels, Pixels));
             return depths;
-        }
-
-        private static double Sum(float[] depths)
-        {
-            double sum = 0.0;
-            foreach (float depth in depths)
-            {
-                sum += depth;
-            }
-            return sum;
         }
 
         // What does not reach the detector, in pixels that would be all dark.

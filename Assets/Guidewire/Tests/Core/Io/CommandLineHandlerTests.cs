@@ -36,9 +36,8 @@ namespace Guidewire.Core.Tests
         [TestCase("-parameters", "-parameters needs a value: a path")]
         public void WhatIsNotAllowed_IsOneLine(string arguments, string expected)
         {
-            ParameterException error = Assert.Throws<ParameterException>(
-                () => CommandLineHandler.Read(arguments.Split(new[] { ' ' }), true))!;
-            Assert.That(error.Message, Does.StartWith("command line: ").And.Contain(expected));
+            Assert.That(Refusal.Of(() => CommandLineHandler.Read(arguments.Split(new[] { ' ' }), true)),
+                Does.StartWith("command line: ").And.Contain(expected));
         }
 
         [Test]

@@ -9,31 +9,16 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     [Category("Target")]
-    public sealed class SimulationRunTests
+    public sealed class SimulationRunTests : FolderTests
     {
-        private string _folder = "";
-
-        [SetUp]
-        public void NameFolder()
-        {
-            _folder = Path.Combine(Path.GetTempPath(), "guidewire-" + Path.GetRandomFileName());
-        }
-
-        [TearDown]
-        public void RemoveFolder()
-        {
-            if (Directory.Exists(_folder))
-            {
-                Directory.Delete(_folder, true);
-            }
-        }
+        private string Results => Path.Combine(Folder, "run");
 
         [Test]
         public void Log_HoldsEveryStateRoundTripExact()
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 7), ("constraintSolverSteps", 20),
                 ("displacementDirection", new JArray(1.0, 2.0, 3.0)));
-            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
+            new SimulationRun(handler, Results, null).Execute(Existing.Replace);
             JObject log = Read("positions.json");
             Simulation again = Simulation.Create(handler.Values.Simulation);
             Assert.That(log.Count, Is.EqualTo(8));
@@ -62,7 +47,7 @@ namespace Guidewire.Core.Tests
             Thread.CurrentThread.CurrentCulture = commas;
             try
             {
-                new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null).Execute(Existing.Replace);
+                new SimulationRun(Load(("maxSimulationSteps", 2)), Results, null).Execute(Existing.Replace);
             }
             finally
             {
@@ -75,7 +60,7 @@ namespace Guidewire.Core.Tests
         public void ThinnedLog_KeepsEveryKthStepAndTheLast()
         {
             new SimulationRun(Load(("maxSimulationSteps", 10), ("logEvery", 4), ("logSpheres", "last"),
-                ("logOrientations", true)), _folder, null).Execute(Existing.Replace);
+                ("logOrientations", true)), Results, null).Execute(Existing.Replace);
             JObject log = Read("positions.json");
             Assert.That(((IDictionary<string, JToken?>)log).Keys, Is.EqualTo(new[] { "0", "4", "8", "10" }));
             Assert.That(((JObject)log["8"]!["sphere"]!).Count, Is.EqualTo(1));
@@ -85,7 +70,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Summary_SaysWhatBecameOfTheRun()
         {
-            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), _folder, 2).Execute(Existing.Replace);
+            RunResult result = new SimulationRun(Load(("maxSimulationSteps", 5)), Results, 2).Execute(Existing.Replace);
             JObject summary = Read("summary.json");
             Assert.That(result.Outcome, Is.EqualTo(Outcome.Finished));
             Assert.That((string?)summary["outcome"], Is.EqualTo("finished"));
@@ -95,14 +80,14 @@ namespace Guidewire.Core.Tests
             Assert.That((int)summary["repeat"]!, Is.EqualTo(2));
             Assert.That((double)summary["medianStepTime"]!, Is.GreaterThan(0.0));
             Assert.That((bool)summary["complete"]!, Is.True);
-            Assert.That(Directory.GetFiles(_folder, "*.partial"), Is.Empty);
+            Assert.That(Directory.GetFiles(Results, "*.partial"), Is.Empty);
         }
 
         [Test]
         public void StopRequest_EndsTheRunWithAWholeLog()
         {
             int asked = 0;
-            var run = new SimulationRun(Load(("constraintSolverSteps", 1)), _folder, null)
+            var run = new SimulationRun(Load(("constraintSolverSteps", 1)), Results, null)
                 { StopRequested = () => ++asked > 4 };
             Assert.That(run.Execute(Existing.Replace).Outcome, Is.EqualTo(Outcome.Interrupted));
             Assert.That(Read("positions.json").Count, Is.EqualTo(5), "entries 0 to 4");
@@ -113,7 +98,7 @@ namespace Guidewire.Core.Tests
         public void EarlierResult_StandsIn_OnlyForTheSameParametersAndRepeat()
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 3));
-            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
+            new SimulationRun(handler, Results, null).Execute(Existing.Replace);
             Assert.That(IsReused(handler, null), Is.True);
             Assert.That(IsReused(handler, 0), Is.False, "timed and untimed");
             Assert.That(IsReused(handler, 1), Is.False, "another repeat");
@@ -125,13 +110,13 @@ namespace Guidewire.Core.Tests
         {
             RunResult? inner = null;
             ParameterException? refused = null;
-            var run = new SimulationRun(Load(("maxSimulationSteps", 2)), _folder, null)
+            var run = new SimulationRun(Load(("maxSimulationSteps", 2)), Results, null)
             {
                 Progress = (simulation, elapsed) =>
                 {
                     try
                     {
-                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), _folder, null)
+                        inner = new SimulationRun(Load(("maxSimulationSteps", 1)), Results, null)
                             .Execute(Existing.Replace);
                     }
                     catch (ParameterException error)
@@ -161,25 +146,25 @@ namespace Guidewire.Core.Tests
         public void EarlierResult_IsKept_FromOtherParametersAndFromARunThatIsStopped()
         {
             ParameterHandler other = Load(("maxSimulationSteps", 9));
-            new SimulationRun(Load(("maxSimulationSteps", 3)), _folder, null).Execute(Existing.Keep);
-            Assert.That(() => new SimulationRun(other, _folder, null).Execute(Existing.Keep),
+            new SimulationRun(Load(("maxSimulationSteps", 3)), Results, null).Execute(Existing.Keep);
+            Assert.That(() => new SimulationRun(other, Results, null).Execute(Existing.Keep),
                 Throws.TypeOf<ParameterException>().With.Message.Contains("maxSimulationSteps is 3 there and 9 here"));
-            var stopped = new SimulationRun(other, _folder, null) { StopRequested = () => true };
+            var stopped = new SimulationRun(other, Results, null) { StopRequested = () => true };
             RunResult result = stopped.Execute(Existing.Replace);
             Assert.That((result.Outcome, result.KeptEarlier), Is.EqualTo((Outcome.Interrupted, true)));
             Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(3));
-            Assert.That(new SimulationRun(other, _folder, null).Execute(Existing.Replace).KeptEarlier, Is.False);
+            Assert.That(new SimulationRun(other, Results, null).Execute(Existing.Replace).KeptEarlier, Is.False);
             Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(9));
-            Assert.That(Directory.GetFiles(_folder), Has.Length.EqualTo(3));
+            Assert.That(Directory.GetFiles(Results), Has.Length.EqualTo(3));
         }
 
         [Test]
         public void RunThatFailed_DoesNotTakeTheEarlierOnesPlace()
         {
-            new SimulationRun(Load(("maxSimulationSteps", 3)), _folder, null).Execute(Existing.Keep);
+            new SimulationRun(Load(("maxSimulationSteps", 3)), Results, null).Execute(Existing.Keep);
             ParameterHandler hopeless = Load(("solver", "direct"), ("proximalEnd", "clamped"),
                 ("initialState", "equilibrium"), ("maxNewtonIterations", 1), ("tipForce", new JArray(0.0, 100.0, 0.0)));
-            RunResult result = new SimulationRun(hopeless, _folder, null).Execute(Existing.Replace);
+            RunResult result = new SimulationRun(hopeless, Results, null).Execute(Existing.Replace);
             Assert.That(result.Outcome, Is.EqualTo(Outcome.Failed));
             Assert.That((string?)Read("summary.json")["outcome"], Is.EqualTo("finished"));
         }
@@ -197,21 +182,21 @@ namespace Guidewire.Core.Tests
         public void RunWithoutALog_HasTheSameResult_AndTakesAnEarlierLogAway()
         {
             ParameterHandler handler = Load(("maxSimulationSteps", 3));
-            new SimulationRun(handler, _folder, null).Execute(Existing.Replace);
+            new SimulationRun(handler, Results, null).Execute(Existing.Replace);
             JObject logged = Read("summary.json");
-            new SimulationRun(handler, _folder, null) { KeepsLog = false }.Execute(Existing.Replace);
+            new SimulationRun(handler, Results, null) { KeepsLog = false }.Execute(Existing.Replace);
             JObject summary = Read("summary.json");
-            Assert.That(Directory.GetFiles(_folder), Has.Length.EqualTo(1), "the summary");
+            Assert.That(Directory.GetFiles(Results), Has.Length.EqualTo(1), "the summary");
             Assert.That(summary["log"]!.Type, Is.EqualTo(JTokenType.Null));
             Assert.That(summary["predictionError"], Is.EqualTo(logged["predictionError"]));
-            Assert.That(new SimulationRun(handler, _folder, null).Execute(Existing.Keep).Reused, Is.True);
+            Assert.That(new SimulationRun(handler, Results, null).Execute(Existing.Keep).Reused, Is.True);
         }
 
         private bool IsReused(ParameterHandler handler, int? repeat)
         {
             try
             {
-                return new SimulationRun(handler, _folder, repeat).Execute(Existing.Keep).Reused;
+                return new SimulationRun(handler, Results, repeat).Execute(Existing.Keep).Reused;
             }
             catch (ParameterException)
             {
@@ -221,7 +206,7 @@ namespace Guidewire.Core.Tests
 
         private JObject Read(string name)
         {
-            return JObject.Parse(File.ReadAllText(Path.Combine(_folder, name)));
+            return JObject.Parse(File.ReadAllText(Path.Combine(Results, name)));
         }
 
         private static ParameterHandler Load(params (string Key, JToken Value)[] overrides)

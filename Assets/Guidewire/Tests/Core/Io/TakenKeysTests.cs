@@ -8,21 +8,9 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Every key either counts or is said not to: for each method, each key of the table.</summary>
-    public sealed class TakenKeysTests
+    public sealed class TakenKeysTests : FolderTests
     {
-        private string _file = "";
-
-        [SetUp]
-        public void MakeFile()
-        {
-            _file = Path.GetTempFileName();
-        }
-
-        [TearDown]
-        public void RemoveFile()
-        {
-            File.Delete(_file);
-        }
+        private string Scene => Path.Combine(Folder, "scene.json");
 
         [Test]
         public void KeyThatTheMethodDoesNotTake_IsRefusedOnTheCommandLine([Values] Solver method)
@@ -120,8 +108,8 @@ namespace Guidewire.Core.Tests
 
         private ParameterHandler Load(JObject file)
         {
-            File.WriteAllText(_file, file.ToString());
-            return ParameterHandler.Load(_file, new Dictionary<string, JToken>());
+            File.WriteAllText(Scene, file.ToString());
+            return ParameterHandler.Load(Scene, new Dictionary<string, JToken>());
         }
 
         private static string Word(Solver method)

@@ -6,7 +6,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>EI, GJ, EA and mass per length of the whole wire beside moduli and density.</summary>
-    public sealed class WireStiffnessTests
+    public sealed class WireStiffnessTests : FolderTests
     {
         // A tube: A = pi (r^2 - a^2), I = pi (r^4 - a^4)/4.
         private const double Radius = 3e-4;
@@ -17,19 +17,7 @@ namespace Guidewire.Core.Tests
 
         private static readonly string Wire = "{\"solver\": \"direct\", \"wireRadius\": 3e-4, \"innerRadius\": 1e-4";
 
-        private string _file = "";
-
-        [SetUp]
-        public void NameFile()
-        {
-            _file = Path.GetTempFileName();
-        }
-
-        [TearDown]
-        public void RemoveFile()
-        {
-            File.Delete(_file);
-        }
+        private string Scene => Path.Combine(Folder, "scene.json");
 
         [TestCase(2e-5)]
         [TestCase(3e-4)]
@@ -85,9 +73,8 @@ namespace Guidewire.Core.Tests
         {
             string two = ", \"" + stiffness + "\": " + NumberText.Write(value) + ", \"" + modulus + "\": "
                 + NumberText.Write(other) + "}";
-            ParameterException refused = Assert.Throws<ParameterException>(() => Load(two))!;
-            Assert.That(refused.Message,
-                Does.StartWith(_file + ": " + stiffness).And.Contains(modulus).And.Contains("disagree"));
+            Assert.That(Refusal.Of(() => Load(two)),
+                Does.StartWith(Scene + ": " + stiffness).And.Contains(modulus).And.Contains("disagree"));
             Assert.That(() => Load(", \"" + modulus + "\": " + NumberText.Write(other) + "}", (stiffness, value)),
                 Throws.Nothing);
             double kept = (double)Load(", \"" + stiffness + "\": " + NumberText.Write(value) + "}", (modulus, other))
@@ -112,8 +99,8 @@ namespace Guidewire.Core.Tests
         public void EffectiveValues_AreAFileOfTheSameBits(string rest)
         {
             ParameterHandler first = Load(rest);
-            File.WriteAllText(_file, first.ToJson().ToString());
-            ParameterHandler again = ParameterHandler.Load(_file, GivenKeys.None);
+            File.WriteAllText(Scene, first.ToJson().ToString());
+            ParameterHandler again = ParameterHandler.Load(Scene, GivenKeys.None);
             Assert.That(again.Hash, Is.EqualTo(first.Hash));
             CrossSection a = CrossSection.At(first.Values.Simulation.Material, 1.0);
             CrossSection b = CrossSection.At(again.Values.Simulation.Material, 1.0);
@@ -123,8 +110,8 @@ namespace Guidewire.Core.Tests
 
         private ParameterHandler Load(string rest, params (string Key, double Value)[] given)
         {
-            File.WriteAllText(_file, Wire + rest);
-            return ParameterHandler.Load(_file, GivenKeys.Of(given, value => value));
+            File.WriteAllText(Scene, Wire + rest);
+            return ParameterHandler.Load(Scene, GivenKeys.Of(given, value => value));
         }
     }
 }

@@ -21,17 +21,7 @@ namespace Guidewire.Core.Tests
                 Drive = { Kind = Drive.Push, DisplacementPerStep = 0.01 },
                 Scene = { Gravity = new Vector3d(0.0, -1.0, 0.0) },
             });
-            for (int step = 0; step < 50; step++)
-            {
-                run.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int step = 0; step < 500; step++)
-                {
-                    run.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(run, 50, 500);
             Assert.That(left, Is.Zero);
             Assert.That(run.StepCount, Is.EqualTo(550));
         }

@@ -162,19 +162,6 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Angles by the rates and z'' of stages before.</summary>
-        public void Predict(RodShape shape, in StagePredictor predictor)
-        {
-            double h = _inertia.StageLength;
-            double[] first = _acceleration[predictor.First];
-            double[] second = _acceleration[Math.Min(predictor.Second, _acceleration.Length - 1)];
-            for (int j = 0; j < Count; j++)
-            {
-                double rate = first[j] + predictor.Fraction * (second[j] - first[j]);
-                shape.Twist[j] = _history[j] + h * (_rateHistory[j] + h * rate);
-            }
-        }
-
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {

@@ -143,13 +143,6 @@ namespace Guidewire.Core
                 + " iterations";
         }
 
-        /// <summary>Gradient of all terms.</summary>
-        public RodVector[] Reactions(RodShape shape)
-        {
-            _newton.System.Gradient(_terms, shape, _newton.Gradient, _newton.Direction);
-            return _newton.Gradient;
-        }
-
         /// <summary>Writes or takes over what the next stage depends on.</summary>
         public void SerializeShift(Snapshot snapshot)
         {

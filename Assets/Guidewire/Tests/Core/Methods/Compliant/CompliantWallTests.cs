@@ -144,18 +144,13 @@ namespace Guidewire.Core.Tests
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             scene.Material.MassDamping = 0.0;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
-            double mass = 6450.0 * Math.PI * 0.16e-6 * 0.3;
             double peak = 0.0;
             double worst = 0.0;
             Vector3d before = Vector3d.Zero;
             while (run.Outcome == Outcome.Running)
             {
                 run.Step();
-                Vector3d momentum = Vector3d.Zero;
-                for (int i = 0; i <= 10; i++)
-                {
-                    momentum += (1e-3 * mass / 10.0 * (i == 0 || i == 10 ? 0.5 : 1.0)) * run.State.Velocities[i];
-                }
+                Vector3d momentum = WallScenes.Momentum(run.State);
                 Vector3d given = run.Contacts!.Total + run.Contacts.Reaction;
                 peak = Math.Max(peak, Math.Max(run.Contacts.Total.Length, run.Contacts.Reaction.Length));
                 worst = Math.Max(worst, Vector3d.Distance((momentum - before) / scene.Method.TimeStep, given));
@@ -218,17 +213,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
-            for (int k = 0; k < 40; k++)
-            {
-                run.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 10; k++)
-                {
-                    run.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(run, 40, 10);
             Assert.That(run.Contacts!.Total.Length, Is.GreaterThan(0.0));
             Assert.That(left, Is.EqualTo(0));
         }

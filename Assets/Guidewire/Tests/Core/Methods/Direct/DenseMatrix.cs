@@ -25,6 +25,31 @@ namespace Guidewire.Core.Tests
             return h;
         }
 
+        /// <summary>Of a square matrix and a vector.</summary>
+        public static double[] Product(double[,] a, double[] x)
+        {
+            var y = new double[x.Length];
+            for (int i = 0; i < x.Length; i++)
+            {
+                for (int j = 0; j < x.Length; j++)
+                {
+                    y[i] += a[i, j] * x[j];
+                }
+            }
+            return y;
+        }
+
+        /// <summary>Of two vectors.</summary>
+        public static double Dot(double[] x, double[] y)
+        {
+            double sum = 0.0;
+            for (int i = 0; i < x.Length; i++)
+            {
+                sum += x[i] * y[i];
+            }
+            return sum;
+        }
+
         /// <summary>Gradient as one long vector.</summary>
         public static double[] From(RodVector[] vectors, int count)
         {

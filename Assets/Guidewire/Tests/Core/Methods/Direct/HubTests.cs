@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -35,8 +36,8 @@ namespace Guidewire.Core.Tests
                 Assert.That(steered.State.Positions, Is.EqualTo(driven.State.Positions), "step " + k);
             }
             Assert.That(steered.State.Orientations, Is.EqualTo(driven.State.Orientations));
-            Assert.That(driven.Hub()!.Insertion, Is.EqualTo(Unit * Sum(pushes)));
-            Assert.That(driven.Hub()!.Turn, Is.EqualTo(Sum(turns)));
+            Assert.That(driven.Hub()!.Insertion, Is.EqualTo(Unit * pushes.Sum()));
+            Assert.That(driven.Hub()!.Turn, Is.EqualTo(turns.Sum()));
             Assert.That(steered.Hub()!.Force, Is.EqualTo(driven.Hub()!.Force).And.Not.Zero);
         }
 
@@ -246,16 +247,6 @@ namespace Guidewire.Core.Tests
             parameters.Method.MaxSimulationSteps = Steps;
             parameters.Scene.GuidewireOffset = -290.0;
             return parameters;
-        }
-
-        private static double Sum(double[] values)
-        {
-            double sum = 0.0;
-            foreach (double value in values)
-            {
-                sum += value;
-            }
-            return sum;
         }
     }
 }

@@ -226,17 +226,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Cantilever(20, solver, scheme, 1e-5, 1000);
             parameters.Method.Substeps = 50;
             Simulation run = Simulation.Create(parameters);
-            for (int i = 0; i < 100; i++)
-            {
-                run.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int i = 0; i < 100; i++)
-                {
-                    run.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(run, 100, 100);
             Assert.That(left, Is.Zero);
             Assert.That(run.StepCount, Is.EqualTo(200));
         }

@@ -97,48 +97,25 @@ namespace Guidewire.Core.Tests
                 {
                     for (int f = 0; f < m; f++)
                     {
-                        double fraction = Dot(found[f], Times(v));
+                        double fraction = DenseMatrix.Dot(found[f], DenseMatrix.Product(_mass, v));
                         for (int i = 0; i < order; i++)
                         {
                             v[i] -= fraction * found[f][i];
                         }
                     }
-                    double norm = Math.Sqrt(Dot(v, Times(v)));
+                    double norm = Math.Sqrt(DenseMatrix.Dot(v, DenseMatrix.Product(_mass, v)));
                     for (int i = 0; i < order; i++)
                     {
                         v[i] /= norm;
                     }
                     found[m] = v;
-                    double[] next = DenseMatrix.Solve(_factor, Times(v));
-                    omega = 1.0 / Math.Sqrt(Dot(v, Times(next)));
+                    double[] next = DenseMatrix.Solve(_factor, DenseMatrix.Product(_mass, v));
+                    omega = 1.0 / Math.Sqrt(DenseMatrix.Dot(v, DenseMatrix.Product(_mass, next)));
                     v = next;
                 }
             }
             mode = found[number - 1];
             return omega;
-        }
-
-        private double[] Times(double[] v)
-        {
-            var result = new double[v.Length];
-            for (int i = 0; i < v.Length; i++)
-            {
-                for (int j = 0; j < v.Length; j++)
-                {
-                    result[i] += _mass[i, j] * v[j];
-                }
-            }
-            return result;
-        }
-
-        private static double Dot(double[] a, double[] b)
-        {
-            double sum = 0.0;
-            for (int i = 0; i < a.Length; i++)
-            {
-                sum += a[i] * b[i];
-            }
-            return sum;
         }
     }
 }

@@ -110,23 +110,24 @@ namespace Guidewire.Core.Tests
             double[] one = Array.ConvertAll(c, x => 1.0);
             double[] square = Product(c, c);
             double[] cube = Product(square, c);
-            double[] inner = Times(a, c);
-            double worst = Math.Abs(Dot(b, one) - 1.0);
-            worst = order < 2 ? worst : Math.Max(worst, Math.Abs(Dot(b, c) - 1.0 / 2.0));
+            double[] inner = DenseMatrix.Product(a, c);
+            double worst = Math.Abs(DenseMatrix.Dot(b, one) - 1.0);
+            worst = order < 2 ? worst : Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, c) - 1.0 / 2.0));
             if (order >= 3)
             {
-                worst = Math.Max(worst, Math.Abs(Dot(b, square) - 1.0 / 3.0));
-                worst = Math.Max(worst, Math.Abs(Dot(b, inner) - 1.0 / 6.0));
+                worst = Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, square) - 1.0 / 3.0));
+                worst = Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, inner) - 1.0 / 6.0));
             }
             if (order >= 4)
             {
-                worst = Math.Max(worst, Math.Abs(Dot(b, cube) - 1.0 / 4.0));
-                worst = Math.Max(worst, Math.Abs(Dot(b, Product(c, inner)) - 1.0 / 8.0));
-                worst = Math.Max(worst, Math.Abs(Dot(b, Times(a, square)) - 1.0 / 12.0));
-                worst = Math.Max(worst, Math.Abs(Dot(b, Times(a, inner)) - 1.0 / 24.0));
+                worst = Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, cube) - 1.0 / 4.0));
+                worst = Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, Product(c, inner)) - 1.0 / 8.0));
+                worst = Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, DenseMatrix.Product(a, square)) - 1.0 / 12.0));
+                worst = Math.Max(worst, Math.Abs(DenseMatrix.Dot(b, DenseMatrix.Product(a, inner)) - 1.0 / 24.0));
             }
             return order < 5 ? worst
-                : Math.Max(worst, Math.Abs(Dot(b, Times(a, Times(a, inner))) - 1.0 / 120.0));
+                : Math.Max(worst, Math.Abs(
+                    DenseMatrix.Dot(b, DenseMatrix.Product(a, DenseMatrix.Product(a, inner))) - 1.0 / 120.0));
         }
 
         private static double[,] Matrix(RungeKuttaScheme scheme)
@@ -155,20 +156,7 @@ namespace Guidewire.Core.Tests
             {
                 one[i] = 1.0;
             }
-            return Times(a, one);
-        }
-
-        private static double[] Times(double[,] a, double[] x)
-        {
-            double[] y = new double[x.Length];
-            for (int i = 0; i < x.Length; i++)
-            {
-                for (int j = 0; j < x.Length; j++)
-                {
-                    y[i] += a[i, j] * x[j];
-                }
-            }
-            return y;
+            return DenseMatrix.Product(a, one);
         }
 
         private static double[] Product(double[] x, double[] y)
@@ -179,16 +167,6 @@ namespace Guidewire.Core.Tests
                 z[i] = x[i] * y[i];
             }
             return z;
-        }
-
-        private static double Dot(double[] x, double[] y)
-        {
-            double sum = 0.0;
-            for (int i = 0; i < x.Length; i++)
-            {
-                sum += x[i] * y[i];
-            }
-            return sum;
         }
     }
 }

@@ -265,17 +265,7 @@ namespace Guidewire.Core.Tests
                 ConvexObstacle.Box(new Vector3d(1.0, 0.0, 120.0), new Vector3d(1.0, 1.0, 1.0), Quaterniond.Identity),
             };
             Simulation simulation = Simulation.Create(p);
-            for (int k = 0; k < 20; k++)
-            {
-                simulation.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 200; k++)
-                {
-                    simulation.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(simulation, 20, 200);
             Assert.That(left, Is.Zero);
             Assert.That(simulation.Contacts!.Total.Length, Is.GreaterThan(0.0));
         }

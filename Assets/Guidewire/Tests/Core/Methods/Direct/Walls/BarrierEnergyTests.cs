@@ -96,7 +96,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase("wavy tube")]
         [TestCase("bumpy ball")]
-        public void SecondDerivative_OfARidgesDistance_IsItsDifference(string name)
+        public void SecondDerivative_OfAnEdgesDistance_IsItsDifference(string name)
         {
             const double step = 1e-4;
             ContactShape wall = TestShapes.Make(name);
@@ -195,7 +195,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void LargestShare_LeavesEveryGapOpen([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
+        public void MaximumStep_LeavesEveryGapOpen([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
             string name)
         {
             int cut = 0;

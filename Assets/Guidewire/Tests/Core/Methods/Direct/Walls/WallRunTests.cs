@@ -58,7 +58,6 @@ namespace Guidewire.Core.Tests
             parameters.Method.Integrator = integrator;
             parameters.Scene.Walls[0].FrictionCoefficient = integrator == Integrator.ImplicitEuler ? 0.1 : 0.0;
             Simulation run = Simulation.Create(parameters);
-            double mass = 6450.0 * Math.PI * 0.16e-6 * 0.3;
             double peak = 0.0;
             double worst = 0.0;
             double worstAtEnd = 0.0;
@@ -67,12 +66,7 @@ namespace Guidewire.Core.Tests
             while (run.Outcome == Outcome.Running)
             {
                 run.Step();
-                Vector3d momentum = Vector3d.Zero;
-                for (int i = 0; i <= 30; i++)
-                {
-                    // Half of each element beside the node.
-                    momentum += (1e-3 * mass / 30.0 * (i == 0 || i == 30 ? 0.5 : 1.0)) * run.State.Velocities[i];
-                }
+                Vector3d momentum = WallScenes.Momentum(run.State);
                 // Of what is asked of a node at rest at the start, one step is no motion by implicit stages alone.
                 if (run.StepCount > 1)
                 {
@@ -257,17 +251,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = WallScenes.Arch(60, 0.01, 50.0, 150.0);
             parameters.Scene.Walls[0].FrictionCoefficient = 0.1;
             Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 200; k++)
-            {
-                run.Step();
-            }
-            long left = Garbage.LeftBy(() =>
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            });
+            long left = Garbage.LeftBySteps(run, 200, 20);
             Assert.That(run.Contacts!.Total.Length, Is.GreaterThan(0.0));
             Assert.That(left, Is.EqualTo(0));
         }
