@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 import math
+import re
+import textwrap
 from collections.abc import Sequence
 
 import numpy as np
@@ -21,6 +23,8 @@ from analysis.validation.pictures import SOLVER_MARKERS
 COLOURS = dict(zip(METHODS, ("C0", "C1", "C2", "C3")))
 _COLUMNS = 4
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
+_TITLE_WIDTH = 34  # characters of a small panel's title
+_NO_BREAK = re.compile(r"(?<=\bk) | (?==)|(?<==) ")  # in k L = 1
 _ROOM = 2.5  # factor between the outermost points and the frame
 _OFFSETS = ((4, 3), (4, -8), (-4, 3), (-4, -8), (4, 10), (-4, 10), (4, -15), (-4, -15))  # points, of a label
 _PADDING = 2.0  # pixels around a label
@@ -82,7 +86,7 @@ def draw_summary(found: Sequence[Charted]) -> Figure:
                           color=COLOURS[method], fillstyle="none", markersize=4, linewidth=0.9, label=method)
         axes.axvline(1.0, color="0.3", linestyle="--", linewidth=0.8)
         axes.set(xscale="log", yscale="log")
-        axes.set_title(charted.problem.title, fontsize=8)
+        axes.set_title(textwrap.fill(_NO_BREAK.sub("\N{NO-BREAK SPACE}", charted.problem.title), _TITLE_WIDTH), fontsize=8)
         axes.tick_params(labelsize=6)
     figure.supxlabel(f"{_COST}; dashed: real time", fontsize=8)
     figure.supylabel("error (1)", fontsize=8)
