@@ -29,10 +29,12 @@ class Process:
     environment : all of it.
     logs : folder of the log.
     seconds : how long it may run.
+    niceness : by how much it gives way to other programs.
     """
 
     def __init__(
-        self, name: str, command: Sequence[str], environment: Mapping[str, str], logs: Path, seconds: float
+        self, name: str, command: Sequence[str], environment: Mapping[str, str], logs: Path, seconds: float,
+        niceness: int = 0,
     ) -> None:
         self.code: int | None = None
         self.wall = self.processor = 0.0
@@ -44,6 +46,8 @@ class Process:
                 command, cwd=ROOT, env=dict(environment), stdin=subprocess.DEVNULL, stdout=output, stderr=output,
                 start_new_session=True,
             )
+        if niceness:
+            os.setpriority(os.PRIO_PROCESS, self._process.pid, niceness)
 
     def has_ended(self) -> bool:
         """Whether it has; kills it where its time is over."""

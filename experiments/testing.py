@@ -40,6 +40,7 @@ WAITING = ("test_view.py", "test_view_browser.py", "test_endings.py", "test_clus
            "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
 _POLL_SECONDS = 0.05
+_NICENESS = 5    # suites give way to builds, for which others wait
 
 
 @dataclass(frozen=True)
@@ -173,7 +174,7 @@ def run_suites(
             while (suite := _next(waiting, parts, list(running.values()), places)) is not None:
                 waiting.remove(suite)
                 (RESULTS / suite.report).unlink(missing_ok=True)
-                running[Process(suite.name, suite.command, environment, RESULTS, seconds)] = suite
+                running[Process(suite.name, suite.command, environment, RESULTS, seconds, _NICENESS)] = suite
             time.sleep(_POLL_SECONDS)
     finally:
         for process in running:

@@ -1,5 +1,3 @@
-using System.Collections.Generic;
-
 namespace Guidewire.Core
 {
     /// <summary>Where a sheath ends, and what is in it.</summary>
@@ -42,7 +40,7 @@ namespace Guidewire.Core
         /// last element before the exit.</summary>
         /// <param name="x">Nodes, m.</param>
         /// <param name="metres">Of a unit of the walls.</param>
-        public bool IsBuckled(Vector3d[] x, IReadOnlyList<ContactShape> walls, double metres)
+        public bool IsBuckled(Vector3d[] x, ContactShape[] walls, double metres)
         {
             int inside = NodesInside(x);
             for (int i = 0; i < inside; i++)
