@@ -27,6 +27,8 @@ namespace Guidewire.Io
             "rotationSpeed", "driveFile",
         };
 
+        private static readonly string[] Needed = { "length", "wireRadius", "lumenRadius" };    // or an instrument
+
         // What the wire says for all.
         private static readonly string[] FromScene = { "metresPerUnit", "timeStep", "maxSimulationSteps" };
 
@@ -103,9 +105,9 @@ namespace Guidewire.Io
                         + string.Join(", ", Shared));
                 }
             }
-            foreach ((string name, string _) in Names)
+            foreach (string name in Needed)
             {
-                if (item[name] == null && item["instrument"] == null && name != "elements")
+                if (item[name] == null && item["instrument"] == null)
                 {
                     throw new ParameterException(whole + ": " + where + " needs " + name + ", or an instrument");
                 }
