@@ -56,6 +56,10 @@ namespace Guidewire.Core.Tests
         [TestCase("\"length\": 150", "\"length\": \"long\"", "catheters[0].length = \"long\" is not allowed")]
         [TestCase("\"wireRadius\": 0.00083, \"lumenRadius\": 0.0006", "\"instrument\": \"microcatheter-2.4f\"",
             "catheters[0].lumenRadius needs more than 0.00045 m, the wire's own radius")]
+        [TestCase("\"wireRadius\": 0.00083, \"lumenRadius\": 0.0006", "\"instrument\": \"workhorse-0.014\"",
+            "catheters[0].instrument = \"workhorse-0.014\" is not allowed: needs a catheter")]
+        [TestCase("0.00083, \"lumenRadius\": 0.0006", "0.0005, \"instrument\": \"catheter-angled-5f\"",
+            "catheter-angled-5f.json: catheters[0].lumenRadius = 0.00055 is not allowed: needs less than wireRadius")]
         public void BadInput_IsOneLine(string part, string other, string expected)
         {
             Assert.That(Refusal.Of(() => Load(Good.Replace(part, other))), Does.Contain(expected));
