@@ -1,7 +1,8 @@
 """Pictures and short films of a run: the wire as a tube, of the vessel the far wall, so that one looks inside.
 
-No Unity takes part: the wire and the catheters come from the log, walls are triangles that the caller brings, the pixels are made by
-analysis.raster. One moment is coloured by curvature; several moments in one picture have a colour each.
+No Unity takes part: the wire and the catheters come from the log, walls are triangles that the caller brings, the
+pixels are made by analysis.raster. One moment of a wire alone is coloured by curvature, instruments in one another have
+a colour each; several moments in one picture have a colour each.
 """
 
 from __future__ import annotations
@@ -9,12 +10,13 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cache
 from pathlib import Path
 from typing import Any
 
 import numpy as np
-from matplotlib import colormaps
-from PIL import Image, ImageDraw
+from matplotlib import colormaps, get_data_path
+from PIL import Image, ImageDraw, ImageFont
 
 from analysis.logs import LogError, PositionLog, extent
 from analysis.raster import Camera, Picture, draw
@@ -23,16 +25,23 @@ from analysis.surfaces import Surface, curvature, refine, tube
 
 GREY, RED = np.array([0.82, 0.84, 0.88]), np.array([0.95, 0.1, 0.05])
 WALL = np.array([0.72, 0.6, 0.58])
+PLAIN_WALL = np.array([0.56, 0.57, 0.6])  # behind instruments that have a colour each
 OBSTACLE = np.array([0.45, 0.6, 0.75])
-CATHETERS = (np.array([1.0, 0.62, 0.18]), np.array([0.71, 0.55, 1.0]), np.array([0.37, 0.83, 0.55]))  # as on the page
+INSTRUMENTS = (np.array([0.29, 0.66, 1.0]), np.array([1.0, 0.62, 0.18]), np.array([0.71, 0.55, 1.0]),
+               np.array([0.37, 0.83, 0.55]))  # as on the page, the wire's first
 SIZE = (960, 600)
 _FILM_SIZE = (640, 400)
+_FILM_COLOURS = 256
+_LEARNT_FROM = 8  # pictures of a film, its colours
 _OVERSAMPLING = 2
 _THINNEST = 1.0 / 400.0  # radius of the wire over what the picture spans: less would be no pixel wide
-_SEEN_THROUGH = 0.5  # how much a catheter tints what is in it
+_SEEN_THROUGH = 0.6  # how much a catheter tints what is in it
 _LATER_COVERS = 0.03  # fraction of its radius by which a wire lies over one before it in the same place
 _PIECES = 12  # triangles are cut to so small a part of what the picture spans: one behind the camera is not drawn
 _TEXT = (225, 225, 230)
+_BEHIND_TEXT = (20, 23, 31)
+_LETTERS = 14  # pixels
+_SHEATH = 2.0  # radius of a sheath over that of the widest instrument in it, as on the page
 _FOLLOWING = 4.0  # zoom where the tip is followed and nothing else is said
 VIEWS = {"side": (-90.0, 15.0), "front": (0.0, 0.0), "top": (-90.0, 90.0), "back": (90.0, 15.0)}  # yaw, pitch
 
@@ -62,29 +71,40 @@ class View:
 
 
 @dataclass(frozen=True)
-class Catheter:
-    """A catheter over the wire, as it is drawn.
+class Instrument:
+    """A wire or a catheter over it, as it is drawn.
 
-    name : what it is called; radius : its outer one, units; colour : (3,) in [0, 1].
+    name : what it is called; radius : its outer one, units; colour : (3,) in [0, 1]; hub : (k, 2), insertion in m and
+    turn in rad at each entry of the log, or None where the log does not have them.
     """
 
     name: str
     radius: float
     colour: np.ndarray
+    hub: np.ndarray | None = None
+
+    def line(self, entry: int | None) -> str:
+        """Its name, and where its hub is at an entry of the log."""
+        if entry is None or self.hub is None:
+            return self.name
+        insertion, turn = self.hub[entry]
+        return f"{self.name}: {1e3 * insertion:.0f} mm in, turned by {math.degrees(turn):.0f}°"
 
 
-def catheters_of(instruments: Sequence[Mapping[str, Any]]) -> tuple[Catheter, ...]:
-    """Those among a run's instruments, as `Session.describe` lists them."""
-    return tuple(Catheter(one["title"], max(one["radii"]), CATHETERS[k % len(CATHETERS)])
-                 for k, one in enumerate(instruments[1:]))
+def instruments_of(described: Sequence[Mapping[str, Any]], hubs: Sequence[np.ndarray | None]) -> tuple[Instrument, ...]:
+    """A run's instruments, the wire's first, as `Session.describe` lists them, with their hubs."""
+    return tuple(Instrument(one["title"], max(one["radii"]), INSTRUMENTS[k % len(INSTRUMENTS)], hub)
+                 for k, (one, hub) in enumerate(zip(described, hubs, strict=True)))
 
 
 @dataclass(frozen=True)
 class Stage:
     """What stays the same in all pictures of a run: its vessel, drawn once, and the camera.
 
-    background : the far walls; obstacles : bodies in the wire's way; radius : of the wire as it is drawn, units;
-    bend : 1/unit, curvature shown as full red; catheters : over the wire, with the radii that they are drawn with.
+    background : the far walls; obstacles : bodies in the wire's way, and a sheath; radius : of the wire as it is drawn,
+    units; bend : 1/unit, curvature shown as full red; instruments : the wire and the catheters over it, with the radii
+    that they are drawn with, none for a wire alone; metres : that a unit is, 0 where it is none in particular;
+    has_sheath : whether a sheath is among the obstacles.
     """
 
     camera: Camera
@@ -92,7 +112,9 @@ class Stage:
     obstacles: tuple[Surface, ...]
     radius: float
     bend: float
-    catheters: tuple[Catheter, ...] = ()
+    instruments: tuple[Instrument, ...] = ()
+    metres: float = 0.0
+    has_sheath: bool = False
 
 
 def bend_colours(values: np.ndarray, full: float) -> np.ndarray:
@@ -102,7 +124,7 @@ def bend_colours(values: np.ndarray, full: float) -> np.ndarray:
 
 
 def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
-              catheters: Sequence[Catheter] = ()) -> Stage:
+              instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> Stage:
     """Draw what does not move.
 
     Parameters
@@ -111,7 +133,8 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
     log : its positions, all spheres.
     walls : the vessel first, where the run has one, and the obstacles.
     view : where to look from.
-    catheters : those over the wire.
+    instruments : the wire and the catheters over it; none for a wire alone.
+    sheath : (2, 3), units, from its exit back; or None.
     """
     middle, diagonal = _framed(run, log, walls)
     seen = (diagonal if view.distance is None else min(diagonal, view.distance)) / view.nearer
@@ -122,62 +145,101 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
     has_vessel = bool(run.parameters.get("vessel"))
     for surface in walls[:1] if has_vessel else ():
         surface = refine(surface, max(diagonal / view.nearer, 10.0 * radius) / _PIECES)
-        draw(background, camera, surface, np.broadcast_to(WALL, surface.vertices.shape), 0.75)
+        wall = PLAIN_WALL if instruments else WALL
+        draw(background, camera, surface, np.broadcast_to(wall, surface.vertices.shape), 0.75)
     bends = [float(curvature(positions).max()) for positions in log.positions if np.isfinite(positions).all()]
-    return Stage(camera, background, tuple(walls[1:] if has_vessel else walls), radius,
-                 _round_up(max([*bends, 0.1 / diagonal])),
-                 tuple(replace(one, radius=one.radius * radius / _radius(run)) for one in catheters))
+    drawn = tuple(replace(one, radius=one.radius * radius / _radius(run)) for one in instruments)
+    obstacles = list(walls[1:] if has_vessel else walls)
+    if sheath is not None:
+        widest = max([radius, *(one.radius for one in drawn)])
+        obstacles.append(tube(np.linspace(sheath[0], sheath[1], 9), _SHEATH * widest))
+    return Stage(camera, background, tuple(obstacles), radius, _round_up(max([*bends, 0.1 / diagonal])), drawn,
+                 run.number("metresPerUnit") if "wireRadius" in run.parameters else 0.0, sheath is not None)
 
 
 def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], lines: Sequence[str],
-          catheters: Sequence[Sequence[np.ndarray]] = ()) -> Image.Image:
+          catheters: Sequence[Sequence[np.ndarray]] = (), entry: int | None = None,
+          size: tuple[int, int] = SIZE) -> Image.Image:
     """One picture.
 
     Parameters
     ----------
     stage : what does not move.
-    wires : from the first moment to the last, positions (n+1, 3) in units, and the wire's colour (3,) in [0, 1], or None: coloured by curvature.
+    wires : from the first moment to the last, positions (n+1, 3) in units, and the wire's colour (3,) in [0, 1], or
+        None: its own where there are catheters over it, else by curvature.
     lines : text in the lower left corner; line k in the colour of wire k, where that has one.
     catheters : positions (m+1, 3) of those of the stage at each moment, outermost first. One sees through them.
+    entry : of the log, where the picture is of one moment.
+    size : pixels.
     """
     picture = stage.background.copy()
+    own = stage.instruments[0].colour if stage.instruments else None
     for k, (positions, colour) in enumerate(wires):
         surface = tube(positions, (1.0 + _LATER_COVERS * k) * stage.radius)
+        colour = own if colour is None else colour
         plain = None if colour is None else np.broadcast_to(colour, surface.vertices.shape)
         draw(picture, stage.camera, surface, bend_colours(surface.values, stage.bend) if plain is None else plain)
-    for positions, one in ((positions, one) for moment in catheters for positions, one in zip(moment, stage.catheters)):
+    for positions, one in ((positions, one) for moment in catheters
+                           for positions, one in zip(moment, stage.instruments[1:])):
         surface = tube(positions, one.radius)
         draw(picture, stage.camera, surface, np.broadcast_to(one.colour, surface.vertices.shape), _SEEN_THROUGH)
     for obstacle in stage.obstacles:  # a tint over what is behind them: a sheath must not hide the wire
         draw(picture, stage.camera, obstacle, np.broadcast_to(OBSTACLE, obstacle.vertices.shape), 0.35)
     pixels = Image.fromarray((255.0 * np.clip(picture.colour, 0.0, 1.0) + 0.5).astype(np.uint8))
-    pixels = pixels.resize(SIZE, Image.LANCZOS)
+    pixels = pixels.resize(size, Image.LANCZOS)
     pen = ImageDraw.Draw(pixels)
+    height = _LETTERS + 5
     for k, line in enumerate(lines):
         colour = wires[k][1] if k < len(wires) else None
-        fill = _TEXT if colour is None else tuple(int(255 * part) for part in colour)
-        pen.text((12, SIZE[1] - 22 - 16 * (len(lines) - 1 - k)), line, fill=fill)
-    for k, one in enumerate(stage.catheters if catheters else ()):
-        pen.text((12, 10 + 16 * k), one.name, fill=tuple(int(255 * part) for part in one.colour))
+        _write(pen, (12, size[1] - 10 - height * (len(lines) - k)), line, _TEXT if colour is None else _pixel(colour))
+    first = 1 if entry is None else 0  # of several moments the wire has the colours that the lines below have
+    legend = [(one.line(entry), one.colour) for one in stage.instruments[first:]]
+    for k, (line, colour) in enumerate([*legend, *([("sheath", OBSTACLE)] if legend and stage.has_sheath else [])]):
+        _write(pen, (12, 8 + height * k), line, _pixel(colour))
+    _draw_scale(pen, stage, size)
     return pixels
 
 
+def _draw_scale(pen: ImageDraw.ImageDraw, stage: Stage, size: tuple[int, int]) -> None:
+    """A bar of a round length, as it is seen where the camera looks at, in the lower right corner."""
+    pixels = 0.5 * size[1] / math.tan(0.5 * math.radians(stage.camera.field_of_view)) / stage.camera.distance
+    unit = 1e3 * stage.metres or 1.0
+    length = 1.0 / _round_up(1.0 / (0.25 * size[0] / pixels * unit))
+    right, y = size[0] - 16, size[1] - 16
+    pen.line((right - length / unit * pixels, y, right, y), fill=_TEXT, width=2)
+    text = f"{length:g} {'mm' if stage.metres else 'units'}"
+    _write(pen, (right - pen.textlength(text, font=_letters()), y - _LETTERS - 8), text, _TEXT)
+
+
+def _write(pen: ImageDraw.ImageDraw, place: tuple[float, float], text: str, colour: tuple[int, ...]) -> None:
+    pen.text(place, text, fill=colour, font=_letters(), stroke_width=2, stroke_fill=_BEHIND_TEXT)
+
+
+@cache
+def _letters() -> ImageFont.FreeTypeFont:
+    return ImageFont.truetype(str(Path(get_data_path(), "fonts", "ttf", "DejaVuSans.ttf")), _LETTERS)
+
+
+def _pixel(colour: np.ndarray) -> tuple[int, ...]:
+    return tuple(int(255 * part) for part in colour)
+
+
 def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, times: Sequence[float],
-                 catheters: Sequence[Catheter] = ()) -> Image.Image:
+                 instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> Image.Image:
     """A picture of a run: its last moment, or several.
 
     Parameters
     ----------
-    run, log, walls, view, catheters : as of `set_stage`.
+    run, log, walls, view, instruments, sheath : as of `set_stage`.
     times : s, in-game; of each the nearest moment of the log is drawn, in a colour of its own. None: the last moment,
-        coloured by curvature.
+        as a film shows it.
     """
     chosen = sorted({nearest(log, time) for time in times}) or [len(log.time) - 1]
     if view.follows_tip and len(chosen) > 1:
         raise LogError("the tip is followed in a film or at one moment: give one of --times")
-    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]), catheters)
+    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]), instruments, sheath)
     if not times:
-        return frame(stage, [(_finite(log, -1), None)], [_caption(log, -1, stage)], [_catheters_at(log, -1)])
+        return _frame_at(stage, log, chosen[0], SIZE)
     colours = colormaps["plasma"](np.linspace(0.4, 0.95, len(chosen)))[:, :3]
     return frame(stage, [(_finite(log, k), colour) for k, colour in zip(chosen, colours)],
                  [f"t = {log.time[k]:.4g} s   step {log.steps[k]}" for k in chosen],
@@ -186,25 +248,38 @@ def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: Vie
 
 def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, frames: int,
               tell: Callable[[int, int], None] = lambda done, count: None,
-              catheters: Sequence[Catheter] = ()) -> list[Image.Image]:
-    """Pictures of a run, evenly spaced in time, coloured by curvature; the first is the start, the last the end.
+              instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> list[Image.Image]:
+    """Pictures of a run, evenly spaced in time; the first is the start, the last the end.
 
     Parameters
     ----------
-    run, log, walls, view, catheters : as of `set_stage`.
+    run, log, walls, view, instruments, sheath : as of `set_stage`.
     frames : how many at most: a log of fewer entries has no more.
     tell : called after each picture with how many are drawn, and of how many.
     """
-    stage = set_stage(run, log, walls, _at_tip(view, log, 0), catheters)
+    stage = set_stage(run, log, walls, _at_tip(view, log, 0), instruments, sheath)
     chosen = np.unique(np.linspace(0, len(log.time) - 1, frames).astype(int))
     images = []
     for k in chosen:
         if view.follows_tip and images:
-            stage = set_stage(run, log, walls, _at_tip(view, log, k), catheters)
-        images.append(frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)], [_catheters_at(log, k)])
-                      .resize(_FILM_SIZE, Image.LANCZOS).quantize(64))
+            stage = set_stage(run, log, walls, _at_tip(view, log, k), instruments, sheath)
+        images.append(_frame_at(stage, log, k, _FILM_SIZE))
         tell(len(images), len(chosen))
-    return images
+    return _of_few_colours(images)
+
+
+def _of_few_colours(images: Sequence[Image.Image]) -> list[Image.Image]:
+    """The same with one palette for all: what does not move stays the same, which makes a small file."""
+    shown = images[:: max(1, len(images) // _LEARNT_FROM)]
+    sample = Image.new("RGB", (images[0].width, len(shown) * images[0].height))
+    for k, image in enumerate(shown):
+        sample.paste(image, (0, k * image.height))
+    palette = sample.quantize(_FILM_COLOURS, method=Image.Quantize.MAXCOVERAGE)
+    return [image.quantize(palette=palette, dither=Image.Dither.NONE) for image in images]
+
+
+def _frame_at(stage: Stage, log: PositionLog, k: int, size: tuple[int, int]) -> Image.Image:
+    return frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)], [_catheters_at(log, k)], k, size)
 
 
 def save_images(images: Sequence[Image.Image], path: Path) -> None:
@@ -276,8 +351,8 @@ def _catheters_at(log: PositionLog, k: int) -> list[np.ndarray]:
 
 
 def _caption(log: PositionLog, k: int, stage: Stage) -> str:
-    bend = f"red: bent to a radius of {1.0 / stage.bend:.4g} units"
-    return f"t = {log.time[k]:.4g} s   step {log.steps[k]}   {bend}"
+    bend = "" if stage.instruments else f"   red: bent to a radius of {1.0 / stage.bend:.4g} units"
+    return f"t = {log.time[k]:.4g} s   step {log.steps[k]}{bend}"
 
 
 def _round_up(value: float) -> float:

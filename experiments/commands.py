@@ -168,7 +168,7 @@ def _render(arguments: argparse.Namespace) -> int:
     from analysis import render
     from analysis.logs import LogError, read_log
     from analysis.runs import read_run
-    from experiments import fluoroscopy, walls
+    from experiments import drawn, fluoroscopy, walls
 
     out = arguments.out or arguments.folder / "render.png"
     if out.suffix not in (".png", ".gif"):
@@ -187,15 +187,15 @@ def _render(arguments: argparse.Namespace) -> int:
         checking.check_out(out.parent)
         surfaces = walls.read_walls(_build_runner, run, middle, max(diagonal, 1.0))
         yaw, pitch = render.VIEWS[arguments.view] if arguments.view else (-90.0, 15.0)
-        catheters = render.catheters_of(fluoroscopy.instruments_of(run)) if log.catheters else ()
+        others = drawn.instruments_and_sheath(run, log)
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance,
                            yaw if arguments.yaw is None else arguments.yaw,
                            pitch if arguments.pitch is None else arguments.pitch, arguments.radius, arguments.zoom,
                            arguments.follow == "tip")
         if out.suffix == ".gif":
-            images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames, catheters)
+            images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames, *others)
         else:
-            images = [render.draw_picture(run, log, surfaces, view, arguments.times, catheters)]
+            images = [render.draw_picture(run, log, surfaces, view, arguments.times, *others)]
     except LogError as error:
         raise PreparationError(str(error)) from error
     return _save_render(images, log, out)

@@ -75,20 +75,6 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
     return [image.quantize(_FILM_COLOURS) for image in images] if is_film else images
 
 
-def instruments_of(run: Run) -> Sequence[dict[str, Any]]:
-    """The wire and the catheters over it, as `Session.describe` lists them.
-
-    Raises PreparationError, one line, where the run's parameters cannot be used any more.
-    """
-    try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")
-            with Session(run.folder / PARAMETERS_NAME, hand=False) as session:
-                return session.describe()["instruments"]
-    except SessionError as error:
-        raise PreparationError(str(error)) from error
-
-
 def _chosen(log: PositionLog, arguments: argparse.Namespace, is_film: bool) -> Sequence[int]:
     from analysis.render import nearest
 

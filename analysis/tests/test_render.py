@@ -148,6 +148,40 @@ def test_a_picture_shows_the_last_moment_or_each_moment_in_its_own_colour() -> N
     assert seen[2][1] - seen[0][1] > 60, "plasma: the later, the more green"
 
 
+def test_instruments_have_a_colour_each_and_a_line_with_their_hub() -> None:
+    run, log = make_run(wireRadius=2e-3, metresPerUnit=1e-3)
+    away = log.positions - [0.0, 15.0, 0.0]    # a catheter beside the wire, to look at
+    hub = np.array([[0.0, 0.0], [0.01, 0.5], [0.0204, np.pi]])
+    described = [{"title": name, "radii": [radius]} for name, radius in (("wire", 2.0), ("tube", 3.0))]
+    wire, catheter = render.instruments_of(described, [None, hub])
+    assert (wire.line(2), catheter.line(2), catheter.line(None)) == ("wire", "tube: 20 mm in, turned by 180°", "tube")
+    log = replace(log, catheters=(away,))
+    stage = render.set_stage(run, log, [], render.View(), (wire, catheter))
+    picture = render.draw_picture(run, log, [], render.View(), [], (wire, catheter))
+    for one, height in ((wire, 80.0), (catheter, 65.0)):
+        seen = np.array(place_of(picture, stage, (0.0, height, 0.5 * LENGTH))) / 255.0
+        assert seen @ one.colour > 0.98 * np.linalg.norm(seen) * np.linalg.norm(one.colour), one.name
+
+
+def test_a_sheath_is_drawn_around_what_is_in_it() -> None:
+    run, log = make_run(wireRadius=2e-3, metresPerUnit=1e-3)
+    stage = render.set_stage(run, log, [], render.View(), sheath=np.array([[0.0, 80.0, 20.0], [0.0, 80.0, 0.0]]))
+    (sheath,) = stage.obstacles
+    assert np.hypot(sheath.vertices[:, 0], sheath.vertices[:, 1] - 80.0).max() == pytest.approx(4.0)
+
+
+@pytest.mark.parametrize("metres, unit", [(1e-3, 1.0), (2.5e-2, 25.0), (None, 1.0)])
+def test_the_bar_is_as_long_as_it_says(metres: float | None, unit: float) -> None:
+    run, log = make_run(**({} if metres is None else {"wireRadius": 2.0 * metres, "metresPerUnit": metres}))
+    view = render.View(distance=137.0)
+    pixels = np.asarray(render.draw_picture(run, log, [], view, []).convert("RGB")).astype(int)
+    bar = (np.abs(pixels[render.SIZE[1] - 16, render.SIZE[0] // 2:] - 225).max(axis=1) < 12).sum()
+    long = 2.0 * 137.0 * np.tan(np.radians(22.5)) * bar / render.SIZE[1] * unit    # mm or units, across the middle
+    rounded = 10.0 ** np.floor(np.log10(long * 1.02))
+    assert min(abs(long / (k * rounded) - 1.0) for k in (1, 2, 5)) < 0.02
+    assert 0.09 < bar / render.SIZE[0] <= 0.26
+
+
 def test_a_film_has_as_many_pictures_as_asked_for_and_no_more_than_moments(tmp_path: Path) -> None:
     run, log = make_run()
     for frames, count in ((1, 1), (2, 2), (40, 3)):

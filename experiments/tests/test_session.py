@@ -340,13 +340,6 @@ def test_the_hub_says_whose_instrument_the_hand_moves_and_a_state_has_each_of_th
     assert max(described[1]["radii"]) == pytest.approx(5.0 / 6.0) and min(described[1]["innerRadii"]) > 0.4445
 
 
-@pytest.mark.parametrize("scene", ["catheter-branch", "microcatheter", "concentric-tubes"])
-def test_scenes_of_two_instruments_begin(scene):
-    with Session(ROOT / "params" / f"{scene}.json", hand=False, native=False) as session:
-        state = session.step(steps=3)
-    assert state.outcome is None and len(state.catheters) == 1 and np.isfinite(state.positions).all()
-
-
 def assert_hubs_that_are_not_there_are_refused(native):
     for file, least, asked in ((CATHETER, "0, the wire's, or that of a catheter, from 1 to 1", (2, 3, 2**31 - 1)),
                                (ROOT / "params/cantilever.json", "0, the wire's, where there is no catheter", (1, 7))):

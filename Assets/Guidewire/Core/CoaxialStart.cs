@@ -6,8 +6,11 @@ namespace Guidewire.Core
     /// <summary>Whether a wire and the catheter over it fit one another at their start.</summary>
     internal static class CoaxialStart
     {
-        /// <summary>What would be needed, in one phrase; or null.</summary>
-        public static string? FindProblem(SimulationParameters parameters)
+        private const string AlikeInBoth = "sections that bend alike in both directions, where two instruments are in"
+            + " one another: a strip has no angle to turn by in a lumen";
+
+        /// <summary>What does not go with another one, and what it would need; or null.</summary>
+        public static ParameterConflict? FindProblem(SimulationParameters parameters)
         {
             SceneParameters scene = parameters.Scene;
             Catheter catheter = scene.Catheters[0];
@@ -18,38 +21,40 @@ namespace Guidewire.Core
                 widest = Math.Max(widest, piece.Radius);
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {
-                    return "a wire that bends alike in both directions: a strip has no angle to turn by in a lumen";
+                    return new ParameterConflict("wireSections", AlikeInBoth);
                 }
             }
             if (!(lumen > widest))
             {
-                return Text("a lumenRadius of more than the radius of the wire inside, {0:G4} m (it is {1:G4} m)",
-                    widest, lumen);
+                return Of("lumenRadius", "more than {0:G4} m, the wire's own radius where it is thickest (the lumen has"
+                    + " {1:G4} m)", widest, lumen);
             }
             foreach (CrossSection piece in new WireProfile(catheter.Material, catheter.Length).Pieces)
             {
                 if (!(piece.Radius > lumen))
                 {
-                    return Text("a lumenRadius of less than the wireRadius, {0:G4} m (it is {1:G4} m)", piece.Radius,
-                        lumen);
+                    return Of("lumenRadius", "less than {0:G4} m, the catheter's own radius where it is thinnest (the"
+                        + " lumen has {1:G4} m)", piece.Radius, lumen);
                 }
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {
-                    return "a catheter that bends alike in both directions";
+                    return Of("wireSections", AlikeInBoth);
                 }
             }
-            double element = catheter.Length / catheter.Elements;
-            double most = scene.GuidewireLength - element;
+            double most = scene.GuidewireLength - catheter.Length / catheter.Elements;
             if (catheter.Start > most)
             {
-                return Text("a start of at most {0:G6} units, so that the wire reaches through the first of its"
-                    + " elements (it is {1:G6})", most, catheter.Start);
+                return most < 0.0
+                    ? new ParameterConflict("guidewireLength", Text("more than {0:G6} units: the wire has to reach"
+                        + " through the first element of the catheter", scene.GuidewireLength - most))
+                    : Of("start", "at most {0:G6} units, so that the wire reaches through the first element of the"
+                        + " catheter", most);
             }
             return FindCrossing(parameters, catheter);
         }
 
         // Of hubs whose motion is known before.
-        private static string? FindCrossing(SimulationParameters parameters, Catheter catheter)
+        private static ParameterConflict? FindCrossing(SimulationParameters parameters, Catheter catheter)
         {
             if (parameters.Drive.Steering != null)
             {
@@ -57,20 +62,22 @@ namespace Guidewire.Core
             }
             double duration = parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep;
             double lead = parameters.Scene.MetresPerUnit * catheter.Start;
+            double first = double.NaN;
+            double most = lead * (1.0 + 1e-9) + 1e-12;
             const int samples = 1000;
             for (int k = 1; k <= samples; k++)
             {
                 double time = duration * k / samples;
-                double wire = Insertion(parameters.Drive, time);
-                double other = Insertion(catheter.Drive, time);
-                if (wire - other > lead * (1.0 + 1e-9) + 1e-12)
+                double ahead = Insertion(parameters.Drive, time) - Insertion(catheter.Drive, time);
+                if (ahead > most)
                 {
-                    return Text("hubs that do not cross: at t = {0:G4} s the wire's has gone {1:G4} m farther than the"
-                        + " catheter's, which starts " + lead.ToString("G4", CultureInfo.InvariantCulture)
-                        + " m ahead of it", time, wire - other);
+                    first = double.IsNaN(first) ? time : first;
+                    most = ahead;
                 }
             }
-            return null;
+            return double.IsNaN(first) ? null : Of("start",
+                "at least {0:G6} units, or other drives: at t = {1:G4} s the wire's hub would pass the catheter's",
+                Math.Ceiling(1e3 * most / parameters.Scene.MetresPerUnit) / 1e3, first);
         }
 
         private static double Insertion(DriveParameters drive, double time)
@@ -79,9 +86,14 @@ namespace Guidewire.Core
                 : drive.Kind == Drive.Hold ? 0.0 : drive.InsertionSpeed * time;
         }
 
-        private static string Text(string format, double first, double second)
+        private static ParameterConflict Of(string key, string needed, params object[] numbers)
         {
-            return string.Format(CultureInfo.InvariantCulture, format, first, second);
+            return new ParameterConflict("catheters[0]." + key, Text(needed, numbers));
+        }
+
+        private static string Text(string format, params object[] numbers)
+        {
+            return string.Format(CultureInfo.InvariantCulture, format, numbers);
         }
     }
 }

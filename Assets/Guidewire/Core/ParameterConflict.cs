@@ -119,8 +119,7 @@ namespace Guidewire.Core
             OfMotion("distalMotionFile", p => p.Scene.DistalMotion,
                 p => p.HasDistalClamp || !p.Scene.DistalMotion!.Turns, "rotations of 0 where the end is only held"),
             OfSheath(p => p.Scene.ProximalMotion == null, "no proximalMotionFile"),
-            new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls,
-                "a vessel or obstacles: without walls a hub holds the wire"),
+            new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls, HubHoldsWithoutWalls),
             OfSheath(p => p.HasWalls, "a vessel"),
             OfSheath(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfSheath(p => p.Drive.Steering != null || p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
@@ -135,8 +134,8 @@ namespace Guidewire.Core
             OfCatheters(p => p.Traits.HasBarriers, "solver direct"),
             OfCatheters(p => !p.HasWalls || p.Method.Integrator == Integrator.ImplicitEuler,
                 "integrator \"implicitEuler\" between walls"),
-            OfCatheters(p => p.HasWalls || p.Scene.Catheters[0].Drive.HubForceLimit == 0.0,
-                "a vessel or obstacles where a catheter has a hubForceLimit"),
+            new Rule("catheters[0].hubForceLimit", p => p.Scene.Catheters.Count > 0 && !p.HasWalls
+                && p.Scene.Catheters[0].Drive.HubForceLimit > 0.0, HubHoldsWithoutWalls),
             OfCatheters(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfCatheters(p => p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
                 "drive \"displace\" or \"hold\""),
@@ -151,19 +150,21 @@ namespace Guidewire.Core
             OfCatheters(p => p.Material.MaterialDamping == 0.0, "materialDamping 0"),
             OfCatheters(p => p.Material.ClampRule != ClampRule.WholeElement, "no clampRule \"wholeElement\""),
             OfCatheters(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
-            new Rule("catheters", p => FindInCatheters(p.All) != null, p => FindInCatheters(p.All)!),
         };
 
+        private const string HubHoldsWithoutWalls = "a vessel or obstacles: without walls a hub holds its instrument";
         private const string ClampedByDrive = "proximalEnd \"clamped\", and no drive \"force\"";
         private const string MovingDrive = "drive \"displace\" or \"push\"";
 
-        private ParameterConflict(string key, string needed)
+        /// <param name="key">The parameter's key in files, or the path of a part of one.</param>
+        /// <param name="needed">What it needs, as a noun phrase.</param>
+        internal ParameterConflict(string key, string needed)
         {
             Key = key;
             Needed = needed;
         }
 
-        /// <summary>The parameter's key in files.</summary>
+        /// <summary>The parameter's key in files, or the path of a part of one, such as catheters[0].start.</summary>
         public string Key { get; }
 
         /// <summary>What it needs, as a noun phrase.</summary>
@@ -179,7 +180,7 @@ namespace Guidewire.Core
         /// <summary>The first conflict of parameters that are complete, or null.</summary>
         public static ParameterConflict? FindInScene(SimulationParameters parameters)
         {
-            return First(Always, parameters) ?? First(InScene, parameters);
+            return First(Always, parameters) ?? First(InScene, parameters) ?? FindInCatheters(parameters);
         }
 
         private static ParameterConflict? First(Rule[] rules, SimulationParameters parameters)
@@ -194,7 +195,7 @@ namespace Guidewire.Core
             return new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
         }
 
-        private static string? FindInCatheters(SimulationParameters parameters)
+        private static ParameterConflict? FindInCatheters(SimulationParameters parameters)
         {
             return parameters.Scene.Catheters.Count > 0 ? CoaxialStart.FindProblem(parameters) : null;
         }

@@ -5,6 +5,7 @@ namespace Guidewire.Core
     /// <summary>Where a wire with a material may start: no element touches a wall with its surface.</summary>
     internal static class MaterialStart
     {
+        private const string Wire = "the wire";
         private const double Rounding = 1e-9;  // of the radius
         private const double Apart = 1e-4;     // of the radius, by which barriers begin with an open gap
 
@@ -45,18 +46,21 @@ namespace Guidewire.Core
 
         /// <summary>The same of the wire from a position on, units, which is in an element, with its whole
         /// radius.</summary>
-        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d position)
+        public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d position,
+            string name = Wire)
         {
             Vector3d[] x = Nodes(scene);
             x[element] = position;
-            return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0);
+            return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0, name);
         }
 
         /// <summary>The same of the elements before one, exclusive.</summary>
         /// <param name="fraction">Of the radius, that has to be free.</param>
-        public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0)
+        /// <param name="name">What the phrase calls it.</param>
+        public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0,
+            string name = Wire)
         {
-            return FindProblem(scene, Nodes(scene), from, to, fraction);
+            return FindProblem(scene, Nodes(scene), from, to, fraction, name);
         }
 
         private static Vector3d[] Nodes(MaterialScene scene)
@@ -65,7 +69,8 @@ namespace Guidewire.Core
             return System.Array.ConvertAll(scene.Shape.X, node => units * node);
         }
 
-        private static string? FindProblem(MaterialScene scene, Vector3d[] x, int from, int to, double fraction)
+        private static string? FindProblem(MaterialScene scene, Vector3d[] x, int from, int to, double fraction,
+            string name)
         {
             double units = 1.0 / scene.Metres;
             for (int j = from; j < to; j++)
@@ -75,7 +80,7 @@ namespace Guidewire.Core
                 {
                     if (!WireStart.IsFree(wall, scene.IsReached, x, j, fraction * radius, out double distance))
                     {
-                        return Text(j, x[j], x[j + 1], radius, distance, wall);
+                        return name + Text(j, x[j], x[j + 1], radius, distance, wall);
                     }
                 }
             }
@@ -87,7 +92,7 @@ namespace Guidewire.Core
         {
             double narrowest = wall.NarrowestRadius(0.5 * radius, radius);
             return string.Format(CultureInfo.InvariantCulture,
-                "the wire starts outside: rod element {0} from {1} to {2}, radius {3:G4} units, reaches {4:G4} units"
+                " starts outside: rod element {0} from {1} to {2}, radius {3:G4} units, reaches {4:G4} units"
                 + " into the wall{5}", j, a, b, radius, radius - distance,
                 double.IsInfinity(narrowest) ? "" : string.Format(CultureInfo.InvariantCulture,
                     "; the vessel's radius is {0:G4} units where it is narrowest", narrowest));

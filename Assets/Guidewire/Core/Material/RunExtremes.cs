@@ -63,16 +63,17 @@ namespace Guidewire.Core
                 _stretch = new double[n];
             }
             terms.Bending.Measure(shape, _turns);
+            CoaxialJoints? coaxial = terms.Supports.Coaxial?.Joints;
             for (int j = 0; j < n; j++)
             {
-                _stretch[j] = Math.Abs(Vector3d.Distance(shape.X[j], shape.X[j + 1]) / rod.Length[j] - 1.0);
+                _stretch[j] = Math.Abs(Vector3d.Distance(shape.X[j], shape.X[j + 1]) / rod.Length[j] - 1.0)
+                    * (coaxial == null ? 1.0 : coaxial.StretchedPart(j));
             }
             double largest = _curvatureSquared;
             double strain = Strain;
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                CoaxialJoints? coaxial = terms.Supports.Coaxial?.Joints;
                 double fraction = coaxial != null ? coaxial.FractionOutside(k)
                     : terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
                 Vector3d change = turn - (coaxial != null ? fraction * joints[k].Rest

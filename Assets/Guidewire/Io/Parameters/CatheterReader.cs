@@ -12,6 +12,8 @@ namespace Guidewire.Io
         /// <summary>The key.</summary>
         public const string Key = "catheters";
 
+        private const string InstrumentFile = ".json: ";
+
         // What a catheter calls it, and what the wire does.
         private static readonly (string Own, string Wire)[] Names =
         {
@@ -26,6 +28,8 @@ namespace Guidewire.Io
             "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
             "rotationSpeed", "driveFile",
         };
+
+        private static readonly string[] Needed = { "length", "wireRadius", "lumenRadius" };    // or an instrument
 
         // What the wire says for all.
         private static readonly string[] FromScene = { "metresPerUnit", "timeStep", "maxSimulationSteps" };
@@ -103,9 +107,9 @@ namespace Guidewire.Io
                         + string.Join(", ", Shared));
                 }
             }
-            foreach ((string name, string _) in Names)
+            foreach (string name in Needed)
             {
-                if (item[name] == null && item["instrument"] == null && name != "elements")
+                if (item[name] == null && item["instrument"] == null)
                 {
                     throw new ParameterException(whole + ": " + where + " needs " + name + ", or an instrument");
                 }
@@ -113,6 +117,11 @@ namespace Guidewire.Io
             ParameterHandler handler = Load(given, where);
             warnings.AddRange(handler.Warnings);
             SimulationParameters own = handler.Values.Simulation;
+            if (own.Material.InnerRadius == 0.0 && item["lumenRadius"] == null)
+            {
+                throw new ParameterException(sourceOf(where + ".instrument"), where + ".instrument",
+                    item["instrument"]!.ToString(Formatting.None), "a catheter: this instrument has no lumen");
+            }
             if (item["driveFile"] != null)
             {
                 item["driveFile"] = handler.Values.DriveFile;
@@ -129,6 +138,13 @@ namespace Guidewire.Io
                 Material = own.Material,
                 Drive = own.Drive,
             };
+        }
+
+        // The file of an instrument, whose keys have it as their source.
+        private static string InFile(string line)
+        {
+            int end = line.IndexOf(InstrumentFile, StringComparison.Ordinal);
+            return end < 0 ? "" : line.Substring(0, end + InstrumentFile.Length - 2);
         }
 
         private static double NotNegative(JProperty property, string source, string where, string unit)
@@ -150,7 +166,7 @@ namespace Guidewire.Io
             {
                 string line = error.Message;
                 string source = given.Find(
-                    item => line.StartsWith(item.Source + ": ", StringComparison.Ordinal)).Source ?? "";
+                    item => line.StartsWith(item.Source + ": ", StringComparison.Ordinal)).Source ?? InFile(line);
                 line = source.Length > 0 ? line.Substring(source.Length + 2) : line;
                 foreach ((string own, string wire) in Names)
                 {

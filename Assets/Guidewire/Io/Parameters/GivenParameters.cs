@@ -9,6 +9,8 @@ namespace Guidewire.Io
     /// <summary>What a file and overrides say: values by key, parts of such values, and who said it.</summary>
     internal sealed class GivenParameters
     {
+        private const int LongestValue = 80;    // characters that are repeated in a refusal
+
         private readonly Dictionary<string, (JToken Value, string Source)> _wholes =
             new Dictionary<string, (JToken, string)>();
 
@@ -81,6 +83,22 @@ namespace Guidewire.Io
             }
             string key = ParameterPath.Parse(path)?.Key ?? path;
             return _wholes.TryGetValue(key, out (JToken Value, string Source) given) ? given.Source : "";
+        }
+
+        /// <summary>That what stands at a path does not go with another key.</summary>
+        /// <param name="path">A key, or a part of what one holds.</param>
+        /// <param name="needed">What it needs, as a noun phrase.</param>
+        /// <param name="nobody">Who is named where nobody said anything of it.</param>
+        public ParameterException Refusal(string path, string needed, string nobody)
+        {
+            string key = ParameterPath.Parse(path)!.Key;
+            string? value = !TryGet(key, out (JToken Value, string Source) given) ? null
+                : (path == key ? given.Value : given.Value.SelectToken(path.Substring(key.Length)))
+                    ?.ToString(Formatting.None);
+            string source = SourceOf(path);
+            return value != null && value.Length <= LongestValue
+                ? new ParameterException(source, path, value, needed)
+                : new ParameterException((source.Length > 0 ? source : nobody) + ": " + path + " needs " + needed);
         }
 
         /// <summary>Lays the parts over the values that they are of, those that hold others first: a part counts over

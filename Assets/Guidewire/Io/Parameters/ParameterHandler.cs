@@ -256,11 +256,9 @@ namespace Guidewire.Io
             return !JToken.DeepEquals(entry.Write(read), entry.Write(new RunParameters(Method)));
         }
 
-        private ParameterException Refused(string key, string needed)
+        private ParameterException Refused(string path, string needed)
         {
-            return _given.TryGet(key, out var given)
-                ? new ParameterException(given.Source, key, given.Value.ToString(Formatting.None), needed)
-                : new ParameterException((_from.Name ?? "defaults") + ": " + key + " needs " + needed);
+            return _given.Refusal(path, needed, _from.Name ?? "defaults");
         }
 
         private void ReadWalls(SimulationParameters simulation)

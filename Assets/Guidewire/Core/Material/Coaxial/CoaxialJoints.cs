@@ -84,6 +84,13 @@ namespace Guidewire.Core
             return k == _tip && Beyond > 0;
         }
 
+        /// <summary>Length of element j over that of what it stretches for: beyond the outer tip it is the axial spring
+        /// of all of the wire from its hub.</summary>
+        public double StretchedPart(int j)
+        {
+            return j == _tip && Beyond > 0 ? (_station[j + 1] - _station[j]) / (Lead + _station[j + 1]) : 1.0;
+        }
+
         /// <summary>The length of the chain that the joint at node k stands for, m.</summary>
         public double LengthOf(int k)
         {

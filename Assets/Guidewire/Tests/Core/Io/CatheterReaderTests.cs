@@ -30,7 +30,9 @@ namespace Guidewire.Core.Tests
             Assert.That(slippery.Hash, Is.Not.EqualTo(Load(Good).Hash));
         }
 
-        [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004", "a lumenRadius of more than the radius")]
+        [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004",
+            "catheters[0].lumenRadius = 0.0004 is not allowed: needs more"
+            + " than 0.00045 m, the wire's own radius")]
         [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0009", "lumenRadius")]
         [TestCase("\"lumenRadius\": 0.0006,", "", "catheters[0] needs lumenRadius")]
         [TestCase("\"length\": 150", "\"length\": -1", "catheters[0].length = -1 is not allowed: needs a number > 0")]
@@ -38,14 +40,26 @@ namespace Guidewire.Core.Tests
         [TestCase("\"start\": 100", "\"start\": -1", "catheters[0].start = -1 is not allowed")]
         [TestCase("\"start\": 100", "\"start\": 100, \"frictionCoefficient\": -0.1",
             "catheters[0].frictionCoefficient = -0.1 is not allowed: needs a number >= 0")]
-        [TestCase("\"start\": 100", "\"start\": 295", "a start of at most 290 units")]
+        [TestCase("\"start\": 100", "\"start\": 295",
+            "catheters[0].start = 295 is not allowed: needs at most 290 units")]
         [TestCase("\"start\": 100", "\"begin\": 100", "unknown key 'catheters[0].begin'")]
-        [TestCase("\"rotationSpeed\": 2", "\"hubForceLimit\": 1", "where a catheter has a hubForceLimit")]
-        [TestCase("\"rotationSpeed\": 2", "\"insertionSpeed\": -0.2", "hubs that do not cross")]
+        [TestCase("\"rotationSpeed\": 2", "\"hubForceLimit\": 1",
+            "catheters[0].hubForceLimit = 1 is not allowed: needs a vessel or obstacles")]
+        [TestCase("\"rotationSpeed\": 2", "\"insertionSpeed\": -0.2",
+            "catheters[0].start = 100 is not allowed: needs at least 200 units, or other drives: at t = 0.5")]
         [TestCase("\"rotationSpeed\": 2", "\"instrument\": \"nonesuch\"", "nonesuch")]
         [TestCase("\"rotationSpeed\": 2", "\"driveFile\": \"nowhere.csv\"", "nowhere.csv: no such file")]
         [TestCase("\"rotationSpeed\": 2", "\"wireSections\": [{\"from\": 0, \"to\": 9, \"bendingStiffness1\": 1e-3}]",
-            "bends alike")]
+            "catheters[0].wireSections = [{\"from\":0,\"to\":9,\"bendingStiffness1\":0.001}] is not allowed: needs"
+            + " sections that bend alike")]
+        [TestCase("\"wireRadius\": 0.00083,", "", "catheters[0] needs wireRadius, or an instrument")]
+        [TestCase("\"length\": 150", "\"length\": \"long\"", "catheters[0].length = \"long\" is not allowed")]
+        [TestCase("\"wireRadius\": 0.00083, \"lumenRadius\": 0.0006", "\"instrument\": \"microcatheter-2.4f\"",
+            "catheters[0].lumenRadius needs more than 0.00045 m, the wire's own radius")]
+        [TestCase("\"wireRadius\": 0.00083, \"lumenRadius\": 0.0006", "\"instrument\": \"workhorse-0.014\"",
+            "catheters[0].instrument = \"workhorse-0.014\" is not allowed: needs a catheter")]
+        [TestCase("0.00083, \"lumenRadius\": 0.0006", "0.0005, \"instrument\": \"catheter-angled-5f\"",
+            "catheter-angled-5f.json: catheters[0].lumenRadius = 0.00055 is not allowed: needs less than wireRadius")]
         public void BadInput_IsOneLine(string part, string other, string expected)
         {
             Assert.That(Refusal.Of(() => Load(Good.Replace(part, other))), Does.Contain(expected));

@@ -9,6 +9,7 @@ namespace Guidewire.Core
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
         private const double Rounding = 1e-6;   // of a length
+        private const string CatheterName = "catheters[0]";
 
         private readonly SimulationParameters _parameters;
         private readonly InstrumentProfile _wireProfile;
@@ -125,9 +126,8 @@ namespace Guidewire.Core
                 + Catheter.Rod.TotalLength;
             int n = Wire.Rod.ElementCount;
             int first = Array.FindIndex(WireStations, 1, station => station > tip);
-            string? problem = MaterialStart.FindProblem(Catheter, 0, Catheter.Rod.ElementCount);
-            return problem != null ? "of the catheter, " + problem
-                : first < 0 ? null : MaterialStart.FindProblem(Wire, first - 1, n);
+            return MaterialStart.FindProblem(Catheter, 0, Catheter.Rod.ElementCount, name: CatheterName)
+                ?? (first < 0 ? null : MaterialStart.FindProblem(Wire, first - 1, n));
         }
 
         // That of the wire is found as if it were alone.
@@ -137,7 +137,7 @@ namespace Guidewire.Core
             int inside = sheath.NodesInside(x);
             if (inside == 0)
             {
-                return Text("sheath: its exit has to be ahead of the catheter's hub, which starts {0:G4} m beyond it",
+                return Text(CatheterName + " has to start with its hub in the sheath: it is {0:G4} m beyond the exit",
                     sheath.Outside(x[0]));
             }
             double available = -sheath.Outside(x[0]);
@@ -145,12 +145,11 @@ namespace Guidewire.Core
                 _parameters.Method.MaxSimulationSteps * _parameters.Method.TimeStep);
             if (asked > available * (1.0 + Rounding))
             {
-                return Text("sheath: an insertion of {0:G4} m of the catheter's hub is longer than the way to the"
+                return Text(CatheterName + ": an insertion of {0:G4} m is more than its hub's distance from the"
                     + " sheath's exit, {1:G4} m", asked, available);
             }
-            string? problem = inside == x.Length ? null
-                : MaterialStart.FindProblemFrom(Catheter, inside - 1, (1.0 / Wire.Metres) * sheath.Exit);
-            return problem == null ? null : "of the catheter, " + problem;
+            return inside == x.Length ? null : MaterialStart.FindProblemFrom(Catheter, inside - 1,
+                (1.0 / Wire.Metres) * sheath.Exit, CatheterName);
         }
 
         private static string Text(string format, params object[] numbers)

@@ -16,6 +16,7 @@ namespace Guidewire.Core
         private const double Nothing = 1e-12;   // m, a shortfall left by rounding where a hub just comes to its end
         private const double Close = 0.02;      // of the limit
         private const int MostTrials = 24;
+        private const string Separator = "; ";
         private const double Exact = 1e-3;      // of the limit
 
         private readonly MaterialDrive _drive;
@@ -112,21 +113,28 @@ namespace Guidewire.Core
         /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
         public static string? WarningOf(HubSlip wire, HubSlip catheter, bool isSheathed)
         {
-            double slip = Math.Abs(wire._drive.Slip) > Math.Abs(catheter._drive.Slip) ? wire._drive.Slip
-                : catheter._drive.Slip;
-            string excess = wire.TextOfExcess + catheter.TextOfExcess;
-            bool isShort = Math.Abs(slip) > Nothing;
-            return !isShort && excess == "" ? null : !isShort ? excess.Substring(2)
-                : string.Format(CultureInfo.InvariantCulture, "a hub fell short by {0:G3} m: {1}the wire's came to the"
-                + " catheter's, or its tip to the first element of the catheter{2}{3}", slip,
-                wire.IsLimited || catheter.IsLimited ? "it slipped at its hubForceLimit, or " : "",
-                isSheathed ? ", or the catheter's to the exit of the sheath" : "", excess);
+            string text = wire.TextOf("the wire's hub",
+                "it came to the catheter's hub, or the wire's tip to the first element of the catheter")
+                + catheter.TextOf("the catheter's hub", "it came to the wire's hub, or its first element to the"
+                + " wire's tip" + (isSheathed ? ", or its hub to the exit of the sheath" : ""));
+            return text == "" ? null : text.Substring(Separator.Length);
         }
 
-        /// <summary>That it had more than its limit, in one phrase, or nothing.</summary>
-        public string TextOfExcess => _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture,
-            "; a hub had up to {0:G3} N, above its hubForceLimit of {1:G3} N, in {2} of the steps: no displacement"
-            + " that was tried took less", _mostBeyond, _limit, _stepsBeyond);
+        /// <summary>That it had more than its limit, after a separator; or nothing.</summary>
+        /// <param name="name">What the phrase calls the hub.</param>
+        public string TextOfExcess(string name)
+        {
+            return _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture, Separator
+                + "{0} had up to {1:G3} N, above its hubForceLimit of {2:G3} N, in {3} of the steps: no displacement"
+                + " that was tried took less", name, _mostBeyond, _limit, _stepsBeyond);
+        }
+
+        private string TextOf(string name, string stops)
+        {
+            return (Math.Abs(_drive.Slip) > Nothing ? string.Format(CultureInfo.InvariantCulture,
+                Separator + "{0} fell short by {1:G3} m: {2}{3}", name, _drive.Slip,
+                IsLimited ? "it slipped at its hubForceLimit, or " : "", stops) : "") + TextOfExcess(name);
+        }
 
         private void Take(in Trial trial)
         {

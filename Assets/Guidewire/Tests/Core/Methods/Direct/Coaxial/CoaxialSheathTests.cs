@@ -243,8 +243,8 @@ namespace Guidewire.Core.Tests
             Assert.That(CoaxialScenes.Garbage(parameters), Is.Zero);
         }
 
-        [TestCase(90.0, "its exit has to be ahead of the catheter's hub")]
-        [TestCase(101.0, "an insertion of 0.0035 m of the catheter's hub is longer")]
+        [TestCase(90.0, "catheters[0] has to start with its hub in the sheath: it is 0.01 m beyond")]
+        [TestCase(101.0, "catheters[0]: an insertion of 0.0035 m is more than its hub's distance")]
         [TestCase(401.0, "its exit has to be on the wire at its start")]
         public void ExitThatTheHubsWouldPass_IsRefused(double exit, string expected)
         {

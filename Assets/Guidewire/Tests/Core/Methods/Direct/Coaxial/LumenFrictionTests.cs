@@ -67,7 +67,8 @@ namespace Guidewire.Core.Tests
             run.End(Outcome.Interrupted, "asked");
             Assert.That(run.Coaxial()!.WireShortfall, Is.Zero);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load).Within(Tolerance * Load));
-            Assert.That(run.Reason, Does.Contain("a hub had up to 0.1 N, above its hubForceLimit of 0.05 N, in 3 of"));
+            Assert.That(run.Reason, Does.Contain("the wire's hub had up to 0.1 N, above its hubForceLimit of 0.05 N,"
+                + " in 3 of"));
         }
 
         [Test]

@@ -50,6 +50,27 @@ namespace Guidewire.Core.Tests
             Assert.That(extremes.AxialForce, Is.GreaterThanOrEqualTo(push * (1.0 - 1e-6)));
         }
 
+        // The element beyond the tip is the axial spring of all of the wire: its own stretch is no strain of the wire.
+        [TestCase(0.03)]
+        [TestCase(0.6)]
+        public void WireThatHangsInACatheter_StrainsNoMoreThanItsWeightDoes_HoweverShortTheElementBeyondTheTip(
+            double beyond)
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            Catheter catheter = parameters.Scene.Catheters[0];
+            catheter.Start = 110.0 - 10.0 * beyond;
+            catheter.Material.Sections = Array.Empty<WireSection>();
+            parameters.Material.Sections = Array.Empty<WireSection>();
+            parameters.Scene.Gravity = new Vector3d(0.0, 0.0, 9.81);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            Simulation run = Run(parameters, 1);
+            double wire = 6450.0 * Math.PI * 0.445e-3 * 0.445e-3;    // kg/m
+            double section = Math.PI * (0.83e-3 * 0.83e-3 - 0.6e-3 * 0.6e-3);
+            // Below the middle of the first element; the catheter's axis has all of the axial force.
+            double hanging = 0.245 * (wire + 1200.0 * section) + (0.04 + 0.01 * beyond) * wire;
+            Assert.That(run.Report()!.Extremes!.Strain, Is.EqualTo(9.81 * hanging / (4e9 * section)).Within(0.1).Percent);
+        }
+
         [Test]
         public void CurvatureAndStrain_AreTheLargestOfAllSteps()
         {
