@@ -34,27 +34,5 @@ namespace Guidewire.Core
         {
             return Vector3d.Dot(node - Exit, Axis);
         }
-
-        /// <summary>Whether the wire has buckled at the exit: a node in the sheath that is farther from its axis than
-        /// the lumen is wide there would come out through a wall. Nothing but its frame holds the wire sideways in the
-        /// last element before the exit.</summary>
-        /// <param name="x">Nodes, m.</param>
-        /// <param name="metres">Of a unit of the walls.</param>
-        public bool IsBuckled(Vector3d[] x, ContactShape[] walls, double metres)
-        {
-            int inside = NodesInside(x);
-            for (int i = 0; i < inside; i++)
-            {
-                Vector3d atExit = (1.0 / metres) * (x[i] - Outside(x[i]) * Axis);
-                foreach (ContactShape wall in walls)
-                {
-                    if (!wall.Contains(atExit))
-                    {
-                        return true;
-                    }
-                }
-            }
-            return false;
-        }
     }
 }

@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private const double Resolved = 1e-3;     // of the clearance: approaches below it are ignored
         private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
         private const double QuickFraction = 0.9;    // of a gap known only approximately
+        private const int MostCuts = 40;             // of a motion out of a sheath
 
         private readonly ContactShape[] _walls;
         private readonly double _units;           // per metre
@@ -32,7 +33,7 @@ namespace Guidewire.Core
         private readonly double[] _elementRadius;
         private readonly Barrier _barrier;
         private readonly NeighbourList _near;
-        private readonly SheathEnd? _sheath;
+        private readonly SheathedNodes _nodes;
         private int _inside;                      // nodes in the sheath in the current shape
         private readonly Vector3d[] _x;           // of the current shape, units
         private readonly Vector3d[] _to;          // where its nodes move to, units
@@ -56,9 +57,9 @@ namespace Guidewire.Core
         public BarrierEnergy(MaterialRod rod, ContactShape[] walls, double metresPerUnit, in Barrier barrier,
             SheathEnd? sheath = null)
         {
-            _sheath = sheath;
             int n = rod.ElementCount;
             _walls = walls;
+            _nodes = new SheathedNodes(sheath, walls, metresPerUnit);
             _units = 1.0 / metresPerUnit;
             _elementRadius = rod.Radius;
             _nodeRadius = new double[n + 1];
@@ -98,24 +99,8 @@ namespace Guidewire.Core
         /// <summary>b.</summary>
         public Barrier Barrier => _barrier;
 
-        /// <summary>How many nodes of a shape, from its first on, are in the sheath.</summary>
-        public int NodesInside(RodShape shape)
-        {
-            return _sheath == null ? 0 : _sheath.NodesInside(shape.X);
-        }
-
-        /// <summary>The nodes of a shape as walls meet them, units.</summary>
-        /// <param name="x">Receives them.</param>
-        /// <returns>How many of them are in the sheath.</returns>
-        public int SetNodes(RodShape shape, Vector3d[] x)
-        {
-            int inside = NodesInside(shape);
-            for (int i = 0; i < x.Length; i++)
-            {
-                x[i] = NodeOf(shape.X[i], i < inside);
-            }
-            return inside;
-        }
+        /// <summary>The nodes as walls meet them.</summary>
+        public SheathedNodes Nodes => _nodes;
 
         /// <summary>Whether a wall touches the wire in the shape last evaluated.</summary>
         public bool Touches => _sums.Contacts.Count > 0;
@@ -183,29 +168,26 @@ namespace Guidewire.Core
         {
             Update(shape);
             double step = scale * _units;
-            double longest = 0.0;
-            bool isInside = _sheath != null;
-            for (int i = 0; i < _x.Length; i++)
+            double tried = 1.0;
+            for (int k = 0; k < MostCuts; k++)
             {
-                RodVector d = direction[i];
-                Vector3d move = step * new Vector3d(d.X1, d.X2, d.X3);
-                _to[i] = _x[i] + move;
-                if (isInside)
+                double fraction = MaxStepTo(_nodes.Move(shape, direction, tried * step, _x, _to));
+                if (!_nodes.IsWide && (fraction == 1.0 || !_nodes.ComesOut))
                 {
-                    Vector3d to = shape.X[i] + (1.0 / _units) * move;
-                    isInside = _sheath!.Outside(to) < 0.0;
-                    _to[i] = NodeOf(to, isInside);
-                    move = _to[i] - _x[i];
+                    return tried * fraction;
                 }
-                longest = Math.Max(longest, move.LengthSquared);
+                // What comes out of the sheath does not come straight from its exit.
+                tried *= Math.Min(fraction, 0.5);
             }
+            return 0.0;
+        }
+
+        // To where the nodes are to go, the longest of whose moves, squared, is this.
+        private double MaxStepTo(double longest)
+        {
             double sure = QuickFraction * _units * _leastGap;
-            if (longest < sure * sure)
-            {
-                return 1.0;
-            }
             double fraction = 1.0;
-            for (int w = 0; w < _walls.Length; w++)
+            for (int w = 0; w < _walls.Length && !(longest < sure * sure); w++)
             {
                 fraction = Math.Min(fraction, MaxStepAt(w));
             }
@@ -216,7 +198,7 @@ namespace Guidewire.Core
         public NeighbourList Near(RodShape shape, RodShape other)
         {
             Update(other);
-            SetNodes(shape, _to);
+            _nodes.Set(shape, _to);
             _near.Follow(_to);
             return _near;
         }
@@ -325,18 +307,18 @@ namespace Guidewire.Core
         // Evaluates the shape, unless these of its nodes, without the last, are those of the last call.
         private void Update(RodShape shape, int from, int to)
         {
-            int inside = NodesInside(shape);
+            int inside = _nodes.Inside(shape);
             bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
             for (int i = from; i < to && isSame; i++)
             {
-                isSame = NodeOf(shape.X[i], i < inside) == _x[i];
+                isSame = _nodes.Place(shape.X[i], i < inside) == _x[i];
             }
             if (isSame)
             {
                 return;
             }
             _sums.Clear();
-            _inside = SetNodes(shape, _x);
+            _inside = _nodes.Set(shape, _x);
             Array.Clear(_resultant, 0, _resultant.Length);
             _isKnown = true;
             _value = 0.0;
@@ -368,11 +350,6 @@ namespace Guidewire.Core
             {
                 _sums.Hold(_inside - 1);
             }
-        }
-
-        private Vector3d NodeOf(in Vector3d x, bool isInside)
-        {
-            return _units * (isInside ? _sheath!.Exit : x);
         }
 
         private void AddNode(int w, int i)

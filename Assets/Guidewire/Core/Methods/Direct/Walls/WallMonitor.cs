@@ -127,7 +127,7 @@ namespace Guidewire.Core
 
         private void SetUnits(RodShape shape, Vector3d[] x)
         {
-            _barrier.SetNodes(shape, x);
+            _barrier.Nodes.Set(shape, x);
         }
     }
 }

@@ -32,7 +32,7 @@ namespace Guidewire.Core
         {
             NeighbourList near = _barrier.Near(shape, before);
             int n = shape.ElementCount;
-            int first = _barrier.NodesInside(shape);
+            int first = _barrier.Nodes.Inside(shape);
             for (int w = 0; w < _barrier.Walls.Length; w++)
             {
                 for (int i = Math.Max(first, 1); i <= last; i++)

@@ -14,16 +14,14 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly WallMonitor _monitor;
         private readonly HalvedSteps _halved;
-        private readonly double _metres;
+        private readonly SheathedNodes _nodes;
         private StageForces _meanForces;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        /// <param name="metres">Of a unit of the walls.</param>
-        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor monitor,
-            double metres)
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor monitor)
         {
-            _metres = metres;
+            _nodes = dynamics.Terms.Walls()!.Barrier.Nodes;
             _dynamics = dynamics;
             _schedule = schedule;
             _monitor = monitor;
@@ -45,22 +43,16 @@ namespace Guidewire.Core
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
             {
-                string? failure = _halved.Step(dt / parts) ?? FindBuckled();
+                _nodes.HasBuckled = false;
+                string? failure = _halved.Step(dt / parts);
                 if (failure != null)
                 {
-                    return failure;
+                    return _nodes.HasBuckled
+                        ? "the wire buckles at the exit of its sheath and would come out through a wall" : failure;
                 }
                 _meanForces.Add(dt / parts / dt, _halved.MeanForces);
             }
             return null;
-        }
-
-        private string? FindBuckled()
-        {
-            RodTerms terms = _dynamics.Terms;
-            SheathEnd? sheath = terms.Supports.SheathEnd;
-            return sheath == null || !sheath.IsBuckled(_dynamics.Shape.X, terms.Walls()!.Barrier.Walls, _metres) ? null
-                : "the wire buckles at the exit of its sheath and would come out through a wall";
         }
 
         private int Parts(double dt)

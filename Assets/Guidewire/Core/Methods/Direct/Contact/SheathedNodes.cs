@@ -1,0 +1,125 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The nodes of a wire as walls meet them: those in its sheath are at the exit.</summary>
+    /// <remarks>Nothing but its frame holds the wire sideways in the last element before the exit. A node in the sheath
+    /// that is farther from its axis than the lumen is wide at the exit would come out through a wall: no motion may lead
+    /// there.</remarks>
+    internal sealed class SheathedNodes
+    {
+        private const double Range = 1e3;    // units, within which the walls around the exit are looked for
+
+        private readonly SheathEnd? _sheath;
+        private readonly ContactShape[] _walls;
+        private readonly double _units;      // per metre
+        private readonly double _clearance;  // of the exit, m
+
+        /// <param name="sheath">Null: no node is in one.</param>
+        /// <param name="metres">Of a unit of the walls.</param>
+        public SheathedNodes(SheathEnd? sheath, ContactShape[] walls, double metres)
+        {
+            _sheath = sheath;
+            _walls = walls;
+            _units = 1.0 / metres;
+            _clearance = sheath == null ? 0.0 : metres * ClearanceAt(_units * sheath.Exit);
+        }
+
+        /// <summary>Whether the last motion left a node in the sheath that would come out through a wall.</summary>
+        public bool IsWide { get; private set; }
+
+        /// <summary>Whether a node came out of the sheath in it.</summary>
+        public bool ComesOut { get; private set; }
+
+        /// <summary>Whether there was a motion of the first kind since this was set to false.</summary>
+        public bool HasBuckled { get; set; }
+
+        /// <summary>How many nodes of a shape, from its first on, are in the sheath.</summary>
+        public int Inside(RodShape shape)
+        {
+            return _sheath == null ? 0 : _sheath.NodesInside(shape.X);
+        }
+
+        /// <summary>A node as walls meet it, units.</summary>
+        public Vector3d Place(in Vector3d x, bool isInside)
+        {
+            return _units * (isInside ? _sheath!.Exit : x);
+        }
+
+        /// <summary>The nodes of a shape as walls meet them, units.</summary>
+        /// <param name="x">Receives them.</param>
+        /// <returns>How many of them are in the sheath.</returns>
+        public int Set(RodShape shape, Vector3d[] x)
+        {
+            int inside = Inside(shape);
+            for (int i = 0; i < x.Length; i++)
+            {
+                x[i] = Place(shape.X[i], i < inside);
+            }
+            return inside;
+        }
+
+        /// <summary>Where the nodes are after a motion, as walls meet them.</summary>
+        /// <param name="direction">By node.</param>
+        /// <param name="step">Units a unit of the direction.</param>
+        /// <param name="from">Where they are, units.</param>
+        /// <param name="to">Receives where they go, units.</param>
+        /// <returns>The square of the longest way between the two, units.</returns>
+        public double Move(RodShape shape, RodVector[] direction, double step, Vector3d[] from, Vector3d[] to)
+        {
+            double longest = 0.0;
+            bool isInside = _sheath != null;
+            IsWide = false;
+            ComesOut = false;
+            for (int i = 0; i < from.Length; i++)
+            {
+                RodVector d = direction[i];
+                Vector3d move = step * new Vector3d(d.X1, d.X2, d.X3);
+                to[i] = from[i] + move;
+                if (isInside)
+                {
+                    Vector3d x = shape.X[i] + (1.0 / _units) * move;
+                    isInside = _sheath!.Outside(x) < 0.0;
+                    IsWide |= isInside && IsBesideLumen(x);
+                    ComesOut |= !isInside && _sheath.Outside(shape.X[i]) < 0.0;
+                    to[i] = Place(x, isInside);
+                    move = to[i] - from[i];
+                }
+                longest = Math.Max(longest, move.LengthSquared);
+            }
+            HasBuckled |= IsWide;
+            return longest;
+        }
+
+        private double ClearanceAt(in Vector3d exit)
+        {
+            double clearance = Range;
+            foreach (ContactShape wall in _walls)
+            {
+                int hint = -1;
+                if (wall.Nearest(exit, exit, Range, ref hint, out SurfaceContact contact))
+                {
+                    clearance = Math.Min(clearance, contact.Distance);
+                }
+            }
+            return clearance;
+        }
+
+        private bool IsBesideLumen(in Vector3d x)
+        {
+            Vector3d atExit = x - _sheath!.Outside(x) * _sheath.Axis;
+            if ((atExit - _sheath.Exit).LengthSquared < _clearance * Math.Abs(_clearance))
+            {
+                return false;
+            }
+            foreach (ContactShape wall in _walls)
+            {
+                if (!wall.Contains(_units * atExit))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+    }
+}
