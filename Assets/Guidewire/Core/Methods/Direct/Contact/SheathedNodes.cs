@@ -3,9 +3,9 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>The nodes of a wire as walls meet them: those in its sheath are at the exit.</summary>
-    /// <remarks>Nothing but its frame holds the wire sideways in the last element before the exit. A node in the sheath
-    /// that is farther from its axis than the lumen is wide at the exit would come out through a wall: no motion may lead
-    /// there.</remarks>
+    /// <remarks>Nothing but its frame holds the wire sideways in the last element before the exit. A node in the
+    /// sheath that is farther from its axis than the lumen is wide at the exit would come out through a wall: no motion
+    /// may lead there.</remarks>
     internal sealed class SheathedNodes
     {
         private const double Range = 1e3;    // units, within which the walls around the exit are looked for
