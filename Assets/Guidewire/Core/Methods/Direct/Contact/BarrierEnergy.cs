@@ -177,7 +177,7 @@ namespace Guidewire.Core
                     return tried * fraction;
                 }
                 // What comes out of the sheath does not come straight from its exit.
-                tried *= Math.Min(fraction, 0.5);
+                tried *= _nodes.IsWide ? 0.5 : k == 0 ? fraction : Math.Min(fraction, 0.5);
             }
             return 0.0;
         }
