@@ -108,18 +108,25 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>What is not as asked of two hubs, the wire's and the catheter's, in one line; or null.</summary>
+        /// <summary>What is not as asked of the hubs, in one line; or null.</summary>
+        /// <param name="hubs">The outermost one first, the wire's last.</param>
         /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
-        public static string? WarningOf(HubSlip wire, HubSlip catheter, bool isSheathed)
+        public static string? WarningOf(HubSlip[] hubs, bool isSheathed)
         {
-            double slip = Math.Abs(wire._drive.Slip) > Math.Abs(catheter._drive.Slip) ? wire._drive.Slip
-                : catheter._drive.Slip;
-            string excess = wire.TextOfExcess + catheter.TextOfExcess;
+            double slip = 0.0;
+            string excess = "";
+            bool isLimited = false;
+            foreach (HubSlip hub in hubs)
+            {
+                slip = Math.Abs(hub._drive.Slip) > Math.Abs(slip) ? hub._drive.Slip : slip;
+                excess = hub.TextOfExcess + excess;
+                isLimited |= hub.IsLimited;
+            }
             bool isShort = Math.Abs(slip) > Nothing;
             return !isShort && excess == "" ? null : !isShort ? excess.Substring(2)
                 : string.Format(CultureInfo.InvariantCulture, "a hub fell short by {0:G3} m: {1}the wire's came to the"
                 + " catheter's, or its tip to the first element of the catheter{2}{3}", slip,
-                wire.IsLimited || catheter.IsLimited ? "it slipped at its hubForceLimit, or " : "",
+                isLimited ? "it slipped at its hubForceLimit, or " : "",
                 isSheathed ? ", or the catheter's to the exit of the sheath" : "", excess);
         }
 
