@@ -137,7 +137,6 @@ namespace Guidewire.Core
             OfTwo(p => p.Scene.Catheters.All(catheter => catheter.LumenFriction == 0.0), "lumenFriction 0"),
             OfTwo(p => p.Drive.HubForceLimit == 0.0
                 && p.Scene.Catheters.All(catheter => catheter.Drive.HubForceLimit == 0.0), "hubForceLimit 0 of all"),
-            OfTwo(p => p.Drive.Steering == null, "no steering and no session"),
             OfCatheters(p => p.Traits.HasBarriers, "solver direct"),
             OfCatheters(p => !p.HasWalls || p.Method.Integrator == Integrator.ImplicitEuler,
                 "integrator \"implicitEuler\" between walls"),

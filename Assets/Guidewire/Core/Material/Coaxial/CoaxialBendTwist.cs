@@ -335,8 +335,7 @@ namespace Guidewire.Core
             return Vector3d.Zero;
         }
 
-        // Of energy, by the lead of an instrument and the length in the sheath that are less by these, m: a centred
-        // difference, N.
+        // A centred difference of energy, N, by a lead and the length in the sheath that are less by these, m.
         private double Released(RodShape shape, StretchEnergy stretch, int instrument, double lead, double sheathed)
         {
             SetIdleTwists(shape);
@@ -385,8 +384,17 @@ namespace Guidewire.Core
         private void Evaluate(RodShape shape, int k, out CoaxialJointState s)
         {
             s = default;
-            s.Relative = Relative(shape, k);
             int frame = _joints.CarrierOf(k);
+            if (frame == 0 && !_hasSecond)
+            {
+                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+                s.Relative = a.Conjugate * shape.Q[k];
+                s.First.Before = k == 0 ? HubTwist[1] : shape.Twist[k - 1];
+                s.First.After = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
+                s.Set(_joints[k], _law, false);
+                return;
+            }
+            s.Relative = Relative(shape, k);
             int before = k == 0 ? 0 : _joints.CarrierOf(k - 1);
             s.FrameBefore = frame == before ? 0.0 : AngleAt(shape, k - 1, frame, before);
             SetAngles(shape, k, before, frame, frame == 0 ? 1 : 0, ref s.First, s.FrameBefore);

@@ -1,3 +1,5 @@
+using System.Runtime.CompilerServices;
+
 namespace Guidewire.Core
 {
     /// <summary>A joint of coaxial instruments in a shape: its energy's derivatives.</summary>
@@ -46,6 +48,7 @@ namespace Guidewire.Core
             Joint.Rest = new Vector3d(rest.X, rest.Y, restTwist);
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private void Set(ref CoaxialPartState part, in CoaxialPart joint, in Vector3d slope, in Vector3d turned,
             double moment1, double moment2, ref double restTwist)
         {

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -16,6 +17,7 @@ namespace Guidewire.Core
         /// <summary>Adds R(t) F' to f.</summary>
         /// <param name="slope">Derivative of f by t.</param>
         /// <param name="turned">What was added, minus the second derivative.</param>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly void AddRest(double t, ref Vector3d rest, out Vector3d slope, out Vector3d turned)
         {
             slope = Vector3d.Zero;
@@ -35,6 +37,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>C cos t + S sin t, J, which is its second derivative's negative, and minus its first.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly double Held(double t, out double slope)
         {
             slope = 0.0;

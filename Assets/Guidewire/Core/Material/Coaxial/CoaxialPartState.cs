@@ -1,3 +1,5 @@
+using System.Runtime.CompilerServices;
+
 namespace Guidewire.Core
 {
     /// <summary>What a joint's energy says of one instrument with an angle of its own
@@ -12,6 +14,7 @@ namespace Guidewire.Core
         public Vector3d Mixed;    // d2E/(dphi dt)
 
         /// <summary>t.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly double Mean(in CoaxialPart part)
         {
             return (1.0 - part.Weight) * Before + part.Weight * After;

@@ -6,8 +6,9 @@ namespace Guidewire.Core
     /// next.</summary>
     internal sealed class CoaxialPieces
     {
-        private readonly CoaxialInstrument[] _instrument;
-        private readonly int[] _piece;         // of each
+        private readonly CrossSection[][] _pieces;   // of each instrument
+        private readonly double[][] _borders;
+        private readonly int[] _piece;         // where each is
         private readonly bool[] _isPresent;
         private int _carrier;                  // the outermost one
         private int _presentCount;
@@ -15,7 +16,8 @@ namespace Guidewire.Core
         /// <summary>Of these instruments, the outermost one first.</summary>
         public CoaxialPieces(CoaxialInstrument[] instruments)
         {
-            _instrument = instruments;
+            _pieces = Array.ConvertAll(instruments, instrument => instrument.Profile.Pieces);
+            _borders = Array.ConvertAll(instruments, instrument => instrument.Profile.Borders);
             _piece = new int[instruments.Length];
             _isPresent = new bool[instruments.Length];
             Compliance = new double[instruments.Length];
@@ -35,9 +37,12 @@ namespace Guidewire.Core
         /// <summary>There are no pieces yet.</summary>
         public void Clear()
         {
-            Array.Clear(Compliance, 0, Compliance.Length);
-            Array.Clear(Rest, 0, Rest.Length);
-            Array.Clear(Shared, 0, Shared.Length);
+            for (int i = 0; i < _piece.Length; i++)
+            {
+                Compliance[i] = 0.0;
+                Rest[i] = 0.0;
+                Shared[i] = 0.0;
+            }
         }
 
         /// <summary>Begins at a place along the chain.</summary>
@@ -49,7 +54,14 @@ namespace Guidewire.Core
             _carrier = carrier;
             for (int i = carrier; i < _piece.Length; i++)
             {
-                _piece[i] = _instrument[i].Profile.PieceAt(from + leads[i]);
+                double position = from + leads[i];
+                double[] borders = _borders[i];
+                int p = 0;
+                while (p < borders.Length - 2 && borders[p + 1] <= position)
+                {
+                    p++;
+                }
+                _piece[i] = p;
             }
         }
 
@@ -63,13 +75,15 @@ namespace Guidewire.Core
             _presentCount = 0;
             for (int i = _carrier; i < _piece.Length; i++)
             {
-                _isPresent[i] = i == _carrier || at < ends[i];
-                if (_isPresent[i])
+                bool isPresent = i == _carrier || at < ends[i];
+                _isPresent[i] = isPresent;
+                if (isPresent)
                 {
-                    InstrumentProfile profile = _instrument[i].Profile;
+                    int p = _piece[i];
+                    double[] borders = _borders[i];
                     _presentCount++;
-                    next = Math.Min(next, _piece[i] < profile.Pieces.Length - 1
-                        ? profile.Borders[_piece[i] + 1] - leads[i] : i == _carrier ? to : ends[i]);
+                    double border = p < borders.Length - 2 ? borders[p + 1] - leads[i] : i == _carrier ? to : ends[i];
+                    next = border < next ? border : next;
                 }
             }
             return next;
@@ -115,9 +129,12 @@ namespace Guidewire.Core
         {
             for (int i = _carrier; i < _piece.Length; i++)
             {
-                InstrumentProfile profile = _instrument[i].Profile;
-                _piece[i] += _piece[i] < profile.Pieces.Length - 1
-                    && at >= profile.Borders[_piece[i] + 1] - leads[i] ? 1 : 0;
+                int p = _piece[i];
+                double[] borders = _borders[i];
+                if (p < borders.Length - 2 && at >= borders[p + 1] - leads[i])
+                {
+                    _piece[i] = p + 1;
+                }
             }
         }
 
@@ -131,7 +148,7 @@ namespace Guidewire.Core
 
         private ref readonly CrossSection PieceOf(int instrument)
         {
-            return ref _instrument[instrument].Profile.Pieces[_piece[instrument]];
+            return ref _pieces[instrument][_piece[instrument]];
         }
 
         private void AddBend(ref CoaxialJoint joint, double lambda, int frame)
