@@ -75,7 +75,7 @@ namespace Guidewire.Core.Tests
         public void Solution_IsTheDenseOne(int beyond)
         {
             CoaxialPair pair = Pair(0.3, beyond, 0.0);
-            double shift = beyond < Three ? 300.0 : 3000.0;
+            const double shift = 300.0;
             var system = new BlockTridiagonal(pair.Coaxial.Rod, pair.Supports);
             var gradient = new RodVector[system.VectorCount];
             var y = new RodVector[system.VectorCount];
