@@ -70,7 +70,8 @@ class ArrayLog:
     @property
     def catheters(self) -> list[str]:
         """Names of the arrays of the catheters' positions, outermost first."""
-        return sorted(name for name in self._names if re.fullmatch(r"catheter\d*Positions", name))
+        return sorted((name for name in self._names if re.fullmatch(r"catheter\d*Positions", name)),
+                      key=lambda name: (len(name), name))
 
     def entries(self) -> Iterator[tuple[int, dict[str, Any]]]:
         """Step and entry, as they stand in a log of format json."""
@@ -124,7 +125,7 @@ def _read_rows(source: Path) -> np.ndarray:
 
 def _catheter(columns: Mapping[str, np.ndarray], prefix: str, k: int) -> dict[str, Any]:
     names = {"Positions": "sphere", "Orientations": "orientation"}
-    whole = [name.removeprefix(prefix) for name in columns if name.startswith(prefix)]
+    whole = [name.removeprefix(prefix) for name in columns if re.fullmatch(prefix + r"[A-Z]\w*", name)]
     return {names.get(name, name.lower()): columns[prefix + name][k].tolist() for name in whole}
 
 

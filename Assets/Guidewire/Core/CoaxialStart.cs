@@ -1,9 +1,10 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Whether a wire and the catheter over it fit one another at their start.</summary>
+    /// <summary>Whether a wire and the catheters over it fit one another at their start.</summary>
     internal static class CoaxialStart
     {
         private const string AlikeInBoth = "sections that bend alike in both directions, where two instruments are in"
@@ -13,8 +14,7 @@ namespace Guidewire.Core
         public static ParameterConflict? FindProblem(SimulationParameters parameters)
         {
             SceneParameters scene = parameters.Scene;
-            Catheter catheter = scene.Catheters[0];
-            double lumen = catheter.Material.InnerRadius;
+            IReadOnlyList<Catheter> catheters = scene.Catheters;
             double widest = 0.0;
             foreach (CrossSection piece in new WireProfile(parameters.Material, scene.GuidewireLength).Pieces)
             {
@@ -24,60 +24,107 @@ namespace Guidewire.Core
                     return new ParameterConflict("wireSections", AlikeInBoth);
                 }
             }
+            for (int k = catheters.Count - 1; k >= 0; k--)
+            {
+                ParameterConflict? problem = FindProblem(catheters, k, ref widest) ?? FindProblemOfTips(scene, k);
+                if (problem != null)
+                {
+                    return problem;
+                }
+            }
+            return FindCrossing(parameters);
+        }
+
+        // widest: what is inside, and then what this one is, m.
+        private static ParameterConflict? FindProblem(IReadOnlyList<Catheter> catheters, int k, ref double widest)
+        {
+            Catheter catheter = catheters[k];
+            double lumen = catheter.Material.InnerRadius;
             if (!(lumen > widest))
             {
-                return Of("lumenRadius", "more than {0:G4} m, the wire's own radius where it is thickest (the lumen has"
-                    + " {1:G4} m)", widest, lumen);
+                string inside = k == catheters.Count - 1 ? "the wire's" : "the inner catheter's";
+                return Of(k, "lumenRadius", "more than {0:G4} m, " + inside + " own radius where it is thickest (the lumen"
+                    + " has {1:G4} m)", widest, lumen);
             }
             foreach (CrossSection piece in new WireProfile(catheter.Material, catheter.Length).Pieces)
             {
                 if (!(piece.Radius > lumen))
                 {
-                    return Of("lumenRadius", "less than {0:G4} m, the catheter's own radius where it is thinnest (the"
+                    return Of(k, "lumenRadius", "less than {0:G4} m, the catheter's own radius where it is thinnest (the"
                         + " lumen has {1:G4} m)", piece.Radius, lumen);
                 }
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {
-                    return Of("wireSections", AlikeInBoth);
+                    return Of(k, "wireSections", AlikeInBoth);
                 }
+                widest = Math.Max(widest, piece.Radius);
             }
-            double most = scene.GuidewireLength - catheter.Length / catheter.Elements;
-            if (catheter.Start > most)
-            {
-                return most < 0.0
-                    ? new ParameterConflict("guidewireLength", Text("more than {0:G6} units: the wire has to reach"
-                        + " through the first element of the catheter", scene.GuidewireLength - most))
-                    : Of("start", "at most {0:G6} units, so that the wire reaches through the first element of the"
-                        + " catheter", most);
-            }
-            return FindCrossing(parameters, catheter);
+            return null;
         }
 
-        // Of hubs whose motion is known before.
-        private static ParameterConflict? FindCrossing(SimulationParameters parameters, Catheter catheter)
+        // Of what is inside, in the first element of the outermost catheter.
+        private static ParameterConflict? FindProblemOfTips(SceneParameters scene, int k)
         {
-            if (parameters.Drive.Steering != null)
+            Catheter outermost = scene.Catheters[0];
+            Catheter own = scene.Catheters[k];
+            double element = outermost.Length / outermost.Elements;
+            if (k == 0)
             {
-                return null;
+                double most = scene.GuidewireLength - element;
+                return own.Start <= most ? null : most < 0.0
+                    ? new ParameterConflict("guidewireLength", Text("more than {0:G6} units: the wire has to reach"
+                        + " through the first element of the catheter", element))
+                    : Of(k, "start", "at most {0:G6} units, so that the wire reaches through the first element of the"
+                        + " catheter", most);
             }
+            if (own.Start > outermost.Start)
+            {
+                return Of(k, "start", "at most {0:G6} units, that of the catheter around it", outermost.Start);
+            }
+            double least = outermost.Start + element - own.Length;
+            return own.Start >= least ? null : Of(k, "start", "at least {0:G6} units, so that it reaches through the"
+                + " first element of the catheter around it", least);
+        }
+
+        // Of hubs whose motion is known before: each with the next one around it.
+        private static ParameterConflict? FindCrossing(SimulationParameters parameters)
+        {
+            int count = parameters.Scene.Catheters.Count;
+            ParameterConflict? problem = null;
+            for (int k = 0; k < count && problem == null && parameters.Drive.Steering == null; k++)
+            {
+                problem = FindCrossing(parameters, k);
+            }
+            return problem;
+        }
+
+        private static ParameterConflict? FindCrossing(SimulationParameters parameters, int k)
+        {
+            IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
+            Catheter catheter = catheters[k];
+            bool isAroundWire = k == catheters.Count - 1;
+            DriveParameters inside = isAroundWire ? parameters.Drive : catheters[k + 1].Drive;
+            double start = isAroundWire ? 0.0 : catheters[k + 1].Start;
             double duration = parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep;
-            double lead = parameters.Scene.MetresPerUnit * catheter.Start;
+            double lead = parameters.Scene.MetresPerUnit * (catheter.Start - start);
             double first = double.NaN;
             double most = lead * (1.0 + 1e-9) + 1e-12;
             const int samples = 1000;
-            for (int k = 1; k <= samples; k++)
+            for (int i = 1; i <= samples; i++)
             {
-                double time = duration * k / samples;
-                double ahead = Insertion(parameters.Drive, time) - Insertion(catheter.Drive, time);
+                double time = duration * i / samples;
+                double ahead = Insertion(inside, time) - Insertion(catheter.Drive, time);
                 if (ahead > most)
                 {
                     first = double.IsNaN(first) ? time : first;
                     most = ahead;
                 }
             }
-            return double.IsNaN(first) ? null : Of("start",
-                "at least {0:G6} units, or other drives: at t = {1:G4} s the wire's hub would pass the catheter's",
-                Math.Ceiling(1e3 * most / parameters.Scene.MetresPerUnit) / 1e3, first);
+            return double.IsNaN(first) ? null : Of(k, "start",
+                "at least {0:G6} units, or other drives: at t = {1:G4} s "
+                + (isAroundWire ? "the wire's hub" : "the inner catheter's hub") + " would pass "
+                + (catheters.Count == 1 ? "the catheter's" : isAroundWire ? "the inner catheter's" : "the outer one's"),
+                start + Math.Ceiling(1e3 * most / parameters.Scene.MetresPerUnit) / 1e3, first);
         }
 
         private static double Insertion(DriveParameters drive, double time)
@@ -86,9 +133,9 @@ namespace Guidewire.Core
                 : drive.Kind == Drive.Hold ? 0.0 : drive.InsertionSpeed * time;
         }
 
-        private static ParameterConflict Of(string key, string needed, params object[] numbers)
+        private static ParameterConflict Of(int catheter, string key, string needed, params object[] numbers)
         {
-            return new ParameterConflict("catheters[0]." + key, Text(needed, numbers));
+            return new ParameterConflict("catheters[" + catheter + "]." + key, Text(needed, numbers));
         }
 
         private static string Text(string format, params object[] numbers)

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -130,7 +131,11 @@ namespace Guidewire.Core
             OfSheath(p => p.Method.Integrator == Integrator.ImplicitEuler, "integrator \"implicitEuler\""),
             OfSheath(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
             OfSheath(p => p.Drive.Displacement == 0.0 || p.Drive.Kind != Drive.Hold, "displacement 0"),
-            OfCatheters(p => p.Scene.Catheters.Count == 1, "no more than one catheter"),
+            OfCatheters(p => p.Scene.Catheters.Count <= 2, "no more than two catheters"),
+            OfTwo(p => p.Scene.Sheath == null, "no sheath"),
+            OfTwo(p => p.Scene.Catheters.All(catheter => catheter.LumenFriction == 0.0), "lumenFriction 0"),
+            OfTwo(p => p.Drive.HubForceLimit == 0.0
+                && p.Scene.Catheters.All(catheter => catheter.Drive.HubForceLimit == 0.0), "hubForceLimit 0 of all"),
             OfCatheters(p => p.Traits.HasBarriers, "solver direct"),
             OfCatheters(p => !p.HasWalls || p.Method.Integrator == Integrator.ImplicitEuler,
                 "integrator \"implicitEuler\" between walls"),
@@ -193,6 +198,11 @@ namespace Guidewire.Core
         private static Rule OfCatheters(Predicate<Facts> holds, string needed)
         {
             return new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
+        }
+
+        private static Rule OfTwo(Predicate<Facts> holds, string needed)
+        {
+            return OfCatheters(p => p.Scene.Catheters.Count < 2 || holds(p), needed + " where there are two");
         }
 
         private static ParameterConflict? FindInCatheters(SimulationParameters parameters)

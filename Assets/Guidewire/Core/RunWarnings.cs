@@ -31,10 +31,13 @@ namespace Guidewire.Core
         public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial)
         {
             List<string> lines = Doubts(state, contacts);
-            string? play = coaxial?.PlayWarning;
-            if (play != null)
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                lines.Add(play);
+                string? play = one.PlayWarning;
+                if (play != null)
+                {
+                    lines.Add(play);
+                }
             }
             string? exit = _rims.Line;
             if (exit != null)

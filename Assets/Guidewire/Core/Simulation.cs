@@ -156,8 +156,8 @@ namespace Guidewire.Core
             return _stepper.Hub();
         }
 
-        /// <summary>What is read off of a catheter over the wire as it is now; null without one. Each call writes the
-        /// record anew.</summary>
+        /// <summary>What is read off of the outermost catheter over the wire as it is now; null without one. Each call
+        /// writes the record anew.</summary>
         public CoaxialRecord? Coaxial()
         {
             return _stepper.Coaxial();
@@ -167,9 +167,10 @@ namespace Guidewire.Core
         /// <see cref="Coaxial"/>.</summary>
         public IReadOnlyList<CoaxialRecord> Catheters()
         {
-            if (Coaxial() is CoaxialRecord record)
+            int k = 0;
+            for (CoaxialRecord? record = Coaxial(); record != null; record = record.Inside)
             {
-                _catheters[0] = record;
+                _catheters[k++] = record;
             }
             return _catheters;
         }

@@ -48,7 +48,7 @@ namespace Guidewire.Benchmarks
             _blocks = new RodBlock[_shape.ElementCount + 2];
             _rows = new TwistRow[_shape.ElementCount + 1];
             _twists = _all.Supports.Coaxial?.Joints.ActiveCount ?? 0;
-            _moved = new RodShape(_shape.ElementCount, _all.Supports.Coaxial != null);
+            _moved = new RodShape(_shape.ElementCount, _all.Supports.InnerCount);
             Array.ForEach(_terms, Blocks);
             _stored = new EnergyTerm[] { new StoredBlocks(_blocks, _rows) };
             Iterate();

@@ -44,7 +44,7 @@ namespace Guidewire.Core
             _terms = terms;
             _inertia = inertia;
             _ends = ends;
-            _before = new RodShape(shape.ElementCount, shape.Twist.Length > 0);
+            _before = new RodShape(shape.ElementCount, shape.InnerCount);
             Start();
             _mostPutIn = Rounding * terms.Rod.BendStiffness1[0] / terms.Rod.TotalLength;
         }

@@ -57,7 +57,7 @@ namespace Guidewire.Core
                 _modes[k] = new RodVector[system.VectorCount];
                 _motions[k] = new RodVector[system.VectorCount];
             }
-            _moved = new RodShape(rod.ElementCount, supports.Coaxial != null);
+            _moved = new RodShape(rod.ElementCount, supports.InnerCount);
         }
 
         /// <summary>The eigenvector with a negative eigenvalue that is no neutral motion, where the last answer was no;

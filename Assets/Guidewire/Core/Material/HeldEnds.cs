@@ -17,8 +17,8 @@ namespace Guidewire.Core
         private Quaterniond _firstFrame;  // the same
         private Quaterniond _lastFrame;
         private double _carried;       // J
-        private double _lead;          // of an inner hub that is followed, m
-        private double _hubTwist;      // radians
+        private readonly double[] _lead;       // of inner hubs that are followed, m
+        private readonly double[] _hubTwist;   // radians
         private readonly double _stretch;  // the largest EA, N
         private readonly double _twist;    // the largest GJ, N m^2
 
@@ -29,6 +29,8 @@ namespace Guidewire.Core
             _schedule = schedule;
             _holdsFirst = terms.Supports.Proximal != ProximalEnd.Free;
             _holdsLast = terms.Supports.Distal != DistalEnd.Free;
+            _lead = new double[1 + terms.Supports.InnerCount];
+            _hubTwist = new double[_lead.Length];
             for (int j = 0; j < terms.Rod.ElementCount; j++)
             {
                 _stretch = Math.Max(_stretch, terms.Rod.StretchStiffness[j]);
@@ -82,8 +84,11 @@ namespace Guidewire.Core
             _distalTurn = distalTurn;
             if (_terms.Bending is CoaxialBendTwist coaxial)
             {
-                _lead = coaxial.Lead;
-                _hubTwist = coaxial.HubTwist;
+                for (int i = 1; i < _lead.Length; i++)
+                {
+                    _lead[i] = coaxial.Joints.LeadOf(i);
+                    _hubTwist[i] = coaxial.HubTwist[i];
+                }
             }
         }
 
@@ -170,8 +175,8 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _lastPosition);
             snapshot.Serialize(ref _firstFrame);
             snapshot.Serialize(ref _lastFrame);
-            snapshot.Serialize(ref _lead);
-            snapshot.Serialize(ref _hubTwist);
+            snapshot.Serialize(_lead);
+            snapshot.Serialize(_hubTwist);
         }
 
         private void CountInner(RodShape shape, out double move, out double turn)
@@ -180,10 +185,15 @@ namespace Guidewire.Core
             turn = 0.0;
             if (_terms.Bending is CoaxialBendTwist coaxial)
             {
-                move = Math.Abs(coaxial.Lead - _lead);
-                turn = Math.Abs(coaxial.HubTwist - _hubTwist);
-                Work += move > 0.0 ? Math.Abs(coaxial.InnerForce(shape, _terms.Stretch)) * move : 0.0;
-                Work += turn > 0.0 ? Math.Abs(coaxial.InnerTorque(shape)) * turn : 0.0;
+                for (int i = 1; i < _lead.Length; i++)
+                {
+                    double along = Math.Abs(coaxial.Joints.LeadOf(i) - _lead[i]);
+                    double about = Math.Abs(coaxial.HubTwist[i] - _hubTwist[i]);
+                    Work += along > 0.0 ? Math.Abs(coaxial.InnerForce(shape, _terms.Stretch, i)) * along : 0.0;
+                    Work += about > 0.0 ? Math.Abs(coaxial.InnerTorque(shape, i)) * about : 0.0;
+                    move += along;
+                    turn += about;
+                }
             }
         }
 

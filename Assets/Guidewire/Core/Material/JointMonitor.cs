@@ -164,11 +164,12 @@ namespace Guidewire.Core
                 : joint == _rod.ElementCount ? " against the distal clamp" : "";
         }
 
-        // The frame from which joint k turns: at the tip of an outer instrument that of the one inside.
+        // The frame from which joint k turns: at the tip of an outer instrument that of the one that goes on.
         private Quaterniond Before(RodShape shape, int k)
         {
             return _supports.Coaxial != null && _supports.Coaxial.Joints.IsTip(k)
-                ? CoaxialShape.InnerFrame(shape, k - 1) : shape.Q[k - 1];
+                ? CoaxialShape.FrameOf(shape, _supports.Coaxial.Joints, k - 1, _supports.Coaxial.Joints.CarrierOf(k))
+                : shape.Q[k - 1];
         }
 
         // cos(a/2) of the turn from a to b.

@@ -70,9 +70,9 @@ namespace Guidewire.Core
         /// <param name="coaxial">The rod.</param>
         /// <param name="shape">Where it is.</param>
         /// <param name="drive">Moves the outer hub.</param>
-        /// <param name="inner">The motion of the inner hub.</param>
+        /// <param name="inner">The motions of the inner hubs.</param>
         public MaterialScene(MaterialScene outer, CoaxialRod coaxial, RodShape shape, MaterialDrive drive,
-            HubMotion inner)
+            HubMotion[] inner)
         {
             _scene = outer._scene;
             Rod = coaxial.Rod;

@@ -21,6 +21,9 @@ namespace Guidewire.Core
         /// <summary>The instruments of a rod that is several coaxial ones; null for one alone.</summary>
         public CoaxialRod? Coaxial { get; set; }
 
+        /// <summary>How many instruments are inside it.</summary>
+        public int InnerCount => Coaxial == null ? 0 : Coaxial.Joints.InnerCount;
+
         /// <summary>The distal end; default free.</summary>
         public DistalEnd Distal { get; set; } = DistalEnd.Free;
 

@@ -2,11 +2,12 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is read off of a wire in a catheter at one moment: of the catheter all, of the wire what its hub
-    /// feels; and what the model of one shared centreline leaves out.</summary>
+    /// <summary>What is read off of a catheter over a wire at one moment: of the catheter all, of the wire what its hub
+    /// feels; and what the model of one shared centreline leaves out between the catheter and the next instrument
+    /// inside it.</summary>
     /// <remarks>Force and torque are those of a hub on its instrument: a thrust and a turn to the right, as seen from
-    /// the hub, are positive. The wire's are derivatives of the energy in its hub's position and turn, the catheter's
-    /// the chain's reaction less those.
+    /// the hub, are positive. Those of inner instruments are derivatives of the energy in their hubs' positions and
+    /// turns, the outermost one's the chain's reaction less those.
     ///
     /// With the radial play delta and a difference dk of the two rest curvatures the instruments lie on one another but
     /// for a length a = sqrt(12 delta/dk) from each end of the overlap, and leave it at an angle of sqrt(3 delta dk);
@@ -24,6 +25,7 @@ namespace Guidewire.Core
         private readonly double _units;
         private readonly double _lumen;   // radius, m
         private readonly LumenFriction _friction;
+        private readonly int _instrument; // 0 the outermost one
         private double _play;             // where the play angle has been the largest, m
         private double _mismatch;         // 1/m
         private double _reduced;          // B_r, N m^2
@@ -35,15 +37,21 @@ namespace Guidewire.Core
         /// <param name="elements">n of the catheter.</param>
         /// <param name="metres">A unit of length.</param>
         /// <param name="lumenRadius">Of the catheter, m.</param>
-        /// <param name="friction">Between the two.</param>
-        internal CoaxialRecord(int elements, double metres, double lumenRadius, LumenFriction friction)
+        /// <param name="friction">Between the catheter and the instrument inside.</param>
+        /// <param name="instrument">0 the outermost one, 1 that in it.</param>
+        internal CoaxialRecord(int elements, double metres, double lumenRadius, LumenFriction friction,
+            int instrument = 0)
         {
+            _instrument = instrument;
             _friction = friction;
             _units = 1.0 / metres;
             Positions = new Vector3d[elements + 1];
             Orientations = new Quaterniond[elements];
             _lumen = lumenRadius;
         }
+
+        /// <summary>What is read off of the catheter in this one; null where the wire is next.</summary>
+        public CoaxialRecord? Inside { get; internal set; }
 
         /// <summary>The catheter's n + 1 nodes, units.</summary>
         public Vector3d[] Positions { get; }
@@ -93,10 +101,11 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint of both, 1/m.</summary>
         public double LargestCurvature { get; private set; }
 
-        /// <summary>How far the wire's tip is beyond the catheter's, m; negative inside.</summary>
+        /// <summary>How far the tip of the next instrument inside is beyond the catheter's, m; negative
+        /// inside.</summary>
         public double Extension { get; private set; }
 
-        /// <summary>Length over which the wire is in the catheter, m.</summary>
+        /// <summary>Length over which that instrument is in the catheter, m.</summary>
         public double Overlap { get; private set; }
 
         /// <summary>The largest play angle of the run at any node of the overlap, degrees.</summary>
@@ -131,18 +140,25 @@ namespace Guidewire.Core
                 bool isSharp = PlayAngle > LargePlay;
                 bool isLong = PlayLength > LargeLength * Overlap;
                 return isSharp || isLong ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                    "the wire has {0:G3} mm of play in the catheter, which is not simulated: it may leave it at up to"
+                    "the {4} has {0:G3} mm of play in the {5}, which is not simulated: it may leave it at up to"
                     + " {1:G3} degrees from its axis, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
-                    1e3 * _play, PlayAngle, 1e3 * LengthLost, 1e3 * Overlap) : null;
+                    1e3 * _play, PlayAngle, 1e3 * LengthLost, 1e3 * Overlap,
+                    Inside == null ? "wire" : "inner catheter or wire",
+                    Inside != null ? "outer catheter" : _instrument > 0 ? "inner catheter" : "catheter") : null;
             }
         }
 
         /// <summary>Takes the largest play angle of a shape.</summary>
         internal void TakePlay(CoaxialJoints joints, RodShape shape)
         {
-            for (int k = 1; k < joints.ActiveCount; k++)
+            for (int k = 1; k < joints.ElementCount; k++)
             {
-                PlayAt(k, joints, shape, out double play, out double mismatch, out double reduced);
+                int inside = InsideAt(k, joints);
+                if (inside == 0)
+                {
+                    continue;
+                }
+                PlayAt(k, inside, joints, shape, out double play, out double mismatch, out double reduced);
                 if (play * mismatch > _play * _mismatch)
                 {
                     _play = play;
@@ -152,12 +168,30 @@ namespace Guidewire.Core
             }
         }
 
-        // Of node k: play, m; difference of the two rest curvatures, 1/m; B_r, N m^2.
-        private void PlayAt(int k, CoaxialJoints joints, RodShape shape, out double play, out double mismatch,
-            out double reduced)
+        // The next instrument inside the catheter at node k; 0 where there is none, or no catheter.
+        private int InsideAt(int k, CoaxialJoints joints)
         {
-            joints.PiecesAt(k, out CrossSection outer, out CrossSection inner);
-            double angle = 0.5 * (shape.Twist[k - 1] + shape.Twist[k]);
+            int carrier = joints.CarrierOf(k);
+            if (carrier > _instrument || (carrier < _instrument && k >= joints.ActiveCountOf(_instrument)))
+            {
+                return 0;
+            }
+            int inside = _instrument + 1;
+            while (inside < joints.Count && k >= joints.ActiveCountOf(inside))
+            {
+                inside++;
+            }
+            return inside < joints.Count ? inside : 0;
+        }
+
+        // Of node k: play, m; difference of the two rest curvatures, 1/m; B_r, N m^2.
+        private void PlayAt(int k, int inside, CoaxialJoints joints, RodShape shape, out double play,
+            out double mismatch, out double reduced)
+        {
+            ref readonly CrossSection outer = ref joints.PieceAt(k, _instrument);
+            ref readonly CrossSection inner = ref joints.PieceAt(k, inside);
+            double angle = 0.5 * (CoaxialShape.Angle(shape, shape.Twist, joints, k - 1, inside, _instrument)
+                + CoaxialShape.Angle(shape, shape.Twist, joints, k, inside, _instrument));
             double c = Math.Cos(angle);
             double s = Math.Sin(angle);
             Vector3d a = outer.RestCurvature;
@@ -181,7 +215,7 @@ namespace Guidewire.Core
             double largest = 0.0;
             for (int k = 1; k < joints.ActiveCount; k++)
             {
-                PlayAt(k, joints, shape, out double play, out double mismatch, out double reduced);
+                PlayAt(k, _instrument + 1, joints, shape, out double play, out double mismatch, out double reduced);
                 largest = Math.Max(largest, EndForce(play, mismatch, reduced));
             }
             return largest;
@@ -211,27 +245,28 @@ namespace Guidewire.Core
             _friction.Serialize(snapshot);
         }
 
-        internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, MaterialDrive drive,
+        /// <summary>Takes a moment.</summary>
+        /// <param name="own">Where the catheter is: its nodes and elements first.</param>
+        internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, RodShape own, MaterialDrive drive,
             MaterialDrive wireDrive, double force, double torque, double wireForce, double wireTorque)
         {
-            int tip = joints.OuterCount;
-            for (int i = 0; i <= tip; i++)
+            for (int i = 0; i < Positions.Length; i++)
             {
-                Positions[i] = _units * shape.X[i];
+                Positions[i] = _units * own.X[i];
             }
-            Array.Copy(shape.Q, Orientations, tip);
+            Array.Copy(own.Q, Orientations, Orientations.Length);
             Insertion = drive.Insertion;
             Turn = drive.Turn;
             Shortfall = drive.Slip;
             WireShortfall = wireDrive.Slip;
             Torque = torque;
             WireTorque = wireTorque;
-            Extension = joints.Extension;
-            Overlap = joints.Stations[tip] + Math.Min(0.0, Extension);
+            Extension = joints.ExtensionOf(_instrument + 1, _instrument);
+            Overlap = Math.Min(0.0, Extension)
+                + (_instrument == 0 ? joints.Stations[joints.OuterCount] : joints.EndOf(1) + joints.LeadOf(1));
+            double overlapEnd = _instrument == 0 ? Overlap : Math.Min(joints.EndOf(1), joints.EndOf(2));
             var bending = (CoaxialBendTwist)terms.Bending;
-            double[] station = joints.Stations;
-            int last = Math.Max(joints.ActiveCount - 1, 0);
-            WireTwist = shape.Twist[last] - bending.HubTwist;
+            WireTwist = bending.InnermostTwist(shape);
             LargestCurvature = 0.0;
             OverlapAngle = 0.0;
             double to = 0.0;
@@ -244,8 +279,8 @@ namespace Guidewire.Core
                     : Math.Max(LargestCurvature, curvature / outside);
                 // A joint has the curvature between the middles of its elements, the last one on to the end.
                 double from = to;
-                to = k + 1 < joints.ElementCount ? 0.5 * (joints.Stations[k] + joints.Stations[k + 1]) : Overlap;
-                OverlapAngle += curvature * Math.Max(0.0, Math.Min(to, Overlap) - from);
+                to = k + 1 < joints.ElementCount ? 0.5 * (joints.Stations[k] + joints.Stations[k + 1]) : overlapEnd;
+                OverlapAngle += curvature * Math.Max(0.0, Math.Min(to, overlapEnd) - from);
                 // The carrier's own twist is the wire's too, but for the hub's frame.
                 WireTwist += turn.Z;
             }

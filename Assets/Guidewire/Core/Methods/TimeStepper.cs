@@ -41,7 +41,8 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>What is read off of a catheter over the wire; null without one.</summary>
+        /// <summary>What is read off of the outermost catheter over the wire, and of the one in it; null without
+        /// one.</summary>
         public virtual CoaxialRecord? Coaxial()
         {
             return null;

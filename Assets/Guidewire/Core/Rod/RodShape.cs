@@ -7,13 +7,13 @@ namespace Guidewire.Core
     internal sealed class RodShape
     {
         /// <summary>A rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>
-        /// <param name="hasTwist">Whether another instrument is inside it.</param>
-        public RodShape(int elementCount, bool hasTwist = false)
+        /// <param name="innerCount">Instruments inside it.</param>
+        public RodShape(int elementCount, int innerCount = 0)
         {
             X = new Vector3d[elementCount + 1];
             Q = new Quaterniond[elementCount];
             Array.Fill(Q, Quaterniond.Identity);
-            Twist = hasTwist ? new double[elementCount] : Array.Empty<double>();
+            Twist = innerCount > 0 ? new double[innerCount * elementCount] : Array.Empty<double>();
         }
 
         /// <summary>Positions of the n+1 nodes.</summary>
@@ -22,8 +22,9 @@ namespace Guidewire.Core
         /// <summary>Orientations of the n elements; d3 = q e3 q* points along the element.</summary>
         public Quaterniond[] Q { get; }
 
-        /// <summary>Angle about d3 from each element to the instrument inside it, radians, without limit; none where
-        /// there is one instrument alone.</summary>
+        /// <summary>Angle about d3 from each element to the instrument inside it, radians, without limit, and then,
+        /// where there are two, from each element to the innermost one; none where there is one instrument
+        /// alone.</summary>
         public double[] Twist { get; }
 
         /// <summary>The frame to which the proximal end is clamped, if it is.</summary>
@@ -34,6 +35,9 @@ namespace Guidewire.Core
 
         /// <summary>n.</summary>
         public int ElementCount => Q.Length;
+
+        /// <summary>Angles that each element has.</summary>
+        public int InnerCount => Twist.Length / Q.Length;
 
         /// <summary>Takes over another shape of the same n.</summary>
         public void CopyFrom(RodShape other)

@@ -6,13 +6,13 @@ namespace Guidewire.Core
     /// end.</summary>
     internal sealed class RodSchedule
     {
-        private readonly HubMotion? _inner;
+        private readonly HubMotion[] _inner;
 
         /// <summary>Made of these.</summary>
-        /// <param name="inner">The hub of an instrument inside, or null.</param>
-        public RodSchedule(PrescribedLoads loads, HubMotion hub, DistalMotion distal, HubMotion? inner = null)
+        /// <param name="inner">The hubs of instruments inside; null without one.</param>
+        public RodSchedule(PrescribedLoads loads, HubMotion hub, DistalMotion distal, HubMotion[]? inner = null)
         {
-            _inner = inner;
+            _inner = inner ?? Array.Empty<HubMotion>();
             Loads = loads;
             Hub = hub;
             Distal = distal;
@@ -49,17 +49,34 @@ namespace Guidewire.Core
             return Math.Min(NextJump(time), Loads.NextRow(time));
         }
 
-        /// <summary>How far the hub of an instrument inside moves in a time, s, in m; 0 without one.</summary>
+        /// <summary>How far the hubs of instruments inside move at most in a time, s, in m; 0 without one.</summary>
         public double InnerMove(double duration)
         {
-            return _inner == null ? 0.0 : duration * _inner.Velocity.Length;
+            double largest = 0.0;
+            foreach (HubMotion inner in _inner)
+            {
+                largest = Math.Max(largest, duration * inner.Velocity.Length);
+            }
+            return largest;
         }
 
         /// <summary>Whether all that is prescribed stays as it is from this time to an end, s.</summary>
         public bool IsOver(double time, double end)
         {
             return Distal.IsOver(time) && Loads.AreOver(time, end) && Hub.IsOver(time)
-                && (_inner == null || _inner.IsOver(time));
+                && IsInnerOver(time);
+        }
+
+        private bool IsInnerOver(double time)
+        {
+            foreach (HubMotion inner in _inner)
+            {
+                if (!inner.IsOver(time))
+                {
+                    return false;
+                }
+            }
+            return true;
         }
 
         /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where

@@ -48,13 +48,16 @@ namespace Guidewire.Io
             StressRecord? stress = _parameters.LogStrains ? simulation.Stress() : null;
             ContactRecord? contacts = _parameters.LogContacts ? simulation.Contacts : null;
             HubRecord? hub = _parameters.LogHub || _parameters.Sheath != null ? simulation.Hub() : null;
-            CoaxialRecord? catheter = simulation.Coaxial();
+            IReadOnlyList<CoaxialRecord> catheters = simulation.Catheters();
             int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
             if (_count == 0)
             {
                 Begin(state, first, stress != null);
                 AddHub(hub);
-                AddCatheter(catheter);
+                for (int k = 0; k < catheters.Count; k++)
+                {
+                    AddCatheter(catheters[k], "catheter" + (k == 0 ? "" : (k + 1).ToString()));
+                }
                 AddContacts(state, contacts);
                 WriteHeader();
             }
@@ -85,7 +88,10 @@ namespace Guidewire.Io
                 Put(state.AngularVelocities, 0);
             }
             Put(hub);
-            Put(catheter);
+            foreach (CoaxialRecord catheter in catheters)
+            {
+                Put(catheter);
+            }
             if (contacts != null)
             {
                 Put(contacts.Forces, 0);
@@ -195,24 +201,20 @@ namespace Guidewire.Io
             }
         }
 
-        private void AddCatheter(CoaxialRecord? catheter)
+        private void AddCatheter(CoaxialRecord catheter, string name)
         {
-            if (catheter == null)
-            {
-                return;
-            }
-            Add("catheterPositions", _number, catheter.Positions.Length, 3);
+            Add(name + "Positions", _number, catheter.Positions.Length, 3);
             if (_parameters.LogOrientations)
             {
-                Add("catheterOrientations", _number, catheter.Orientations.Length, 4);
+                Add(name + "Orientations", _number, catheter.Orientations.Length, 4);
             }
-            Add("catheterExtension", _number);
+            Add(name + "Extension", _number);
             if (_parameters.LogHub)
             {
-                Add("catheterInsertion", _number);
-                Add("catheterTurn", _number);
-                Add("catheterForce", _number);
-                Add("catheterTorque", _number);
+                Add(name + "Insertion", _number);
+                Add(name + "Turn", _number);
+                Add(name + "Force", _number);
+                Add(name + "Torque", _number);
             }
         }
 
@@ -355,12 +357,8 @@ namespace Guidewire.Io
             }
         }
 
-        private void Put(CoaxialRecord? catheter)
+        private void Put(CoaxialRecord catheter)
         {
-            if (catheter == null)
-            {
-                return;
-            }
             Put(catheter.Positions, 0);
             if (_parameters.LogOrientations)
             {

@@ -83,7 +83,7 @@ namespace Guidewire.Io
             }
             if (simulation.Coaxial() is CoaxialRecord catheter)
             {
-                AppendCatheter(catheter);
+                AppendCatheters(catheter);
             }
             if (_parameters.LogContacts && simulation.Contacts != null)
             {
@@ -166,9 +166,18 @@ namespace Guidewire.Io
             Append("}");
         }
 
-        private void AppendCatheter(CoaxialRecord catheter)
+        private void AppendCatheters(CoaxialRecord outermost)
         {
             Append(", \"catheters\": [{");
+            for (CoaxialRecord? one = outermost; one != null; one = one.Inside)
+            {
+                AppendCatheter(one);
+                Append(one.Inside == null ? "}]" : "}, {");
+            }
+        }
+
+        private void AppendCatheter(CoaxialRecord catheter)
+        {
             Append("\"sphere\": ", catheter.Positions);
             if (_parameters.LogOrientations)
             {
@@ -192,7 +201,6 @@ namespace Guidewire.Io
                 Append(", \"force\": ", catheter.Force);
                 Append(", \"torque\": ", catheter.Torque);
             }
-            Append("}]");
         }
 
         private void Append(string name, Vector3d[] values)

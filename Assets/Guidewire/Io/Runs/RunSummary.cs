@@ -76,12 +76,17 @@ namespace Guidewire.Io
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
-            if (simulation.Coaxial() is CoaxialRecord catheter)
+            IReadOnlyList<CoaxialRecord> catheters = simulation.Catheters();
+            if (catheters.Count > 0)
             {
-                json.Property("hub")!.AddAfterSelf(new JProperty("hubs", new JArray(
-                    HubTravel(catheter.WireAsked, catheter.WireGone, catheter.WireShortfall),
-                    HubTravel(catheter.Asked, catheter.Gone, catheter.Shortfall))));
-                json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(Catheter(catheter))));
+                CoaxialRecord first = catheters[0];
+                var hubs = new JArray(HubTravel(first.WireAsked, first.WireGone, first.WireShortfall));
+                foreach (CoaxialRecord one in catheters)
+                {
+                    hubs.Add(HubTravel(one.Asked, one.Gone, one.Shortfall));
+                }
+                json.Property("hub")!.AddAfterSelf(new JProperty("hubs", hubs));
+                json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(catheters.Select(Catheter))));
             }
             if (target != null)
             {

@@ -2,15 +2,14 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Bending and twist of an instrument with another one inside it: the joints of
+    /// <summary>Bending and twist of an instrument with one or two others inside it: the joints of
     /// <see cref="CoaxialJoints"/>, each with the energy of <see cref="CoaxialJoint"/>.</summary>
     /// <remarks>Unknown are the frames q_j of the outermost instrument and, where another is inside, its angle z_j. A
-    /// joint between elements a and b has phi = log(conj(q_a) q_b), t = (1 - w) z_a + w z_b and delta = z_b - z_a; at
-    /// the outer tip phi = log(conj(q_a R(z_a)) q_b) and t = z_a, for the inner frame goes on. At fixed t and delta a
-    /// joint is one of <see cref="RotationVectorLaw"/> with the rest f(t); with h = d2E/(dphi dz) and dphi = T
-    /// dtheta_b - T^T dtheta_a the angle meets the rotations by T^T h and -T h. At the tip dz also turns the frame a,
-    /// as e3 dz does: with C, F, g of that frame, R the rotation by z, the angle meets theta_a by R (C e3 + 1/2 e3 x g
-    /// - T h) and theta_b by F e3 + T^T h.</remarks>
+    /// joint between elements a and b has phi = log(conj(q_a) q_b), and of each instrument inside t = (1 - w) z_a + w
+    /// z_b and delta = z_b - z_a; at the tip of the outermost one phi = log(conj(q_a R(z_c)) q_b), z_c the angle of the
+    /// instrument that goes on, and all other angles before it are counted from that one. At fixed t and delta a joint
+    /// is one of <see cref="RotationVectorLaw"/> with the rest f(t); the derivatives by angles are those of
+    /// <see cref="CoaxialTwistRows"/>.</remarks>
     internal sealed class CoaxialBendTwist : BendTwistTerm
     {
         private const double Difference = 1e-4;   // of an element, between two energies whose difference is a force
@@ -18,68 +17,103 @@ namespace Guidewire.Core
 
         private readonly CoaxialRod _rod;
         private readonly CoaxialJoints _joints;
-        private readonly TwistRow[] _row;
+        private readonly CoaxialTwistRows _rows;
         private readonly RotationVectorLaw _law;
-        private double _startLead;     // m
-        private bool _isStiffened;
-        private RodBlock _clampBlock;  // what falls on the hub's frame, which does not move
+        private readonly bool _hasSecond;      // three instruments
+        private readonly double[] _startLead;  // m
+        private readonly double[] _lead;
+        private RodBlock _clampBlock;          // what falls on the hub's frame, which does not move
         private RodVector _clampVector;
-        private TwistRow _clampRow;
 
         /// <summary>The energy of the joints of a rod, clamped at the hub and free at the tip.</summary>
         public CoaxialBendTwist(CoaxialRod rod)
         {
             _rod = rod;
             _joints = rod.Joints;
-            _row = new TwistRow[_joints.ElementCount + 1];
+            _rows = new CoaxialTwistRows(_joints);
             _law = default;
+            _hasSecond = _joints.InnerCount > 1;
+            _startLead = new double[_joints.Count];
+            _lead = new double[_joints.Count];
+            HubTwist = new double[_joints.Count];
         }
 
-        /// <summary>How far the inner hub is behind the outer one, m.</summary>
-        public double Lead => _joints.Lead;
+        /// <summary>The joints.</summary>
+        public CoaxialJoints Joints => _joints;
 
-        /// <summary>Positions of the chain's nodes along it, m.</summary>
-        public double[] Stations => _joints.Stations;
-
-        /// <summary>How far the inner instrument has slid out of the outer one since the step's start, m.</summary>
-        public double Slide => _startLead - _joints.Lead;
-
-        /// <summary>Angle from the outer hub to the inner one, radians, without limit.</summary>
-        public double HubTwist { get; set; }
-
-        /// <summary>Force of the inner hub on its instrument along the axis, N: dE/dp, of this energy and that of the
-        /// element at the outer tip. Negative where the instrument is driven out.</summary>
-        public double InnerForce(RodShape shape, StretchEnergy stretch)
+        /// <summary>How far an inner instrument has slid out of the outermost one since the step's start, m.</summary>
+        public double SlideOf(int instrument)
         {
-            return Released(shape, stretch, Difference * _rod.Rod.Length[0], 0.0);
+            return _startLead[instrument] - _joints.LeadOf(instrument);
+        }
+
+        /// <summary>Angle from the outermost hub to each, radians, without limit; 0 of the first.</summary>
+        public double[] HubTwist { get; }
+
+        /// <summary>Force of an inner hub on its instrument along the axis, N: dE/dp, of this energy and those of the
+        /// elements at the tips around it. Negative where the instrument is driven out.</summary>
+        public double InnerForce(RodShape shape, StretchEnergy stretch, int instrument = 1)
+        {
+            return Released(shape, stretch, instrument, Difference * _rod.Rod.Length[0], 0.0);
         }
 
         /// <summary>What the outer hub has of the force along the axis besides that on its node, N: with -dE/dD, D the
         /// length in the sheath, a bent instrument is driven out.</summary>
         public double SheathForce(RodShape shape, StretchEnergy stretch)
         {
-            return _joints.Sheathed == 0.0 ? 0.0 : Released(shape, stretch, 0.0, Difference * _rod.Rod.Length[0]);
+            return _joints.Sheathed == 0.0 ? 0.0 : Released(shape, stretch, 1, 0.0, Difference * _rod.Rod.Length[0]);
         }
 
         /// <summary>Where the two hubs are in time; null where they are set by hand.</summary>
         public CoaxialHubs? Hubs { get; set; }
 
-        /// <summary>Torque of the inner hub on its instrument, N m: dE/dz of the hub.</summary>
-        public double InnerTorque(RodShape shape)
+        /// <summary>Torque of an inner hub on its instrument, N m: dE/dz of the hub.</summary>
+        public double InnerTorque(RodShape shape, int instrument = 1)
         {
-            Evaluate(shape, 0, out State s);
-            return (1.0 - _joints[0].Weight) * s.Slope - s.InnerCouple;
+            Evaluate(shape, 0, out CoaxialJointState s);
+            return instrument == 1 ? (1.0 - _joints[0].First.Weight) * s.First.Slope - s.First.Couple
+                : (1.0 - _joints[0].Second.Weight) * s.Second.Slope - s.Second.Couple;
+        }
+
+        /// <summary>By how much the innermost instrument's own angle from its hub to the end of the elements around it
+        /// is more than theirs, rad.</summary>
+        public double InnermostTwist(RodShape shape)
+        {
+            int wire = _joints.InnerCount;
+            int first = (wire - 1) * shape.ElementCount;
+            int active = _joints.ActiveCountOf(wire);
+            int last = Math.Max(Math.Min(active, _joints.OuterCount) - 1, 0);
+            double twist = shape.Twist[first + last] - HubTwist[wire];
+            return active <= _joints.OuterCount ? twist
+                : twist + shape.Twist[first + active - 1] - AngleAt(shape, _joints.OuterCount - 1, wire, 1);
         }
 
         /// <summary>Gives angles that are not unknown the values with which they would come in: those that twist
         /// nothing.</summary>
         public void SetIdleTwists(RodShape shape)
         {
-            for (int j = Math.Max(_joints.ActiveCount, 1); j < shape.Twist.Length; j++)
+            for (int i = 1; i < _joints.Count; i++)
             {
-                shape.Twist[j] = j < _joints.OuterCount ? shape.Twist[j - 1] + _joints[j].InnerRestTwist
-                    - _law.Measure(Relative(shape, j)).Z : 0.0;
+                int first = (i - 1) * shape.ElementCount;
+                for (int j = Math.Max(_joints.ActiveCountOf(i), 1); j < shape.ElementCount; j++)
+                {
+                    int frame = _joints.CarrierOf(j);
+                    double rest = i == 2 || frame == 2 ? _joints[j].Second.RestTwist : _joints[j].First.RestTwist;
+                    shape.Twist[first + j] = frame < i ? AngleAt(shape, j - 1, i, frame) + rest
+                        - _law.Measure(Relative(shape, j)).Z : 0.0;
+                }
             }
+        }
+
+        /// <summary>Angle of an instrument from the frame of another one on an element, radians.</summary>
+        /// <param name="element">-1: at the hubs.</param>
+        public double AngleAt(RodShape shape, int element, int instrument, int frame)
+        {
+            if (element < 0)
+            {
+                return HubTwist[instrument] - HubTwist[frame];
+            }
+            return CoaxialShape.Angle(shape, shape.Twist, _joints, element, instrument, frame);
         }
 
         /// <inheritdoc/>
@@ -87,12 +121,17 @@ namespace Guidewire.Core
         {
             if (Hubs != null)
             {
-                double lead = Hubs.LeadAt(time);
-                HubTwist = Hubs.TwistAt(time);
                 double sheathed = Hubs.SheathedAt(time);
-                if (lead != _joints.Lead || sheathed != _joints.Sheathed)
+                bool isOther = sheathed != _joints.Sheathed;
+                for (int i = 1; i < _lead.Length; i++)
                 {
-                    _rod.SetHubs(lead, sheathed);
+                    _lead[i] = Hubs.LeadAt(i, time);
+                    HubTwist[i] = Hubs.TwistAt(i, time);
+                    isOther |= _lead[i] != _joints.LeadOf(i);
+                }
+                if (isOther)
+                {
+                    _rod.SetHubs(_lead, sheathed);
                 }
             }
         }
@@ -100,7 +139,10 @@ namespace Guidewire.Core
         /// <summary>A step begins at a time, s.</summary>
         public void BeginSlide(double time)
         {
-            _startLead = Hubs == null ? _joints.Lead : Hubs.LeadAt(time);
+            for (int i = 1; i < _startLead.Length; i++)
+            {
+                _startLead[i] = Hubs == null ? _joints.LeadOf(i) : Hubs.LeadAt(i, time);
+            }
         }
 
         /// <inheritdoc/>
@@ -112,7 +154,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Stiffen(bool isOn)
         {
-            _isStiffened = isOn;
+            _rows.IsStiffened = isOn;
         }
 
         /// <inheritdoc/>
@@ -121,12 +163,12 @@ namespace Guidewire.Core
             double sum = _joints.HeldInLead;
             for (int k = 0; k < _joints.ElementCount; k++)
             {
-                Evaluate(shape, k, out State s);
+                Evaluate(shape, k, out CoaxialJointState s);
                 sum += _law.Value(s.Joint, s.Relative) + s.Held;
             }
-            if (HasEnd)
+            if (_joints.HasLast)
             {
-                sum += _joints.End.HeldAt(shape.Twist[_joints.ElementCount - 1], out _, out _);
+                sum += LastAt(shape, out _, out _, out _);
             }
             return sum;
         }
@@ -136,26 +178,24 @@ namespace Guidewire.Core
             ref GradientMeasures measured)
         {
             int n = _joints.ElementCount;
-            int twist = n + 2;
             for (int k = FirstJoint(from); k < EndJoint(to); k++)
             {
-                Evaluate(shape, k, out State s);
+                Evaluate(shape, k, out CoaxialJointState s);
                 if (_joints.IsTip(k))
                 {
                     RodVector a = default;
                     _law.AddGradient(s.Joint, s.Relative, ref a, ref gradient[k]);
-                    TurnedFrame.Add(ref gradient[k - 1], s.Before, a);
-                    gradient[twist + k - 1].T3 += s.Slope + a.T3;
+                    TurnedFrame.Add(ref gradient[k - 1], s.FrameBefore, a);
+                    _rows.AddTipGradient(gradient, k, s, a.T3);
                     continue;
                 }
                 _law.AddGradient(s.Joint, s.Relative, ref k == 0 ? ref _clampVector : ref gradient[k - 1],
                     ref gradient[k]);
-                AddTwist(gradient, k, s);
+                _rows.AddGradient(gradient, k, s);
             }
-            if (to >= n && from < n && HasEnd)
+            if (to >= n && from < n && _joints.HasLast)
             {
-                _joints.End.HeldAt(shape.Twist[n - 1], out double slope, out _);
-                gradient[twist + n - 1].T3 += slope;
+                AddLast(shape, gradient);
             }
         }
 
@@ -165,40 +205,48 @@ namespace Guidewire.Core
             int n = _joints.ElementCount;
             if (from == 0)
             {
-                Array.Clear(_row, 0, _row.Length);
+                Array.Clear(_rows.Rows, 0, _rows.Rows.Length);
             }
             for (int k = FirstJoint(from); k < EndJoint(to); k++)
             {
-                Evaluate(shape, k, out State s);
+                Evaluate(shape, k, out CoaxialJointState s);
                 if (_joints.IsTip(k))
                 {
-                    AddTipBlocks(s, ref gradient[k - 1], ref gradient[k], ref blocks[k - 1], ref blocks[k],
-                        ref _row[k - 1], ref gradient[n + 1 + k]);
+                    RodVector a = default;
+                    RodBlock own = default;
+                    AddJoint(s, ref a, ref gradient[k], ref own, ref blocks[k]);
+                    TurnedFrame.Add(ref gradient[k - 1], s.FrameBefore, a);
+                    _rows.AddTipGradient(gradient, k, s, a.T3);
+                    _rows.AddTip(k, s, own, a);
+                    TurnedFrame.Add(ref blocks[k - 1], own, Math.Cos(s.FrameBefore), Math.Sin(s.FrameBefore));
                     continue;
                 }
                 _clampBlock = default;
                 AddJoint(s, ref k == 0 ? ref _clampVector : ref gradient[k - 1], ref gradient[k],
                     ref k == 0 ? ref _clampBlock : ref blocks[k - 1], ref blocks[k]);
-                AddTwist(gradient, k, s);
+                _rows.AddGradient(gradient, k, s);
                 if (k < _joints.ActiveCount || (k > 0 && k - 1 < _joints.ActiveCount))
                 {
-                    AddTwistRow(ref k == 0 ? ref _clampRow : ref _row[k - 1], ref _row[k], s, _joints[k]);
+                    _rows.Add(k, s);
                 }
             }
-            if (to >= n && from < n && HasEnd)
+            if (to >= n && from < n && _joints.HasLast)
             {
-                _joints.End.HeldAt(shape.Twist[n - 1], out double slope, out double second);
-                gradient[n + 2 + n - 1].T3 += slope;
-                _row[n - 1].Diagonal += Kept(second);
+                _rows.AddLast(AddLast(shape, gradient));
             }
         }
 
         /// <inheritdoc/>
         public override void AddTwistRows(RodShape shape, TwistRow[] rows, int from, int to)
         {
+            int second = _hasSecond ? _joints.ElementCount + 1 : 0;
             for (int j = from; j < to; j++)
             {
-                rows[j].Add(_row[j]);
+                rows[j].Add(_rows.Rows[j]);
+                if (_hasSecond)
+                {
+                    rows[second + j].Add(_rows.Rows[second + j]);
+                }
             }
         }
 
@@ -208,8 +256,8 @@ namespace Guidewire.Core
             Quaterniond frame = shape.ProximalFrame;
             for (int k = 0; k < _joints.ElementCount; k++)
             {
-                Evaluate(shape, k, out State s);
-                Quaterniond before = _joints.IsTip(k) ? frame * Turned(s.Before) : frame;
+                Evaluate(shape, k, out CoaxialJointState s);
+                Quaterniond before = _joints.IsTip(k) ? frame * Turned(s.FrameBefore) : frame;
                 frame = Quaterniond.Normalize(before * _law.AtRest(s.Joint));
                 shape.Q[k] = frame;
             }
@@ -245,7 +293,7 @@ namespace Guidewire.Core
             {
                 return Vector3d.Zero;
             }
-            Evaluate(shape, k, out State s);
+            Evaluate(shape, k, out CoaxialJointState s);
             RodVector before = default;
             RodVector after = default;
             _law.AddGradient(s.Joint, s.Relative, ref before, ref after);
@@ -274,7 +322,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override Vector3d ProximalCouple(RodShape shape)
         {
-            Evaluate(shape, 0, out State s);
+            Evaluate(shape, 0, out CoaxialJointState s);
             RodVector onFrame = default;
             RodVector onElement = default;
             _law.AddGradient(s.Joint, s.Relative, ref onFrame, ref onElement);
@@ -287,20 +335,25 @@ namespace Guidewire.Core
             return Vector3d.Zero;
         }
 
-        // Of energy, by lead and length in the sheath that are less by these, m: a centred difference, N.
-        private double Released(RodShape shape, StretchEnergy stretch, double lead, double sheathed)
+        // A centred difference of energy, N, by a lead and the length in the sheath that are less by these, m.
+        private double Released(RodShape shape, StretchEnergy stretch, int instrument, double lead, double sheathed)
         {
             SetIdleTwists(shape);
-            (double from, double inside) = (_joints.Lead, _joints.Sheathed);
-            _rod.SetHubs(from - lead, inside - sheathed);
+            for (int i = 1; i < _lead.Length; i++)
+            {
+                _lead[i] = _joints.LeadOf(i);
+            }
+            (double from, double inside) = (_lead[instrument], _joints.Sheathed);
+            _lead[instrument] = from - lead;
+            _rod.SetHubs(_lead, inside - sheathed);
             double less = Value(shape) + stretch.Value(shape);
-            _rod.SetHubs(from + lead, inside + sheathed);
+            _lead[instrument] = from + lead;
+            _rod.SetHubs(_lead, inside + sheathed);
             double more = Value(shape) + stretch.Value(shape);
-            _rod.SetHubs(from, inside);
+            _lead[instrument] = from;
+            _rod.SetHubs(_lead, inside);
             return 0.5 * (less - more) / (lead + sheathed);
         }
-
-        private bool HasEnd => _joints.Beyond == 0 && _joints.ActiveCount == _joints.ElementCount;
 
         // Joint k stands between elements k - 1 and k: a range has those after its elements, the first that at the hub.
         private static int FirstJoint(int from)
@@ -318,7 +371,7 @@ namespace Guidewire.Core
             Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
             if (_joints.IsTip(k))
             {
-                a *= Turned(shape.Twist[k - 1]);
+                a *= Turned(AngleAt(shape, k - 1, _joints.CarrierOf(k), _joints.CarrierOf(k - 1)));
             }
             return a.Conjugate * shape.Q[k];
         }
@@ -328,93 +381,62 @@ namespace Guidewire.Core
             return Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
         }
 
-        private void Evaluate(RodShape shape, int k, out State s)
+        private void Evaluate(RodShape shape, int k, out CoaxialJointState s)
         {
-            ref readonly CoaxialJoint joint = ref _joints[k];
             s = default;
+            int frame = _joints.CarrierOf(k);
+            if (frame == 0 && !_hasSecond)
+            {
+                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+                s.Relative = a.Conjugate * shape.Q[k];
+                s.First.Before = k == 0 ? HubTwist[1] : shape.Twist[k - 1];
+                s.First.After = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
+                s.Set(_joints[k], _law, false);
+                return;
+            }
             s.Relative = Relative(shape, k);
-            bool isTip = _joints.IsTip(k);
-            s.Before = k == 0 ? HubTwist : shape.Twist[k - 1];
-            double after = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
-            double t = isTip ? s.Before : (1.0 - joint.Weight) * s.Before + joint.Weight * after;
-            joint.RestAt(t, isTip ? -1.0 : 1.0, out Vector3d rest, out Vector3d slope);
-            s.Held = joint.HeldAt(t, out s.Slope, out s.Second);
-            s.Joint.Bend1 = 1.0 / joint.Compliance1;
-            s.Joint.Bend2 = 1.0 / joint.Compliance2;
-            s.Mixed = new Vector3d(-s.Joint.Bend1 * slope.X, -s.Joint.Bend2 * slope.Y, 0.0);
-            Vector3d turn = _law.Measure(s.Relative);
-            double first = s.Joint.Bend1 * (turn.X - rest.X);
-            double second = s.Joint.Bend2 * (turn.Y - rest.Y);
-            s.Slope -= first * slope.X + second * slope.Y;
-            // f'' is minus the part of f that turns.
-            s.Second += s.Joint.Bend1 * slope.X * slope.X + s.Joint.Bend2 * slope.Y * slope.Y
-                + first * (rest.X - joint.FixedX) + second * (rest.Y - joint.FixedY);
-            s.Joint.Twist = joint.Twist + joint.InnerTwist;
-            double restTwist = joint.RestTwist;
-            if (joint.InnerTwist > 0.0)
+            int before = k == 0 ? 0 : _joints.CarrierOf(k - 1);
+            s.FrameBefore = frame == before ? 0.0 : AngleAt(shape, k - 1, frame, before);
+            SetAngles(shape, k, before, frame, frame == 0 ? 1 : 0, ref s.First, s.FrameBefore);
+            if (_hasSecond)
             {
-                // Two springs about one axis: one about their mean, and what they hold against one another.
-                double inner = joint.InnerRestTwist - (after - s.Before);
-                double fraction = joint.InnerTwist / s.Joint.Twist;
-                double apart = inner - restTwist;
-                restTwist += fraction * apart;
-                s.Held += 0.5 * joint.Twist * fraction * apart * apart;
-                s.InnerCouple = joint.InnerTwist * (turn.Z - inner);
+                SetAngles(shape, k, before, frame, frame == 2 ? 1 : 2, ref s.Second, s.FrameBefore);
             }
-            s.Joint.Rest = new Vector3d(rest.X, rest.Y, restTwist);
-            s.Turn = turn;
+            s.Set(_joints[k], _law, _hasSecond);
         }
 
-        // What a joint's energy says of the angles on both its sides.
-        private void AddTwist(RodVector[] gradient, int k, in State s)
+        private void SetAngles(RodShape shape, int k, int carrier, int frame, int instrument,
+            ref CoaxialPartState part, double frameBefore)
         {
-            int at = _joints.ElementCount + 2 + k;
-            double weight = _joints[k].Weight;
-            if (k > 0)
-            {
-                gradient[at - 1].T3 += (1.0 - weight) * s.Slope - s.InnerCouple;
-            }
-            gradient[at].T3 += weight * s.Slope + s.InnerCouple;
+            part.Before = k == 0 ? HubTwist[instrument]
+                : (instrument > carrier ? shape.Twist[(instrument - 1) * shape.ElementCount + k - 1] : 0.0)
+                    - frameBefore;
+            part.After = instrument > frame && k < _joints.ActiveCountOf(instrument)
+                ? shape.Twist[(instrument - 1) * shape.ElementCount + k] : 0.0;
         }
 
-        private void AddTwistRow(ref TwistRow row, ref TwistRow next, in State s, in CoaxialJoint joint)
+        // Of the last half element, by both angles.
+        private double LastAt(RodShape shape, out AngleSeconds seconds, out double first, out double second)
         {
-            double w = joint.Weight;
-            double second = Kept(s.Second);
-            double stiffness = joint.InnerTwist;
-            row.Diagonal += (1.0 - w) * (1.0 - w) * second + stiffness;
-            next.Diagonal += w * w * second + stiffness;
-            row.NextTwist += w * (1.0 - w) * second - stiffness;
-            Vector3d before = (1.0 - w) * s.Mixed - stiffness * Vector3d.UnitZ;
-            Vector3d after = w * s.Mixed + stiffness * Vector3d.UnitZ;
-            row.Turn -= TurnedFrame.TimesT(s.Turn, before, 0.5);
-            row.NextTurn += TurnedFrame.TimesT(s.Turn, before, -0.5);
-            row.TurnOfNext -= TurnedFrame.TimesT(s.Turn, after, 0.5);
-            next.Turn += TurnedFrame.TimesT(s.Turn, after, -0.5);
+            int last = _joints.ElementCount - 1;
+            int frame = _joints.CarrierOf(last);
+            return _joints.Last.HeldAt(frame == 0 ? shape.Twist[last] : 0.0,
+                _hasSecond ? shape.Twist[shape.ElementCount + last] : 0.0, out seconds, out first, out second);
         }
 
-        private void AddTipBlocks(in State s, ref RodVector a, ref RodVector b, ref RodBlock blockA,
-            ref RodBlock blockB, ref TwistRow row, ref RodVector twist)
+        private AngleSeconds AddLast(RodShape shape, RodVector[] gradient)
         {
-            RodVector g = default;
-            RodBlock own = default;
-            AddJoint(s, ref g, ref b, ref own, ref blockB);
-            TurnedFrame.Add(ref a, s.Before, g);
-            twist.T3 += s.Slope + g.T3;
-            Vector3d mixed = TurnedFrame.TimesT(s.Turn, s.Mixed, 0.5);
-            double half = _isStiffened ? 0.0 : 0.5;
-            Vector3d turn = new Vector3d(own.C31 - half * g.T2, own.C32 + half * g.T1, own.C33) - mixed;
-            double c = Math.Cos(s.Before);
-            double si = Math.Sin(s.Before);
-            row.Turn += new Vector3d(c * turn.X - si * turn.Y, si * turn.X + c * turn.Y, turn.Z);
-            row.NextTurn += new Vector3d(own.F13, own.F23, own.F33) + TurnedFrame.TimesT(s.Turn, s.Mixed, -0.5);
-            row.Diagonal += Kept(s.Second) + own.C33 - 2.0 * mixed.Z;
-            TurnedFrame.Add(ref blockA, own, c, si);
+            int n = _joints.ElementCount;
+            LastAt(shape, out AngleSeconds seconds, out double first, out double second);
+            gradient[n + 2 + n - 1].T3 += first;
+            gradient[n + 2 + n - 1].T2 += second;
+            return seconds;
         }
 
-        private void AddJoint(in State s, ref RodVector a, ref RodVector b, ref RodBlock blockA, ref RodBlock blockB)
+        private void AddJoint(in CoaxialJointState s, ref RodVector a, ref RodVector b, ref RodBlock blockA,
+            ref RodBlock blockB)
         {
-            if (!_isStiffened)
+            if (!_rows.IsStiffened)
             {
                 _law.AddBlocks(s.Joint, s.Relative, ref a, ref b, ref blockA, ref blockB);
                 return;
@@ -423,25 +445,6 @@ namespace Guidewire.Core
             resting.Rest = s.Turn;
             _law.AddBlocks(resting, s.Relative, ref a, ref b, ref blockA, ref blockB);
             _law.AddGradient(s.Joint, s.Relative, ref a, ref b);
-        }
-
-        private double Kept(double second)
-        {
-            return _isStiffened ? Math.Max(second, 0.0) : second;
-        }
-
-        // A joint in a shape.
-        private struct State
-        {
-            public Quaterniond Relative;
-            public Vector3d Turn;        // phi
-            public Joint Joint;          // as it is at its angles
-            public double Before;        // z_a
-            public double Held;          // energy that does not go with phi, J
-            public double Slope;         // dE/dt
-            public double Second;        // d2E/dt2
-            public double InnerCouple;   // dE/ddelta
-            public Vector3d Mixed;       // d2E/(dphi dt)
         }
     }
 }

@@ -2,45 +2,68 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The hubs of two coaxial instruments, which move along one axis.</summary>
+    /// <summary>The hubs of coaxial instruments, which move along one axis.</summary>
     internal sealed class CoaxialHubs
     {
         private readonly Vector3d _axis;
         private readonly SheathEnd? _sheath;
+        private readonly HubMotion[] _hub;
 
-        /// <summary>These two.</summary>
+        /// <summary>These.</summary>
+        /// <param name="hubs">That of the outermost instrument first.</param>
         /// <param name="axis">A unit vector.</param>
         /// <param name="sheath">In which they are, or null.</param>
-        public CoaxialHubs(HubMotion outer, HubMotion inner, in Vector3d axis, SheathEnd? sheath)
+        public CoaxialHubs(HubMotion[] hubs, in Vector3d axis, SheathEnd? sheath)
         {
+            _hub = hubs;
             _sheath = sheath;
-            Outer = outer;
-            Inner = inner;
             _axis = axis;
+            Inner = new HubMotion[hubs.Length - 1];
+            Array.Copy(hubs, 1, Inner, 0, Inner.Length);
         }
 
-        /// <summary>That of the outer instrument.</summary>
-        public HubMotion Outer { get; }
+        /// <summary>How many there are.</summary>
+        public int Count => _hub.Length;
 
-        /// <summary>That of the inner one.</summary>
-        public HubMotion Inner { get; }
+        /// <summary>That of the outermost instrument.</summary>
+        public HubMotion Outer => _hub[0];
 
-        /// <summary>How far the inner one is behind the outer one at a time, m.</summary>
-        public double LeadAt(double time)
+        /// <summary>Those of the others.</summary>
+        public HubMotion[] Inner { get; }
+
+        /// <summary>How far one is behind the outermost one at a time, m.</summary>
+        public double LeadAt(int instrument, double time)
         {
-            return Vector3d.Dot(Outer.PositionAt(time) - Inner.PositionAt(time), _axis);
+            return Vector3d.Dot(_hub[0].PositionAt(time) - _hub[instrument].PositionAt(time), _axis);
         }
 
-        /// <summary>How far the outer one is from the exit of a sheath at a time, m; 0 without one.</summary>
+        /// <summary>How far all are behind the outermost one at a time, m.</summary>
+        public double[] LeadsAt(double time)
+        {
+            var leads = new double[_hub.Length];
+            for (int i = 1; i < leads.Length; i++)
+            {
+                leads[i] = LeadAt(i, time);
+            }
+            return leads;
+        }
+
+        /// <summary>How fast one goes along the axis against another one, m/s.</summary>
+        public double SlideOf(int instrument, int other)
+        {
+            return Vector3d.Dot(_hub[instrument].Velocity - _hub[other].Velocity, _axis);
+        }
+
+        /// <summary>How far the outermost one is from the exit of a sheath at a time, m; 0 without one.</summary>
         public double SheathedAt(double time)
         {
             return _sheath == null ? 0.0 : Math.Max(0.0, -_sheath.Outside(Outer.PositionAt(time)));
         }
 
-        /// <summary>How far the inner one is turned against the outer one, radians.</summary>
-        public double TwistAt(double time)
+        /// <summary>How far one is turned against the outermost one, radians.</summary>
+        public double TwistAt(int instrument, double time)
         {
-            return Inner.TurnAt(time) - Outer.TurnAt(time);
+            return _hub[instrument].TurnAt(time) - _hub[0].TurnAt(time);
         }
     }
 }

@@ -2,15 +2,17 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A joint of one or two instruments: its pieces in series. With phi its rotation vector, t the mean twist
-    /// angle of the inner instrument at the pieces that both share, delta the difference of the angles,
-    ///   E = 1/2 sum_i (phi_i - f_i)^2/A_i + e - C cos t - S sin t + 1/2 K (phi_3 - r)^2
-    ///       + 1/2 K' (phi_3 + delta - r')^2,    f = F + R(t) F'.</summary>
+    /// <summary>A joint of up to three instruments: its pieces in series. With phi its rotation vector, t the mean
+    /// twist angle of another instrument than the one on whose frame the joint stands, at the pieces where it is, delta
+    /// the difference of its angles,
+    ///   E = 1/2 sum_i (phi_i - f_i)^2/A_i + e - sum (C cos t + S sin t) - C'' cos u - S'' sin u
+    ///       + 1/2 K (phi_3 - r)^2 + sum 1/2 K' (phi_3 + delta - r')^2,    f = F + sum R(t) F',
+    /// u the second angle less the first.</summary>
     /// <remarks>A_i = sum lambda/B, lambda the integral of the joint's hat function over a piece, B the sum of the
-    /// bending stiffnesses of the instruments there; F and F' are the sums of lambda B_o kappa_o/B and lambda B_i
-    /// kappa_i/B; and two instruments of different curvature hold the energy 1/2 lambda B_o B_i/B |kappa_o - R(t)
-    /// kappa_i|^2 however they are bent (Rucker, Jones and Webster 2010, equations 8 and 9, as an energy). At the tip
-    /// of the outer one the joint stands on the inner one's frame, and F' is the outer one's: it turns by -t.</remarks>
+    /// bending stiffnesses of the instruments there; F and F' are the sums of lambda B_i kappa_i/B; and each two
+    /// instruments of different curvature hold the energy 1/2 lambda B_i B_k/B |kappa_i - R kappa_k|^2 however they are
+    /// bent, R from one's frame to the other's (Rucker, Jones and Webster 2010, equations 8 and 9, as an energy). The
+    /// frame is that of the outermost instrument after the joint: at the tip of one, that one is another.</remarks>
     internal struct CoaxialJoint
     {
         private const double Retained = 1e-8;   // of the compliance of a piece in a sheath
@@ -18,15 +20,13 @@ namespace Guidewire.Core
         public double Compliance1;   // A_1, 1/(N m)
         public double Compliance2;
         public double FixedX, FixedY;     // F, rad
-        public double TurnedX, TurnedY;   // F', rad
         public double Held;          // e, J
-        public double Cosine;        // C, J
-        public double Sine;          // S, J
         public double Twist;         // K, N m: of the instrument whose frame it is
         public double RestTwist;     // r, rad
-        public double InnerTwist;    // K', N m
-        public double InnerRestTwist;
-        public double Weight;        // of the angle after the joint in t; the rest is that before it
+        public CoaxialPart First;    // of the others the outer one
+        public CoaxialPart Second;   // and the inner one
+        public double PairCosine;    // C'', J
+        public double PairSine;      // S''
 
         /// <summary>Adds a piece of one instrument.</summary>
         /// <param name="lambda">m.</param>
@@ -38,26 +38,48 @@ namespace Guidewire.Core
             FixedY += lambda * piece.RestCurvature.Y;
         }
 
-        /// <summary>Adds a piece of both.</summary>
-        /// <param name="isTip">Whether the joint stands on the inner one's frame.</param>
-        public void AddShared(double lambda, in CrossSection outer, in CrossSection inner, bool isTip)
+        /// <summary>Adds a piece of two instruments.</summary>
+        /// <param name="joint">To which.</param>
+        /// <param name="part">Of the joint: the one on whose frame it does not stand.</param>
+        /// <param name="isInner">Whether it stands on the inner one's.</param>
+        public static void AddShared(ref CoaxialJoint joint, ref CoaxialPart part, double lambda,
+            in CrossSection outer, in CrossSection inner, bool isInner)
         {
             double sum = outer.BendStiffness1 + inner.BendStiffness1;
             double reduced = lambda * outer.BendStiffness1 * inner.BendStiffness1 / sum;
             Vector3d a = outer.RestCurvature;
             Vector3d b = inner.RestCurvature;
-            Compliance1 += lambda / sum;
-            Compliance2 += lambda / sum;
-            Held += 0.5 * reduced * (a.X * a.X + a.Y * a.Y + b.X * b.X + b.Y * b.Y);
-            Cosine += reduced * (a.X * b.X + a.Y * b.Y);
-            Sine += reduced * (a.Y * b.X - a.X * b.Y);
+            joint.Compliance1 += lambda / sum;
+            joint.Compliance2 += lambda / sum;
+            joint.Held += 0.5 * reduced * (a.X * a.X + a.Y * a.Y + b.X * b.X + b.Y * b.Y);
+            double sine = reduced * (a.Y * b.X - a.X * b.Y);
+            part.Cosine += reduced * (a.X * b.X + a.Y * b.Y);
+            part.Sine += isInner ? -sine : sine;
             double fraction = lambda * outer.BendStiffness1 / sum;
             Vector3d own = fraction * a;
             Vector3d other = (lambda - fraction) * b;
-            FixedX += isTip ? other.X : own.X;
-            FixedY += isTip ? other.Y : own.Y;
-            TurnedX += isTip ? own.X : other.X;
-            TurnedY += isTip ? own.Y : other.Y;
+            joint.FixedX += isInner ? other.X : own.X;
+            joint.FixedY += isInner ? other.Y : own.Y;
+            part.TurnedX += isInner ? own.X : other.X;
+            part.TurnedY += isInner ? own.Y : other.Y;
+        }
+
+        /// <summary>Adds a piece of all three.</summary>
+        /// <param name="frame">The instrument on whose frame the joint stands.</param>
+        /// <param name="first">The outer one of the others.</param>
+        /// <param name="second">The inner one.</param>
+        public void AddThree(double lambda, in CrossSection frame, in CrossSection first, in CrossSection second)
+        {
+            double sum = frame.BendStiffness1 + first.BendStiffness1 + second.BendStiffness1;
+            double perSum = lambda / sum;
+            Compliance1 += perSum;
+            Compliance2 += perSum;
+            Vector3d own = perSum * frame.BendStiffness1 * frame.RestCurvature;
+            FixedX += own.X;
+            FixedY += own.Y;
+            AddTurned(ref First, perSum, frame, first, ref Held);
+            AddTurned(ref Second, perSum, frame, second, ref Held);
+            AddPair(perSum, first, second, ref Held, ref PairCosine, ref PairSine);
         }
 
         /// <summary>Adds a piece in a sheath: it is straight, whatever it is made of.</summary>
@@ -71,38 +93,55 @@ namespace Guidewire.Core
             Held += lambda * held;
         }
 
-        /// <summary>f at an angle t, and its derivative by t.</summary>
-        /// <param name="sense">1, or -1 at the tip of the outer instrument.</param>
-        public void RestAt(double t, double sense, out Vector3d rest, out Vector3d slope)
+        /// <summary>Energy that does not depend on the joint's rotation, J, and its derivatives by the two
+        /// angles.</summary>
+        public readonly double HeldAt(double first, double second, out AngleSeconds seconds, out double firstSlope,
+            out double secondSlope)
         {
-            if (TurnedX == 0.0 && TurnedY == 0.0)
+            seconds.First = First.Held(first, out firstSlope);
+            seconds.Second = Second.Held(second, out secondSlope);
+            seconds.Mixed = 0.0;
+            double held = Held - seconds.First - seconds.Second;
+            if (PairCosine != 0.0 || PairSine != 0.0)
             {
-                rest = new Vector3d(FixedX, FixedY, 0.0);
-                slope = Vector3d.Zero;
-                return;
+                double pair = Wave(PairCosine, PairSine, second - first, out double slope);
+                firstSlope -= slope;
+                secondSlope += slope;
+                seconds.First += pair;
+                seconds.Second += pair;
+                seconds.Mixed = -pair;
+                held -= pair;
             }
-            double c = Math.Cos(t);
-            double s = sense * Math.Sin(t);
-            double x = c * TurnedX - s * TurnedY;
-            double y = s * TurnedX + c * TurnedY;
-            rest = new Vector3d(FixedX + x, FixedY + y, 0.0);
-            slope = new Vector3d(-sense * y, sense * x, 0.0);
+            return held;
         }
 
-        /// <summary>Energy that does not depend on the joint's rotation, J, and its derivatives by t.</summary>
-        public double HeldAt(double t, out double slope, out double second)
+        /// <summary>C cos t + S sin t, and minus its derivative.</summary>
+        public static double Wave(double cosine, double sine, double t, out double slope)
         {
-            if (Cosine == 0.0 && Sine == 0.0)
-            {
-                slope = 0.0;
-                second = 0.0;
-                return Held;
-            }
             double c = Math.Cos(t);
             double s = Math.Sin(t);
-            slope = Cosine * s - Sine * c;
-            second = Cosine * c + Sine * s;
-            return Held - second;
+            slope = cosine * s - sine * c;
+            return cosine * c + sine * s;
+        }
+
+        private static void AddTurned(ref CoaxialPart part, double perSum, in CrossSection frame,
+            in CrossSection other, ref double held)
+        {
+            AddPair(perSum, frame, other, ref held, ref part.Cosine, ref part.Sine);
+            Vector3d turned = perSum * other.BendStiffness1 * other.RestCurvature;
+            part.TurnedX += turned.X;
+            part.TurnedY += turned.Y;
+        }
+
+        private static void AddPair(double perSum, in CrossSection one, in CrossSection other, ref double held,
+            ref double cosine, ref double sine)
+        {
+            double reduced = perSum * one.BendStiffness1 * other.BendStiffness1;
+            Vector3d a = one.RestCurvature;
+            Vector3d b = other.RestCurvature;
+            held += 0.5 * reduced * (a.X * a.X + a.Y * a.Y + b.X * b.X + b.Y * b.Y);
+            cosine += reduced * (a.X * b.X + a.Y * b.Y);
+            sine += reduced * (a.Y * b.X - a.X * b.Y);
         }
     }
 }

@@ -2,13 +2,14 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The joints of an instrument with another one inside it, on one shared centreline: nodes of the outer
-    /// one up to its tip, then those of the inner one. They change with the inner one's insertion.</summary>
-    /// <remarks>Positions along the chain are counted from the outer hub. The inner instrument's hub is the lead d
-    /// behind it: between the hubs it is straight. Beyond the outer tip it sticks out by p = (its length) - d - (the
-    /// outer one's length), and the element between that tip and the first inner node has the length l that follows
-    /// from d, not from the nodes' positions: so the matrix stays block-tridiagonal. That element is stretched as all
-    /// of the inner instrument from its hub is. An inner tip in the outer one is only a border of pieces.
+    /// <summary>The joints of an instrument with one or two others inside it, on one shared centreline: nodes of the
+    /// outermost one up to its tip, then those of the next one beyond it, and so on. They change with the insertion of
+    /// those inside.</summary>
+    /// <remarks>Instruments are counted from the outermost one, 0. Positions along the chain are counted from its hub.
+    /// The hub of instrument i is the lead d_i behind that: between the hubs it is straight. Beyond the tip of those
+    /// around it, it is the outermost one, and the element between that tip and its first node there has the length l
+    /// that follows from d_i, not from the nodes' positions: so the matrix stays block-tridiagonal. That element is
+    /// stretched as all of its instrument from its hub is. A tip inside another instrument is only a border of pieces.
     ///
     /// In a sheath the chain is straight, up to a length from the outer hub that follows from that hub: as an outermost
     /// instrument without bend that turns with what is inside. Its exit is a border of pieces, too.</remarks>
@@ -17,79 +18,147 @@ namespace Guidewire.Core
         /// <summary>Fraction of a joint outside a sheath below which it counts as straight.</summary>
         public const double LeastFraction = 1e-3;
 
-        private readonly InstrumentProfile _outer;
-        private readonly InstrumentProfile _inner;
-        private readonly double[] _innerStation;   // of the inner nodes, m from its hub
+        private readonly CoaxialInstrument[] _instrument;
+        private readonly int[] _beyond;            // nodes of each instrument in the chain, from its tip on
+        private readonly int[] _tip;               // node of each where the next one goes on
+        private readonly int[] _carrier;           // of each element: the outermost instrument there
+        private readonly double[] _lead;           // d_i, m
+        private readonly double[] _end;            // of each, m along the chain
+        private readonly int[] _active;            // elements of each whose angle is unknown
         private readonly double[] _station;        // of the chain's nodes
         private readonly CoaxialJoint[] _joint;
-        private readonly int _tip;                 // the outer tip's node
-        private CoaxialJoint _end;                 // of the last half element: only what it holds counts
+        private readonly CoaxialPieces _before;    // on one side of a joint
+        private readonly CoaxialPieces _after;
+        private CoaxialJoint _last;                // of the last half element: only what it holds counts
 
         /// <summary>Joints of these instruments.</summary>
-        /// <param name="outerStations">Nodes of the outer one, m from its hub.</param>
-        /// <param name="innerStations">Nodes of the inner one, m from its hub.</param>
-        /// <param name="beyond">How many of these, from the tip on, are nodes of the chain.</param>
-        /// <param name="lead">d, m.</param>
+        /// <param name="instruments">The outermost one first, two or three.</param>
+        /// <param name="beyond">How many nodes of each, from its tip on, are nodes of the chain; of the first
+        /// all.</param>
+        /// <param name="leads">d of each, m; 0 for the first.</param>
         /// <param name="sheathed">Length of the chain in a sheath, m from the outer hub.</param>
-        public CoaxialJoints(InstrumentProfile outer, InstrumentProfile inner, double[] outerStations,
-            double[] innerStations, int beyond, double lead, double sheathed)
+        public CoaxialJoints(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed)
         {
-            _outer = outer;
-            _inner = inner;
-            _innerStation = innerStations;
-            _tip = outerStations.Length - 1;
-            Beyond = beyond;
-            _station = new double[_tip + 1 + beyond];
-            Array.Copy(outerStations, _station, _tip + 1);
+            int count = instruments.Length;
+            _instrument = instruments;
+            _beyond = (int[])beyond.Clone();
+            _tip = new int[count];
+            _lead = new double[count];
+            _end = new double[count];
+            _active = new int[count];
+            _tip[0] = instruments[0].Rod.ElementCount;
+            for (int i = 1; i < count; i++)
+            {
+                _tip[i] = _tip[i - 1] + beyond[i];
+            }
+            _station = new double[_tip[count - 1] + 1];
+            _carrier = new int[_station.Length - 1];
+            for (int j = _tip[0]; j < _carrier.Length; j++)
+            {
+                _carrier[j] = j < _tip[1] ? 1 : 2;
+            }
+            Array.Copy(instruments[0].Stations, _station, _tip[0] + 1);
             _joint = new CoaxialJoint[_station.Length];
-            SetHubs(lead, sheathed);
+            _before = new CoaxialPieces(instruments);
+            _after = new CoaxialPieces(instruments);
+            SetHubs(leads, sheathed);
         }
+
+        /// <summary>How many instruments there are.</summary>
+        public int Count => _instrument.Length;
+
+        /// <summary>How many are inside the outermost one.</summary>
+        public int InnerCount => _instrument.Length - 1;
 
         /// <summary>Elements of the chain.</summary>
         public int ElementCount => _station.Length - 1;
 
-        /// <summary>Elements of the outer instrument.</summary>
-        public int OuterCount => _tip;
-
-        /// <summary>Inner nodes beyond the outer tip.</summary>
-        public int Beyond { get; }
-
-        /// <summary>Distance of the inner hub behind the outer one, d, m.</summary>
-        public double Lead { get; private set; }
+        /// <summary>Elements of the outermost instrument.</summary>
+        public int OuterCount => _tip[0];
 
         /// <summary>Length of the chain in a sheath, m from the outer hub; 0 without one.</summary>
         public double Sheathed { get; private set; }
 
-        /// <summary>How far the inner tip is beyond the outer one, p, m; negative inside.</summary>
-        public double Extension => _inner.Length - Lead - _outer.Length;
-
-        /// <summary>Elements, from the first on, whose twist angle is unknown.</summary>
+        /// <summary>Elements, from the first on, with a twist angle that is unknown.</summary>
         public int ActiveCount { get; private set; }
 
         /// <summary>Positions of the chain's nodes along it, m.</summary>
         public double[] Stations => _station;
 
-        /// <summary>Energy of the inner instrument between the hubs, where it is kept straight, J.</summary>
+        /// <summary>Energy of the inner instruments between the hubs, where they are kept straight, J.</summary>
         public double HeldInLead { get; private set; }
 
-        /// <summary>The last half element of a chain that ends where both instruments are.</summary>
-        public ref readonly CoaxialJoint End => ref _end;
+        /// <summary>The last half element of a chain that ends where several instruments are.</summary>
+        public ref readonly CoaxialJoint Last => ref _last;
 
         /// <summary>The joint at node k, 0 at the hub.</summary>
         public ref readonly CoaxialJoint this[int k] => ref _joint[k];
 
-        /// <summary>Whether node k is the outer tip, with the inner instrument beyond it.</summary>
-        public bool IsTip(int k)
+        /// <summary>The outermost instrument on an element.</summary>
+        public int CarrierOf(int element)
         {
-            return k == _tip && Beyond > 0;
+            return _carrier[element];
         }
 
-        /// <summary>Length of element j over that of what it stretches for: beyond the outer tip it is the axial spring
-        /// of all of the wire from its hub.</summary>
+        /// <summary>Nodes of an instrument in the chain, from its tip on.</summary>
+        public int BeyondOf(int instrument)
+        {
+            return _beyond[instrument];
+        }
+
+        /// <summary>The last node of an instrument in the chain, or that where its tip is inside.</summary>
+        public int TipOf(int instrument)
+        {
+            return _tip[instrument];
+        }
+
+        /// <summary>How far the hub of an instrument is behind the outermost one's, m.</summary>
+        public double LeadOf(int instrument)
+        {
+            return _lead[instrument];
+        }
+
+        /// <summary>Where a node of an inner instrument is, m along the chain.</summary>
+        /// <param name="fromTip">0 at its tip.</param>
+        public double StationOf(int instrument, int fromTip)
+        {
+            double[] station = _instrument[instrument].Stations;
+            return station[station.Length - 1 - fromTip] - _lead[instrument];
+        }
+
+        /// <summary>Where the tip of an instrument is, m along the chain.</summary>
+        public double EndOf(int instrument)
+        {
+            return _end[instrument];
+        }
+
+        /// <summary>How far the tip of an instrument is beyond that of another, m; negative inside.</summary>
+        public double ExtensionOf(int instrument, int outer)
+        {
+            return _instrument[instrument].Profile.Length - _lead[instrument] - _end[outer];
+        }
+
+        /// <summary>Elements, from the first on, where the twist angle of an inner instrument is unknown.</summary>
+        public int ActiveCountOf(int instrument)
+        {
+            return _active[instrument];
+        }
+
+        /// <summary>Whether node k is the tip of an instrument with another one going on beyond it.</summary>
+        public bool IsTip(int k)
+        {
+            return k > 0 && k < _carrier.Length && _carrier[k] != _carrier[k - 1];
+        }
+
+        /// <summary>Length of element j over that of what it stretches for: beyond a tip it is the axial spring of all of
+        /// the instrument from its hub.</summary>
         public double StretchedPart(int j)
         {
-            return j == _tip && Beyond > 0 ? (_station[j + 1] - _station[j]) / (Lead + _station[j + 1]) : 1.0;
+            return IsTip(j) ? (_station[j + 1] - _station[j]) / (LeadOf(CarrierOf(j)) + _station[j + 1]) : 1.0;
         }
+
+        /// <summary>Whether several instruments are in the last half element.</summary>
+        public bool HasLast => _carrier[ElementCount - 1] < InnerCount && ActiveCount == ElementCount;
 
         /// <summary>The length of the chain that the joint at node k stands for, m.</summary>
         public double LengthOf(int k)
@@ -112,221 +181,154 @@ namespace Guidewire.Core
             return outside / (before + after);
         }
 
-        /// <summary>What both instruments are made of at node k, in the overlap.</summary>
-        public void PiecesAt(int k, out CrossSection outer, out CrossSection inner)
+        /// <summary>What an instrument is made of at node k.</summary>
+        public ref readonly CrossSection PieceAt(int k, int instrument)
         {
-            outer = _outer.Pieces[_outer.PieceAt(_station[k])];
-            inner = _inner.Pieces[_inner.PieceAt(_station[k] + Lead)];
+            InstrumentProfile profile = _instrument[instrument].Profile;
+            return ref profile.Pieces[profile.PieceAt(_station[k] + _lead[instrument])];
         }
 
-        /// <summary>The inner hub is this far behind the outer one, and the outer one this far in a sheath.</summary>
-        /// <param name="lead">d, m.</param>
+        /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
+        /// <param name="leads">m, of all instruments; 0 for the outermost one.</param>
         /// <param name="sheathed">m.</param>
-        public void SetHubs(double lead, double sheathed)
+        public void SetHubs(double[] leads, double sheathed)
         {
-            Lead = lead;
             Sheathed = sheathed;
-            int first = _innerStation.Length - 1 - Beyond;
-            for (int i = 1; i <= Beyond; i++)
-            {
-                _station[_tip + i] = _innerStation[first + i] - lead;
-            }
-            double end = Math.Min(_inner.Length - lead, _station[_tip]);
             ActiveCount = 0;
-            while (ActiveCount < _tip && _station[ActiveCount] < end)
-            {
-                ActiveCount++;
-            }
             HeldInLead = 0.0;
+            for (int i = 0; i < Count; i++)
+            {
+                _lead[i] = leads[i];
+                _end[i] = _instrument[i].Profile.Length - leads[i];
+                if (i > 0)
+                {
+                    SetStations(i);
+                    SetActive(i);
+                }
+            }
             for (int k = 0; k < _joint.Length; k++)
             {
                 SetJoint(k);
             }
-            _end = default;
-            if (Beyond == 0)
+            _last = default;
+            if (_carrier[ElementCount - 1] < InnerCount)
             {
-                AddSide(ref _end, _tip, _tip - 1, false, out _, out _);
+                int n = ElementCount;
+                AddSide(ref _last, n, n - 1, _carrier[n - 1], _before);
             }
+        }
+
+        private void SetStations(int instrument)
+        {
+            double[] station = _instrument[instrument].Stations;
+            int first = station.Length - 1 - _beyond[instrument];
+            for (int k = 1; k <= _beyond[instrument]; k++)
+            {
+                _station[_tip[instrument - 1] + k] = station[first + k] - _lead[instrument];
+            }
+        }
+
+        private void SetActive(int instrument)
+        {
+            int most = _tip[instrument - 1];
+            double end = Math.Min(_end[instrument], _station[most]);
+            int active = 0;
+            while (active < most && _station[active] < end)
+            {
+                active++;
+            }
+            _active[instrument] = active;
+            ActiveCount = Math.Max(ActiveCount, active);
         }
 
         private void SetJoint(int k)
         {
             ref CoaxialJoint joint = ref _joint[k];
             joint = default;
-            bool isTip = IsTip(k);
-            double shared = 0.0;
-            double sharedAfter = 0.0;
-            Twists all = default;
+            int frame = _carrier[Math.Min(k, _carrier.Length - 1)];
+            _before.Clear();
+            _after.Clear();
             if (k > 0)
             {
-                AddSide(ref joint, k, k - 1, isTip, out shared, out Twists before);
-                all.Add(before);
+                AddSide(ref joint, k, k - 1, frame, _before);
             }
             if (k < _joint.Length - 1)
             {
-                AddSide(ref joint, k, k + 1, isTip, out sharedAfter, out Twists after);
-                all.Add(after);
+                AddSide(ref joint, k, k + 1, frame, _after);
             }
-            double innerCompliance = all.InnerCompliance;
-            double innerRest = all.InnerRest;
-            joint.Weight = shared + sharedAfter > 0.0 ? sharedAfter / (shared + sharedAfter) : 0.0;
+            joint.Twist = 1.0 / (_before.Compliance[frame] + _after.Compliance[frame]);
+            joint.RestTwist = _before.Rest[frame] + _after.Rest[frame];
+            bool isFirst = true;
+            for (int i = 0; i < Count; i++)
+            {
+                if (i != frame)
+                {
+                    SetPart(ref (isFirst ? ref joint.First : ref joint.Second), k, i, i > frame);
+                    isFirst = false;
+                }
+            }
+        }
+
+        private void SetPart(ref CoaxialPart part, int k, int instrument, bool isInside)
+        {
+            double shared = _before.Shared[instrument] + _after.Shared[instrument];
+            double compliance = _before.Compliance[instrument] + _after.Compliance[instrument];
+            double rest = _before.Rest[instrument] + _after.Rest[instrument];
+            part.Weight = shared > 0.0 ? _after.Shared[instrument] / shared : 0.0;
             if (k == 0)
             {
-                AddLead(ref innerCompliance, ref innerRest);
-                joint.Weight = 1.0 - 0.5 * all.InnerCompliance / innerCompliance;
+                double own = compliance;
+                AddLead(instrument, ref compliance, ref rest);
+                part.Weight = 1.0 - 0.5 * own / compliance;
             }
-            if (k >= _tip && Beyond > 0)
+            part.RestTwist = rest;
+            if (isInside && k < _active[instrument])
             {
-                joint.Twist = 1.0 / innerCompliance;
-                joint.RestTwist = innerRest;
-                return;
-            }
-            joint.Twist = 1.0 / all.OuterCompliance;
-            joint.RestTwist = all.OuterRest;
-            joint.InnerRestTwist = innerRest;
-            if (k < ActiveCount)
-            {
-                joint.InnerTwist = 1.0 / innerCompliance;
+                part.Twist = 1.0 / compliance;
             }
             else
             {
-                joint.Weight = 0.0;
+                part.Weight = 0.0;
             }
         }
 
         // Adds the element between node k and another; its hat function falls from 1 to 0 between them.
-        private void AddSide(ref CoaxialJoint joint, int k, int other, bool isTip, out double shared,
-            out Twists twists)
+        private void AddSide(ref CoaxialJoint joint, int k, int other, int frame, CoaxialPieces side)
         {
             double node = _station[k];
             double far = _station[other];
             double from = Math.Min(node, far);
             double to = Math.Max(node, far);
-
             double perLength = 1.0 / (to - from);
-            shared = 0.0;
-            twists = default;
-            bool hasOuter = to <= _station[_tip];
-            double innerEnd = _inner.Length - Lead;
-            int o = _outer.PieceAt(from);
-            int i = _inner.PieceAt(from + Lead);
+            int carrier = _carrier[Math.Min(k, other)];
+            side.Begin(carrier, from, _lead);
             for (double at = from; at < to;)
             {
-                bool hasInner = at < innerEnd;
                 bool isSheathed = at < Sheathed;
-                double next = isSheathed ? Math.Min(to, Sheathed) : to;
-                if (hasOuter && o < _outer.Pieces.Length - 1)
-                {
-                    next = Math.Min(next, _outer.Borders[o + 1]);
-                }
-                if (hasInner)
-                {
-                    next = Math.Min(next, i < _inner.Pieces.Length - 1 ? _inner.Borders[i + 1] - Lead
-                        : hasOuter ? innerEnd : to);
-                }
+                double next = side.FindNext(at, isSheathed ? Math.Min(to, Sheathed) : to, _lead, _end);
                 if (next > at)
                 {
                     double lambda = (next - at) * (1.0 - Math.Abs(0.5 * (at + next) - node) * perLength);
-                    int inner = hasInner || !hasOuter ? i : -1;
-                    AddTwists(ref twists, lambda, hasOuter ? o : -1, inner);
-                    if (isSheathed)
-                    {
-                        AddSheathed(ref joint, lambda, hasOuter ? o : -1, inner);
-                    }
-                    else
-                    {
-                        Add(ref joint, lambda, hasOuter ? o : -1, inner, isTip, ref shared);
-                    }
+                    side.Add(ref joint, lambda, frame, isSheathed);
                 }
                 at = Math.Max(next, at);
-                o += hasOuter && o < _outer.Pieces.Length - 1 && at >= _outer.Borders[o + 1] ? 1 : 0;
-                i += i < _inner.Pieces.Length - 1 && at >= _inner.Borders[i + 1] - Lead ? 1 : 0;
+                side.Advance(at, _lead);
             }
         }
 
-        private void AddTwists(ref Twists twists, double lambda, int outer, int inner)
+        private void AddLead(int instrument, ref double compliance, ref double rest)
         {
-            if (outer >= 0)
+            InstrumentProfile profile = _instrument[instrument].Profile;
+            for (int p = 0; p < profile.Pieces.Length; p++)
             {
-                ref CrossSection piece = ref _outer.Pieces[outer];
-                twists.OuterCompliance += lambda / piece.TwistStiffness;
-                twists.OuterRest += lambda * piece.RestCurvature.Z;
-            }
-            if (inner >= 0)
-            {
-                ref CrossSection piece = ref _inner.Pieces[inner];
-                twists.InnerCompliance += lambda / piece.TwistStiffness;
-                twists.InnerRest += lambda * piece.RestCurvature.Z;
-            }
-        }
-
-        private void AddSheathed(ref CoaxialJoint joint, double lambda, int outer, int inner)
-        {
-            double bend = 0.0;
-            double held = 0.0;
-            if (outer >= 0)
-            {
-                bend += _outer.Pieces[outer].BendStiffness1;
-                held += Straightened(_outer.Pieces[outer]);
-            }
-            if (inner >= 0)
-            {
-                bend += _inner.Pieces[inner].BendStiffness1;
-                held += Straightened(_inner.Pieces[inner]);
-            }
-            joint.AddSheathed(lambda, bend, held);
-        }
-
-        private void Add(ref CoaxialJoint joint, double lambda, int outer, int inner, bool isTip, ref double shared)
-        {
-            if (outer >= 0 && inner >= 0)
-            {
-                shared += lambda;
-                joint.AddShared(lambda, _outer.Pieces[outer], _inner.Pieces[inner], isTip);
-            }
-            else
-            {
-                joint.AddAlone(lambda, outer >= 0 ? _outer.Pieces[outer] : _inner.Pieces[inner]);
-            }
-        }
-
-        private void AddLead(ref double compliance, ref double rest)
-        {
-            for (int p = 0; p < _inner.Pieces.Length; p++)
-            {
-                double length = Math.Min(Lead, _inner.Borders[p + 1]) - _inner.Borders[p];
+                double length = Math.Min(_lead[instrument], profile.Borders[p + 1]) - profile.Borders[p];
                 if (length > 0.0)
                 {
-                    ref CrossSection piece = ref _inner.Pieces[p];
+                    ref CrossSection piece = ref profile.Pieces[p];
                     compliance += length / piece.TwistStiffness;
                     rest += length * piece.RestCurvature.Z;
-                    HeldInLead += length * Straightened(piece);
+                    HeldInLead += length * CoaxialPieces.Straightened(piece);
                 }
-            }
-        }
-
-        // Energy of a piece that is kept straight, J/m.
-        private static double Straightened(in CrossSection piece)
-        {
-            Vector3d curvature = piece.RestCurvature;
-            return 0.5 * (piece.BendStiffness1 * curvature.X * curvature.X
-                + piece.BendStiffness2 * curvature.Y * curvature.Y);
-        }
-
-        // Of both instruments over the pieces where they are.
-        private struct Twists
-        {
-            public double OuterCompliance;
-            public double OuterRest;
-            public double InnerCompliance;
-            public double InnerRest;
-
-            public void Add(in Twists other)
-            {
-                OuterCompliance += other.OuterCompliance;
-                OuterRest += other.OuterRest;
-                InnerCompliance += other.InnerCompliance;
-                InnerRest += other.InnerRest;
             }
         }
     }

@@ -2,95 +2,80 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>An instrument with another one inside it as one rod: elements of the outer one with the mass of both,
-    /// one of any length at its tip, and those of the inner one beyond.</summary>
-    /// <remarks>The axial force in the overlap is that of both; it strains the elements as the outer instrument alone.
-    /// The inner one strains along all of its length from its own hub, and so does the element at the outer tip in its
-    /// stead: its EA is l over the compliance of that length.</remarks>
+    /// <summary>An instrument with one or two others inside it as one rod: elements of the outermost one with the mass
+    /// of all, one of any length at its tip, and those of the next one beyond.</summary>
+    /// <remarks>The axial force in the overlap is that of all; it strains the elements as the outermost instrument
+    /// alone. An inner one strains along all of its length from its own hub, and so does the element at the tip around
+    /// it in its stead: its EA is l over the compliance of that length.</remarks>
     internal sealed class CoaxialRod
     {
         private const double Viscosity = 1e-3;   // of saline that flushes a lumen, Pa s
         private const double Retained = 1e-4;    // of the shear compliance of what is in a sheath
 
-        private readonly MaterialRod _outer;
-        private readonly InstrumentProfile _innerProfile;
-        private readonly double _lumenRadius;   // m; 0 where its fluid is left out
+        private readonly CoaxialInstrument[] _instrument;
         private readonly double[] _shear;       // GA of the elements outside a sheath, N
 
         /// <summary>Of these instruments.</summary>
-        /// <param name="outer">The outer one.</param>
-        /// <param name="outerProfile">What it is made of.</param>
-        /// <param name="inner">The inner one.</param>
-        /// <param name="innerProfile">What it is made of.</param>
-        /// <param name="beyond">How many of the inner nodes are beyond the outer tip.</param>
-        /// <param name="lead">How far the inner hub is behind the outer one, m.</param>
-        /// <param name="lumenRadius">Of the outer one, m; 0 leaves out the drag of the fluid in it.</param>
+        /// <param name="instruments">The outermost one first, two or three.</param>
+        /// <param name="beyond">How many nodes of each, from its tip on, are nodes of the rod; of the first
+        /// all.</param>
+        /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
         /// <param name="sheathed">Length in a sheath, m from the outer hub.</param>
-        public CoaxialRod(MaterialRod outer, InstrumentProfile outerProfile, MaterialRod inner,
-            InstrumentProfile innerProfile, int beyond, double lead, double lumenRadius = 0.0, double sheathed = 0.0)
+        public CoaxialRod(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed = 0.0)
         {
-            _lumenRadius = lumenRadius;
-            InnerSpin = new double[outer.ElementCount];
-            LumenDrag = new double[outer.ElementCount];
-            _outer = outer;
-            _innerProfile = innerProfile;
-            Joints = new CoaxialJoints(outerProfile, innerProfile, StationsOf(outer), StationsOf(inner), beyond, lead,
-                sheathed);
-            Rod = new MaterialRod(Joints.ElementCount) { MassDamping = outer.MassDamping };
-            int tip = outer.ElementCount;
-            for (int j = 0; j < Rod.ElementCount; j++)
+            _instrument = instruments;
+            Joints = new CoaxialJoints(instruments, beyond, leads, sheathed);
+            int n = Joints.ElementCount;
+            InnerSpin = new double[Joints.InnerCount * n];
+            LumenDrag = new double[InnerSpin.Length];
+            Rod = new MaterialRod(n) { MassDamping = instruments[0].Rod.MassDamping };
+            for (int j = 0; j < n; j++)
             {
-                MaterialRod from = j < tip ? outer : inner;
-                int at = j < tip ? j : inner.ElementCount - beyond + j - tip;
-                Rod.Take(j, from, at);
+                Rod.Take(j, Carrier(j), OwnElement(j));
             }
             _shear = (double[])Rod.ShearStiffness.Clone();
-            SetHubs(lead, sheathed);
+            SetHubs(leads, sheathed);
             SetMass();
         }
 
         /// <summary>Where their joints are and what these are made of.</summary>
         public CoaxialJoints Joints { get; }
 
-        /// <summary>Both as one rod.</summary>
+        /// <summary>All as one rod.</summary>
         public MaterialRod Rod { get; }
 
         /// <summary>Where the sheath ends in which they are, or null.</summary>
         public SheathEnd? Sheath { get; set; }
 
-        /// <summary>Inertia about the axis of the inner instrument's part in each element of the outer one, rho (I1 +
-        /// I2) times its length, kg m^2.</summary>
+        /// <summary>Inertia about the axis of what is inside of each element, of the first inner instrument and then of
+        /// the second, rho (I1 + I2) times its length, kg m^2.</summary>
         public double[] InnerSpin { get; }
 
-        /// <summary>Couple of the fluid in each element against the spin of one instrument in the other, over that
-        /// spin, N m s.</summary>
+        /// <summary>Couple of the fluid in each element against the spin of one instrument in the next one around it,
+        /// over that spin, N m s; as <see cref="InnerSpin"/>.</summary>
         public double[] LumenDrag { get; }
 
-        /// <summary>The inner hub is this far behind the outer one.</summary>
-        /// <param name="lead">m.</param>
-        public void SetLead(double lead)
-        {
-            SetHubs(lead, Joints.Sheathed);
-        }
-
-        /// <summary>The inner hub is this far behind the outer one, and the outer one this far in a sheath.</summary>
-        /// <param name="lead">m.</param>
+        /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
+        /// <param name="leads">m, 0 of the outermost one.</param>
         /// <param name="sheathed">m.</param>
-        public void SetHubs(double lead, double sheathed)
+        public void SetHubs(double[] leads, double sheathed)
         {
             bool isSheathed = sheathed > 0.0 || Joints.Sheathed > 0.0;
-            Joints.SetHubs(lead, sheathed);
+            Joints.SetHubs(leads, sheathed);
             if (isSheathed)
             {
                 SetShear(sheathed);
             }
-            if (Joints.Beyond > 0)
+            for (int i = 1; i < _instrument.Length; i++)
             {
-                int tip = Joints.OuterCount;
-                double length = Joints.Stations[tip + 1] - Joints.Stations[tip];
-                Rod.Length[tip] = length;
-                Rod.StretchStiffness[tip] = length / _innerProfile.Integral(0.0, Joints.Stations[tip + 1] + lead,
-                    piece => 1.0 / piece.StretchStiffness);
+                if (Joints.BeyondOf(i) > 0)
+                {
+                    int tip = Joints.TipOf(i - 1);
+                    double length = Joints.Stations[tip + 1] - Joints.Stations[tip];
+                    Rod.Length[tip] = length;
+                    Rod.StretchStiffness[tip] = length / _instrument[i].Profile.Integral(0.0,
+                        Joints.Stations[tip + 1] + leads[i], piece => 1.0 / piece.StretchStiffness);
+                }
             }
         }
 
@@ -106,43 +91,64 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Gives each element the mass and the inertia of what is in it at the present lead.</summary>
+        /// <summary>Gives each element the mass and the inertia of what is in it at the present leads.</summary>
         public void SetMass()
         {
             double[] station = Joints.Stations;
-            for (int j = 0; j < Joints.OuterCount; j++)
+            for (int j = 0; j < Joints.ElementCount && Joints.CarrierOf(j) < Joints.InnerCount; j++)
             {
-                double from = station[j] + Joints.Lead;
-                double to = station[j + 1] + Joints.Lead;
-                double perLength = 1.0 / (to - from);
-                Rod.LineDensity[j] = _outer.LineDensity[j]
-                    + perLength * _innerProfile.Integral(from, to, piece => piece.LineDensity);
-                Rod.RotaryInertia1[j] = _outer.RotaryInertia1[j]
-                    + perLength * _innerProfile.Integral(from, to, piece => piece.RotaryInertia1);
-                Rod.RotaryInertia2[j] = _outer.RotaryInertia2[j]
-                    + perLength * _innerProfile.Integral(from, to, piece => piece.RotaryInertia2);
-                InnerSpin[j] = _innerProfile.Integral(from, to, piece => piece.RotaryInertia1 + piece.RotaryInertia2);
-                LumenDrag[j] = _innerProfile.Integral(from, to, DragOf);
+                int carrier = Joints.CarrierOf(j);
+                MaterialRod own = Carrier(j);
+                int element = OwnElement(j);
+                Rod.LineDensity[j] = own.LineDensity[element];
+                Rod.RotaryInertia1[j] = own.RotaryInertia1[element];
+                Rod.RotaryInertia2[j] = own.RotaryInertia2[element];
+                for (int i = carrier + 1; i < _instrument.Length; i++)
+                {
+                    AddInner(j, i, station[j], station[j + 1]);
+                }
             }
+        }
+
+        private void AddInner(int j, int instrument, double first, double last)
+        {
+            InstrumentProfile profile = _instrument[instrument].Profile;
+            double from = first + Joints.LeadOf(instrument);
+            double to = last + Joints.LeadOf(instrument);
+            double perLength = 1.0 / (to - from);
+            Rod.LineDensity[j] += perLength * profile.Integral(from, to, piece => piece.LineDensity);
+            Rod.RotaryInertia1[j] += perLength * profile.Integral(from, to, piece => piece.RotaryInertia1);
+            Rod.RotaryInertia2[j] += perLength * profile.Integral(from, to, piece => piece.RotaryInertia2);
+            int at = (instrument - 1) * Joints.ElementCount + j;
+            InnerSpin[at] = profile.Integral(from, to, piece => piece.RotaryInertia1 + piece.RotaryInertia2);
+            double lumen = _instrument[AroundOf(instrument, j)].LumenRadius;
+            LumenDrag[at] = profile.Integral(from, to, piece => DragOf(piece, lumen));
+        }
+
+        /// <summary>The next instrument around one on an element.</summary>
+        public int AroundOf(int instrument, int element)
+        {
+            return instrument == 2 && element < Joints.ActiveCountOf(1) ? 1 : Joints.CarrierOf(element);
+        }
+
+        private MaterialRod Carrier(int j)
+        {
+            return _instrument[Joints.CarrierOf(j)].Rod;
+        }
+
+        // Of the outermost instrument there.
+        private int OwnElement(int j)
+        {
+            int carrier = Joints.CarrierOf(j);
+            return _instrument[carrier].Rod.ElementCount - Joints.TipOf(carrier) + j;
         }
 
         // Flow between two cylinders of which one turns: 4 pi mu r^2 R^2/(R^2 - r^2) per length, N s.
-        private double DragOf(CrossSection piece)
+        private static double DragOf(CrossSection piece, double lumenRadius)
         {
             double inner = piece.Radius * piece.Radius;
-            double outer = _lumenRadius * _lumenRadius;
+            double outer = lumenRadius * lumenRadius;
             return outer > inner ? 4.0 * Math.PI * Viscosity * inner * outer / (outer - inner) : 0.0;
-        }
-
-        /// <summary>Distances of a rod's nodes from its first, m.</summary>
-        public static double[] StationsOf(MaterialRod rod)
-        {
-            var stations = new double[rod.ElementCount + 1];
-            for (int j = 0; j < rod.ElementCount; j++)
-            {
-                stations[j + 1] = stations[j] + rod.Length[j];
-            }
-            return stations;
         }
     }
 }

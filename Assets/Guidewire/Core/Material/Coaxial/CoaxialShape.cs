@@ -2,74 +2,75 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What becomes of a shape of coaxial instruments where inner nodes come in beyond the outer tip, or
-    /// go.</summary>
+    /// <summary>Frames and angles of coaxial instruments on a chain.</summary>
     internal static class CoaxialShape
     {
-        /// <summary>The shape with as many nodes as these joints have: an element that comes in is a piece of the first
-        /// one beyond the tip, or goes on from the tip; where one goes, the next one reaches back to the tip.</summary>
-        public static RodShape Take(RodShape old, CoaxialJoints joints)
+        /// <summary>Angle on an element from one instrument's frame to another's, radians; beyond the tip of one of
+        /// them, at that tip.</summary>
+        /// <param name="values">Angles of the chain, or their rates.</param>
+        public static double Angle(RodShape shape, double[] values, CoaxialJoints joints, int element, int instrument,
+            int frame)
         {
-            int n = joints.ElementCount;
-            int tip = joints.OuterCount;
-            int more = n - old.ElementCount;
-            var shape = new RodShape(n, true) { ProximalFrame = old.ProximalFrame, DistalFrame = old.DistalFrame };
-            for (int j = 0; j < n; j++)
+            int outer = Math.Min(instrument, frame);
+            if (joints.CarrierOf(element) > outer)
             {
-                int from = SourceOf(j, tip, more, old.ElementCount);
-                shape.Q[j] = from >= 0 ? old.Q[from] : InnerFrame(old, tip - 1);
-                shape.Twist[j] = j < tip ? old.Twist[j] : 0.0;
+                element = joints.TipOf(outer) - 1;
             }
-            Array.Copy(old.X, shape.X, tip + 1);
-            for (int i = tip + 1; i <= n; i++)
+            int carrier = joints.CarrierOf(element);
+            int n = shape.ElementCount;
+            double to = instrument > carrier ? values[(instrument - 1) * n + element] : 0.0;
+            return frame > carrier ? to - values[(frame - 1) * n + element] : to;
+        }
+
+        /// <summary>The frame of an instrument in an element.</summary>
+        public static Quaterniond FrameOf(RodShape shape, CoaxialJoints joints, int element, int instrument)
+        {
+            int carrier = joints.CarrierOf(element);
+            return instrument == carrier ? shape.Q[element] : shape.Q[element] * Quaterniond.FromAxisAngle(
+                Vector3d.UnitZ, Angle(shape, shape.Twist, joints, element, instrument, carrier));
+        }
+
+        /// <summary>The spin of an instrument in an element, along its own axes, rad/s.</summary>
+        /// <param name="spin">That of the outermost one there.</param>
+        public static Vector3d SpinOf(RodShape shape, double[] twistRates, CoaxialJoints joints, int element,
+            int instrument, in Vector3d spin)
+        {
+            int carrier = joints.CarrierOf(element);
+            double angle = Angle(shape, shape.Twist, joints, element, instrument, carrier);
+            double c = Math.Cos(angle);
+            double s = Math.Sin(angle);
+            return new Vector3d(c * spin.X + s * spin.Y, c * spin.Y - s * spin.X,
+                spin.Z + Angle(shape, twistRates, joints, element, instrument, carrier));
+        }
+
+        /// <summary>The largest turn in a direction of the first element beyond a tip against the frame before it of
+        /// the instrument that goes on, radians: |theta_b - R^T theta_a - e3 dz|; 0 where none is beyond.</summary>
+        /// <param name="rod">The instruments, or null for one alone.</param>
+        public static double TurnAtTips(CoaxialRod? rod, RodShape shape, RodVector[] direction)
+        {
+            double largest = 0.0;
+            for (int i = 0; rod != null && i < rod.Joints.InnerCount; i++)
             {
-                if (i - more > tip)
+                int tip = rod.Joints.TipOf(i);
+                if (rod.Joints.IsTip(tip) && rod.Joints.CarrierOf(tip - 1) == i)
                 {
-                    shape.X[i] = old.X[i - more];
+                    largest = Math.Max(largest, TurnAtTip(rod.Joints, shape, direction, tip));
                 }
             }
-            // What comes in lies on the element that it divides, or on the axis of the outer tip.
-            double[] station = joints.Stations;
-            bool isDivided = old.ElementCount > tip;
-            for (int i = tip + 1; i <= tip + more; i++)
-            {
-                Vector3d chord = isDivided
-                    ? (1.0 / (station[tip + more + 1] - station[tip])) * (old.X[tip + 1] - old.X[tip])
-                    : old.Q[tip - 1].Director3;
-                shape.X[i] = old.X[tip] + (station[i] - station[tip]) * chord;
-            }
-            return shape;
+            return largest;
         }
 
-        /// <summary>The old element of which element j goes on; -1 where there was none beyond the outer tip.</summary>
-        /// <param name="more">Elements that come in, negative where some go.</param>
-        public static int SourceOf(int j, int tip, int more, int oldCount)
+        private static double TurnAtTip(CoaxialJoints joints, RodShape shape, RodVector[] direction, int tip)
         {
-            return j < tip ? j : oldCount > tip ? Math.Max(j - more, tip) : -1;
-        }
-
-        /// <summary>The turn in a direction of the first element beyond the outer tip against the inner instrument's
-        /// frame before it, radians: |theta_b - R^T theta_a - e3 dz|; 0 where none is beyond.</summary>
-        /// <param name="rod">The instruments, or null for one alone.</param>
-        public static double TurnAtTip(CoaxialRod? rod, RodShape shape, RodVector[] direction)
-        {
-            if (rod == null || rod.Joints.Beyond == 0)
-            {
-                return 0.0;
-            }
-            int tip = rod.Joints.OuterCount;
+            int instrument = joints.CarrierOf(tip);
             RodVector a = direction[tip - 1];
             RodVector b = direction[tip];
-            double c = Math.Cos(shape.Twist[tip - 1]);
-            double s = Math.Sin(shape.Twist[tip - 1]);
+            RodVector z = direction[shape.ElementCount + 1 + tip];
+            double angle = Angle(shape, shape.Twist, joints, tip - 1, instrument, joints.CarrierOf(tip - 1));
+            double c = Math.Cos(angle);
+            double s = Math.Sin(angle);
             return new Vector3d(b.T1 - c * a.T1 - s * a.T2, b.T2 + s * a.T1 - c * a.T2,
-                b.T3 - a.T3 - direction[shape.ElementCount + 1 + tip].T3).Length;
-        }
-
-        /// <summary>The frame of the inner instrument in an element of the outer one.</summary>
-        public static Quaterniond InnerFrame(RodShape shape, int element)
-        {
-            return shape.Q[element] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, shape.Twist[element]);
+                b.T3 - a.T3 - (instrument == 1 ? z.T3 : z.T2)).Length;
         }
     }
 }

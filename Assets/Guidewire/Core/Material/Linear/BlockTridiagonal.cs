@@ -7,8 +7,9 @@ namespace Guidewire.Core
     /// <remarks>A long rod is assembled and eliminated piece by piece, so that a block is still in the cache when it is
     /// eliminated. At a support the fixed direction's row and column become those of the unit matrix. Nodes and
     /// elements before the first active node take no part: they are neither assembled nor eliminated, and do not
-    /// move. A rod with an instrument inside it has one twist angle more for each element: its vectors go on, behind
-    /// the place holder, with one entry an element, whose T3 is the angle's.</remarks>
+    /// move. A rod with an instrument inside it has one twist angle more for each element, with two of them two: its
+    /// vectors go on, behind the place holder, with one entry an element, whose T3 is the first angle's and T2 the
+    /// second one's.</remarks>
     internal sealed class BlockTridiagonal
     {
         private const int Piece = 32;  // blocks; 12 KB
@@ -21,8 +22,10 @@ namespace Guidewire.Core
         private readonly DistalEnd _distalEnd;
         private readonly Vector3d _slidingAxis;
         private readonly CoaxialJoints? _coaxial;
-        private readonly TwistRow[] _twist = Array.Empty<TwistRow>();
-        private int _twistCount;            // angles that are unknown
+        private readonly TwistRow[] _twist = Array.Empty<TwistRow>();   // of the first angles, then of the second
+        private readonly bool _isPair;      // whether there are second ones
+        private readonly int _entryCount;   // of vectors, behind the place holder
+        private int _twistCount;            // elements with an angle that is unknown
 
         /// <summary>A system for this rod between these supports.</summary>
         public BlockTridiagonal(MaterialRod rod, RodSupports supports)
@@ -42,13 +45,15 @@ namespace Guidewire.Core
             _coaxial = supports.Coaxial?.Joints;
             if (_coaxial != null)
             {
-                _twist = new TwistRow[_count];
+                _isPair = _coaxial.InnerCount > 1;
+                _entryCount = _count;
+                _twist = new TwistRow[_coaxial.InnerCount * _count];
             }
         }
 
         /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, and as many as
         /// blocks again where there are twist angles.</summary>
-        public int VectorCount => _count + 1 + _twist.Length;
+        public int VectorCount => _count + 1 + _entryCount;
 
         /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
         /// and factorises; with it goes the right-hand side -gradient.</summary>
@@ -100,6 +105,14 @@ namespace Guidewire.Core
                     ref RodVector z = ref y[_count + 1 + i];
                     ref RodVector nextZ = ref y[_count + 2 + i];
                     z.T3 -= gradient[_count + 1 + i].T3;
+                    if (_isPair)
+                    {
+                        z.T2 -= gradient[_count + 1 + i].T2;
+                        negative += TwistPairElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
+                            ref _twist[_count + i], ref _twist[i + 1], ref _twist[_count + i + 1], y[i],
+                            ref y[i + 1], ref z, ref nextZ);
+                        continue;
+                    }
                     negative += TwistElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
                         ref _twist[i + 1], y[i], ref y[i + 1], ref z.T3, ref nextZ.T3);
                 }
@@ -146,6 +159,7 @@ namespace Guidewire.Core
                 for (int j = 0; j < twists; j++)
                 {
                     y[_count + 1 + j].T3 = -gradient[_count + 1 + j].T3;
+                    y[_count + 1 + j].T2 = -gradient[_count + 1 + j].T2;
                 }
             }
             return measured;
@@ -158,7 +172,12 @@ namespace Guidewire.Core
             for (int i = 0; i < _count; i++)
             {
                 BlockElimination.Forward(_block[i], ref y[i], ref y[i + 1]);
-                if (i < _twistCount)
+                if (i < _twistCount && _isPair)
+                {
+                    TwistPairElimination.Forward(_twist[i], _twist[_count + i], y[i], ref y[i + 1],
+                        ref y[_count + 1 + i], ref y[_count + 2 + i]);
+                }
+                else if (i < _twistCount)
                 {
                     TwistElimination.Forward(_twist[i], y[i], ref y[i + 1], ref y[_count + 1 + i].T3,
                         ref y[_count + 2 + i].T3);
@@ -174,7 +193,12 @@ namespace Guidewire.Core
             y[_count] = default;
             for (int i = _count - 1; i >= 0; i--)
             {
-                if (i < _twistCount)
+                if (i < _twistCount && _isPair)
+                {
+                    TwistPairElimination.Backward(_twist[i], _twist[_count + i], ref y[i], y[i + 1],
+                        ref y[_count + 1 + i], i + 1 < _twistCount ? y[_count + 2 + i] : default);
+                }
+                else if (i < _twistCount)
                 {
                     TwistElimination.Backward(_twist[i], ref y[i], y[i + 1], ref y[_count + 1 + i].T3,
                         i + 1 < _twistCount ? y[_count + 2 + i].T3 : 0.0);
@@ -215,10 +239,14 @@ namespace Guidewire.Core
         {
             ProjectStart(ref v[0]);
             ProjectEnd(ref v[_count - 1]);
-            for (int j = 0; j < _twist.Length; j++)
+            for (int j = 0; j < _entryCount; j++)
             {
                 ref RodVector z = ref v[_count + 1 + j];
-                z = new RodVector { T3 = j < _coaxial!.ActiveCount ? z.T3 : 0.0 };
+                z = new RodVector
+                {
+                    T3 = j < _coaxial!.ActiveCountOf(1) ? z.T3 : 0.0,
+                    T2 = _isPair && j < _coaxial.ActiveCountOf(2) ? z.T2 : 0.0,
+                };
             }
         }
 
@@ -232,9 +260,10 @@ namespace Guidewire.Core
                 double t = a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
                 sum += _weight[i] * (t + _perLengthSquared * x);
             }
-            for (int j = 0; j < _twist.Length; j++)
+            for (int j = 0; j < _entryCount; j++)
             {
                 sum += _weight[j] * a[_count + 1 + j].T3 * b[_count + 1 + j].T3;
+                sum += _weight[j] * a[_count + 1 + j].T2 * b[_count + 1 + j].T2;
             }
             return sum;
         }
@@ -253,9 +282,10 @@ namespace Guidewire.Core
                 v[i].T2 *= t;
                 v[i].T3 *= t;
             }
-            for (int j = 0; j < _twist.Length; j++)
+            for (int j = 0; j < _entryCount; j++)
             {
                 v[_count + 1 + j].T3 *= _weight[j];
+                v[_count + 1 + j].T2 *= _weight[j];
             }
         }
 
@@ -267,8 +297,8 @@ namespace Guidewire.Core
             }
             _twistCount = _coaxial.ActiveCount;
             Array.Clear(_twist, 0, _twist.Length);
-            Array.Clear(gradient, _count + 1, _twist.Length);
-            Array.Clear(y, _count + 1, _twist.Length);
+            Array.Clear(gradient, _count + 1, _count);
+            Array.Clear(y, _count + 1, _count);
         }
 
         private void AssembleTwists(EnergyTerm[] terms, RodShape shape, double shift, int from, int to)
@@ -281,6 +311,13 @@ namespace Guidewire.Core
             for (int j = from; j < end; j++)
             {
                 _twist[j].Diagonal += shift * _weight[j];
+                if (_isPair)
+                {
+                    // One that is not unknown keeps a row of the unit matrix.
+                    _twist[j].Diagonal += j < _coaxial!.ActiveCountOf(1) ? 0.0 : 1.0;
+                    _twist[_count + j].Diagonal += shift * _weight[j]
+                        + (j < _coaxial.ActiveCountOf(2) ? 0.0 : 1.0);
+                }
             }
         }
 

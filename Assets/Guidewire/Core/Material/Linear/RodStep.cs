@@ -100,10 +100,11 @@ namespace Guidewire.Core
         // The angles stand behind the n + 2 vectors of nodes and elements (BlockTridiagonal).
         private static void ApplyTwist(RodShape shape, RodVector[] direction, double scale, RodShape to)
         {
-            int first = shape.ElementCount + 2;
+            int n = shape.ElementCount;
             for (int j = 0; j < shape.Twist.Length; j++)
             {
-                to.Twist[j] = shape.Twist[j] + scale * direction[first + j].T3;
+                double turn = j < n ? direction[n + 2 + j].T3 : direction[2 + j].T2;
+                to.Twist[j] = shape.Twist[j] + scale * turn;
             }
         }
 
@@ -173,6 +174,7 @@ namespace Guidewire.Core
             for (int j = elementCount + 2; j < direction.Length; j++)
             {
                 turn = Math.Max(turn, direction[j].T3 * direction[j].T3);
+                turn = Math.Max(turn, direction[j].T2 * direction[j].T2);
             }
             relative = Math.Sqrt(difference);
             return Math.Max(Math.Sqrt(turn), Math.Sqrt(shift) / length);

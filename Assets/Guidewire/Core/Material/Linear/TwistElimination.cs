@@ -17,15 +17,7 @@ namespace Guidewire.Core
         public static int Eliminate(in RodBlock block, ref RodBlock next, ref TwistRow row, ref TwistRow nextRow,
             in RodVector y, ref RodVector nextY, ref double z, ref double nextZ)
         {
-            Add(ref row.Own, row.Turn);
-            row.Below = default;
-            Add(ref row.Below, row.NextTurn);
-            BlockElimination.Forward(block, ref row.Own, ref row.Below);
-            row.Next = default;
-            Add(ref row.Next, row.TurnOfNext);
-            BlockElimination.Forward(block, ref row.Next, ref nextRow.Own);
-            row.WeightedOwn = Weighted(block, row.Own);
-            row.WeightedNext = Weighted(block, row.Next);
+            PassBlock(block, ref row, ref nextRow);
             double pivot = row.Diagonal - Dot(row.WeightedOwn, row.Own);
             row.NextTwist -= Dot(row.WeightedNext, row.Own);
             nextRow.Diagonal -= Dot(row.WeightedNext, row.Next);
@@ -35,6 +27,20 @@ namespace Guidewire.Core
             nextRow.Diagonal -= row.Inverse * row.NextTwist * row.NextTwist;
             Forward(row, y, ref nextY, ref z, ref nextZ);
             return pivot > 0.0 ? 0 : 1;
+        }
+
+        /// <summary>Sends the columns of z_j and z_(j+1) through block j, which is eliminated.</summary>
+        public static void PassBlock(in RodBlock block, ref TwistRow row, ref TwistRow nextRow)
+        {
+            Add(ref row.Own, row.Turn);
+            row.Below = default;
+            Add(ref row.Below, row.NextTurn);
+            BlockElimination.Forward(block, ref row.Own, ref row.Below);
+            row.Next = default;
+            Add(ref row.Next, row.TurnOfNext);
+            BlockElimination.Forward(block, ref row.Next, ref nextRow.Own);
+            row.WeightedOwn = Weighted(block, row.Own);
+            row.WeightedNext = Weighted(block, row.Next);
         }
 
         /// <summary>The right-hand side of z_j and of what comes after it, with a factorisation that is kept.</summary>
@@ -66,7 +72,8 @@ namespace Guidewire.Core
             };
         }
 
-        private static double Dot(in RodVector a, in RodVector b)
+        /// <summary>a . b.</summary>
+        public static double Dot(in RodVector a, in RodVector b)
         {
             return a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;
         }
@@ -78,7 +85,8 @@ namespace Guidewire.Core
             v.T3 += turn.Z;
         }
 
-        private static void AddScaled(ref RodVector to, double scale, in RodVector v)
+        /// <summary>to += scale v.</summary>
+        public static void AddScaled(ref RodVector to, double scale, in RodVector v)
         {
             to.X1 += scale * v.X1;
             to.X2 += scale * v.X2;
@@ -88,7 +96,8 @@ namespace Guidewire.Core
             to.T3 += scale * v.T3;
         }
 
-        private static void AddSquare(ref RodBlock block, in RodVector b, double scale)
+        /// <summary>block += scale b b^T.</summary>
+        public static void AddSquare(ref RodBlock block, in RodVector b, double scale)
         {
             double x1 = scale * b.X1;
             double x2 = scale * b.X2;

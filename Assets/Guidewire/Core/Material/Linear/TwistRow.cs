@@ -10,6 +10,13 @@ namespace Guidewire.Core
         /// <summary>(z_(j+1), z_j), N m; as eliminated, what is left of it.</summary>
         public double NextTwist;
 
+        /// <summary>Of the first of two angles that an element has: (z'_j, z_j), z' the second one's, N m.</summary>
+        public double Other;
+
+        /// <summary>(z'_(j+1), z_j) with z' the other one of two angles, N m; as eliminated, what is left of
+        /// it.</summary>
+        public double NextOther;
+
         /// <summary>(theta_j, z_j), N m.</summary>
         public Vector3d Turn;
 
@@ -43,6 +50,8 @@ namespace Guidewire.Core
         {
             Diagonal += other.Diagonal;
             NextTwist += other.NextTwist;
+            Other += other.Other;
+            NextOther += other.NextOther;
             Turn += other.Turn;
             NextTurn += other.NextTurn;
             TurnOfNext += other.TurnOfNext;

@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -17,19 +19,23 @@ namespace Guidewire.Core
         }
 
         /// <summary>What walls add to a wire's energy.</summary>
-        /// <param name="outerFriction">Coefficient of an outer instrument on all walls; NaN: those of the
-        /// walls.</param>
         public static WallTerms WallTermsOf(SimulationParameters parameters, MaterialScene scene, Barrier barrier,
-            SupportSpring spring, double outerFriction = double.NaN)
+            SupportSpring spring)
         {
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.SheathEnd);
-            FrictionEnergy? friction = outerFriction > 0.0
+            CoaxialJoints? coaxial = scene.Supports.Coaxial?.Joints;
+            IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
+            bool hasOwn = coaxial != null && catheters.Any(catheter => catheter.FrictionCoefficient > 0.0);
+            FrictionEnergy? friction = hasOwn
                 || Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
                 ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0
                     ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(scene.Rod)) : null;
-            friction?.SetOuter(scene.Supports.Coaxial == null ? 0 : scene.Supports.Coaxial.Joints.OuterCount,
-                outerFriction);
+            for (int i = 0; coaxial != null && i < catheters.Count; i++)
+            {
+                friction?.SetCoefficient(i == 0 ? 0 : coaxial.TipOf(i - 1), coaxial.TipOf(i),
+                    catheters[i].FrictionCoefficient);
+            }
             // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
             ContactParameters given = parameters.Contact;
             Func<string?>? advice = null;

@@ -36,7 +36,7 @@ namespace Guidewire.Core
             System = new BlockTridiagonal(rod, supports);
             Gradient = new RodVector[System.VectorCount];
             Direction = new RodVector[System.VectorCount];
-            Trial = new RodShape(rod.ElementCount, supports.Coaxial != null);
+            Trial = new RodShape(rod.ElementCount, supports.InnerCount);
         }
 
         /// <summary>The second derivative, as it was factorised last.</summary>
@@ -98,7 +98,7 @@ namespace Guidewire.Core
         /// <param name="fraction">What the terms allow of one that turns no element too far.</param>
         public double MaxStep(RodShape shape, double size, double relative, out double fraction)
         {
-            double most = Math.Max(relative, CoaxialShape.TurnAtTip(_supports.Coaxial, shape, Direction));
+            double most = Math.Max(relative, CoaxialShape.TurnAtTips(_supports.Coaxial, shape, Direction));
             double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / most));
             fraction = EnergySum.MaxStep(_terms, shape, Direction, scale);
             return scale * fraction;

@@ -147,15 +147,16 @@ namespace Guidewire.Io
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,
             },
-            new JsonEntry("catheters", JTokenType.Array, "null or a list of one {\"start\", \"length\", \"elements\","
-                + " \"wireRadius\", \"lumenRadius\", ...}",
-                "a catheter over the wire, on one shared centreline: start is how far its hub is ahead of the wire's"
-                + " (units, 0), length (units), elements (30), wireRadius and lumenRadius its outer and inner radius"
-                + " (m), frictionCoefficient that of its outside with all walls (by default as the walls have it),"
-                + " lumenFriction that between the wire and its lumen along the axis (0); the other keys are those of"
-                + " the wire: instrument, youngsModulus, shearModulus, density, shearFactor, bendingStiffness,"
-                + " torsionalStiffness, axialStiffness, massPerLength, restCurvature, wireSections, insertionSpeed,"
-                + " rotationSpeed, driveFile, hubForceLimit; needs proximalEnd \"clamped\"")
+            new JsonEntry("catheters", JTokenType.Array, "null or a list of one or two {\"start\", \"length\","
+                + " \"elements\", \"wireRadius\", \"lumenRadius\", ...}",
+                "catheters over the wire, the outermost one first, on one shared centreline: start is how far its hub"
+                + " is ahead of the wire's (units, 0), length (units), elements (30), wireRadius and lumenRadius its"
+                + " outer and inner radius (m), frictionCoefficient that of its outside with all walls (by default as"
+                + " the walls have it), lumenFriction that between the wire and its lumen along the axis (0; with one"
+                + " catheter); the other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
+                + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
+                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit (with one catheter); needs"
+                + " proximalEnd \"clamped\"")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,

@@ -13,6 +13,9 @@ namespace Guidewire.Core.Tests
             + " \"lumenRadius\": 0.0006, \"bendingStiffness\": 7e-4, \"torsionalStiffness\": 5e-4,"
             + " \"rotationSpeed\": 2}";
 
+        private const string Outer = "{\"start\": 110, \"length\": 80, \"elements\": 10, \"wireRadius\": 0.0014,"
+            + " \"lumenRadius\": 0.001, \"bendingStiffness\": 1e-3, \"torsionalStiffness\": 8e-4}";
+
         [Test]
         public void Catheter_IsReadWithTheKeysOfAWire()
         {
@@ -80,10 +83,45 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void TwoCatheters_AreRefused()
+        public void ThreeCatheters_AreRefused()
         {
-            ParameterException error = Assert.Throws<ParameterException>(() => Load(Good + ", " + Good))!;
-            Assert.That(error.Message, Does.Contain("no more than one catheter"));
+            Assert.That(Refusal.Of(() => Load(Outer + ", " + Good + ", " + Good)),
+                Does.Contain("no more than two catheters"));
+        }
+
+        [TestCase("sheath", "{}", "no sheath where there are two")]
+        [TestCase("hubForceLimit", "1.0", "hubForceLimit 0 of all where there are two")]
+        public void KeyThatDoesNotGoWithTwoCatheters_IsRefused(string key, string value, string expected)
+        {
+            const string tube = "{\"shape\": \"tube\", \"radius\": 10, \"knots\": [[0, 0, -10], [0, 0, 500]],"
+                + " \"openStart\": true, \"openEnd\": true}";
+            Assert.That(Refusal.Of(() => Load(Outer + ", " + Good, (key, value), ("vessel", tube))),
+                Does.Contain(expected));
+        }
+
+        [TestCase("\"elements\": 10", "\"lumenFriction\": 0.1", "lumenFriction 0 where there are two")]
+        [TestCase("\"elements\": 10", "\"hubForceLimit\": 0.1", "hubForceLimit 0 of all where there are two")]
+        [TestCase("\"elements\": 10", "\"insertionSpeed\": -0.2", "hubs that do not cross")]
+        [TestCase("\"start\": 110", "\"start\": 10", "in its item 1 a start of at most that of the catheter around")]
+        [TestCase("\"start\": 110", "\"start\": 245", "in its item 1 a start of at least")]
+        [TestCase("0.001,", "0.0008,", "in its item 0 a lumenRadius of more than the radius of the catheter inside")]
+        public void OuterCatheterThatDoesNotFit_IsRefused(string part, string other, string expected)
+        {
+            Assert.That(Refusal.Of(() => Load(Outer.Replace(part, other) + ", " + Good)), Does.Contain(expected));
+        }
+
+        [Test]
+        public void SessionOfThree_HoldsEachHub()
+        {
+            using SimulationSession session = SimulationSession.Open(null, Given(Outer + ", " + Good), true);
+            session.Step(1.0, 0.1);
+            session.Step(0.5, 0.2, 1);
+            session.Step(0.25, 0.3, 2);
+            CoaxialRecord outer = session.Simulation.Coaxial()!;
+            Assert.That(session.Simulation.Hub()!.Insertion, Is.EqualTo(1e-3).Within(1e-15));
+            Assert.That(outer.Insertion, Is.EqualTo(0.5e-3).Within(1e-15));
+            Assert.That(outer.Inside!.Insertion, Is.EqualTo(0.25e-3).Within(1e-15));
+            Assert.That(outer.Inside.Turn, Is.EqualTo(0.3).Within(1e-12));
         }
 
         [Test]

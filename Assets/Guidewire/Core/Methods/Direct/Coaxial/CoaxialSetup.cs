@@ -1,133 +1,227 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds what is simulated of a wire in a catheter: scenes of both as if alone, and both as one
+    /// <summary>Builds what is simulated of a wire in one or two catheters: scenes of each as if alone, and all as one
     /// rod.</summary>
     internal sealed class CoaxialSetup
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
         private const double Rounding = 1e-6;   // of a length
-        private const string CatheterName = "catheters[0]";
+        private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
+        private const string CatheterName = "catheters[0]";    // where there is a sheath there is one
 
         private readonly SimulationParameters _parameters;
-        private readonly InstrumentProfile _wireProfile;
-        private readonly InstrumentProfile _catheterProfile;
         private readonly double _drag;
+        private readonly double[] _move;        // of each hub in the next step, m
+        private readonly double[] _inside;      // how far each tip may go back, m
+        private readonly double[] _gap;         // how far each hub is behind the next one around it, m
         private readonly Barrier _barrier;
 
-        /// <summary>For the wire and the catheter of these parameters.</summary>
+        /// <summary>For the wire and the catheters of these parameters.</summary>
         public CoaxialSetup(SimulationParameters parameters)
         {
             _parameters = parameters;
+            IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
+            int count = catheters.Count + 1;
+            Scenes = new MaterialScene[count];
+            Instruments = new CoaxialInstrument[count];
+            _move = new double[count];
+            _inside = new double[count];
+            _gap = new double[count];
             SimulationParameters wire = parameters.Copy();
             wire.Scene.Start = null;   // of a run that goes on; its snapshot says all of it
-            Wire = SceneOf(wire);
-            SimulationParameters catheter = wire.OfCatheter(parameters.Scene.Catheters[0], Axis);
-            Catheter = SceneOf(catheter);
-            _wireProfile = ProfileOf(wire, Wire.Metres);
-            _catheterProfile = ProfileOf(catheter, Wire.Metres);
+            Scenes[count - 1] = SceneOf(wire);
+            Instruments[count - 1] = new CoaxialInstrument(Wire.Rod, ProfileOf(wire, Wire.Metres));
+            for (int i = 0; i < catheters.Count; i++)
+            {
+                SimulationParameters own = wire.OfCatheter(catheters[i], Axis);
+                Scenes[i] = SceneOf(own);
+                Instruments[i] = new CoaxialInstrument(Scenes[i].Rod, ProfileOf(own, Wire.Metres),
+                    catheters[i].Material.InnerRadius);
+            }
             _drag = parameters.Material.MassDamping;
-            WireStations = CoaxialRod.StationsOf(Wire.Rod);
             if (parameters.Scene.Sheath != null)
             {
                 Sheath = new SheathEnd(Wire.Metres * SheathExit.Find(parameters.Scene.Sheath, Wire), Axis);
             }
             if (Wire.Walls.Length > 0)
             {
-                double step = parameters.Method.TimeStep;
-                double move = Math.Max(parameters.Drive.LargestMove(step, Wire.Metres),
-                    catheter.Drive.LargestMove(step, Wire.Metres));
-                Barrier one = BarrierDefaults.Of(Wire.Rod, parameters.Contact, Wire.Walls, Wire.Metres, move);
-                Barrier two = BarrierDefaults.Of(Catheter.Rod, parameters.Contact, Wire.Walls, Wire.Metres, move);
-                double distance = Math.Min(one.Distance, two.Distance);
-                _barrier = new Barrier(distance, Math.Max(one.Distance * one.Stiffness, two.Distance * two.Stiffness)
-                    / distance);
+                _barrier = FindBarrier();
             }
         }
 
+        /// <summary>Each instrument as if it were alone, the outermost catheter first, the wire last.</summary>
+        public MaterialScene[] Scenes { get; }
+
         /// <summary>The wire as if it were alone.</summary>
-        public MaterialScene Wire { get; }
+        public MaterialScene Wire => Scenes[Scenes.Length - 1];
 
-        /// <summary>The catheter as if it were alone.</summary>
-        public MaterialScene Catheter { get; }
+        /// <summary>The outermost catheter as if it were alone.</summary>
+        public MaterialScene Catheter => Scenes[0];
 
-        /// <summary>Where the sheath ends in which both are, or null.</summary>
+        /// <summary>What each is made of, in the same order.</summary>
+        public CoaxialInstrument[] Instruments { get; }
+
+        /// <summary>Where the sheath ends in which all are, or null.</summary>
         public SheathEnd? Sheath { get; }
 
-        /// <summary>Along which both hubs move, a unit vector.</summary>
+        /// <summary>Along which all hubs move, a unit vector.</summary>
         public Vector3d Axis => Wire.Schedule.Hub.Frame.Director3;
 
-        /// <summary>Radius of the catheter's lumen, m.</summary>
-        public double LumenRadius => _parameters.Scene.Catheters[0].Material.InnerRadius;
-
-        /// <summary>Distance of each of the wire's nodes from its hub, m.</summary>
-        public double[] WireStations { get; }
-
-        /// <summary>Both as one rod.</summary>
-        /// <param name="beyond">Wire nodes beyond the catheter's tip.</param>
-        /// <param name="lead">How far the wire's hub is behind the catheter's, m.</param>
-        /// <param name="sheathed">How far the catheter's hub is from the exit of the sheath, m.</param>
-        public CoaxialRod Rod(int beyond, double lead, double sheathed)
+        /// <summary>All as one rod.</summary>
+        /// <param name="beyond">Nodes of each beyond the tips around it.</param>
+        /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
+        /// <param name="sheathed">How far that hub is from the exit of the sheath, m.</param>
+        public CoaxialRod Rod(int[] beyond, double[] leads, double sheathed)
         {
-            var rod = new CoaxialRod(Catheter.Rod, _catheterProfile, Wire.Rod, _wireProfile, beyond, lead,
-                LumenRadius, sheathed) { Sheath = Sheath };
+            var rod = new CoaxialRod(Instruments, beyond, leads, sheathed) { Sheath = Sheath };
             rod.Rod.MassDamping = _drag;
             return rod;
         }
 
-        /// <summary>A drive of one of the hubs along the axis.</summary>
-        public MaterialDrive DriveOf(MaterialScene scene)
+        /// <summary>Drives of the hubs along the axis.</summary>
+        public MaterialDrive[] Drives()
         {
-            return new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis);
+            return Array.ConvertAll(Scenes, scene => new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis));
         }
 
-        /// <summary>Lets hubs go in the step that begins at a time so far that neither passes the other one nor the
-        /// exit of a sheath, and that the wire's tip stays in the catheter by an element at least.</summary>
-        public void LimitDrives(MaterialDrive outer, MaterialDrive inner, CoaxialHubs hubs, double time)
+        /// <summary>What hubs with a hubForceLimit do.</summary>
+        public HubSlip[] Slips(MaterialDrive[] drives)
         {
-            double lead = hubs.LeadAt(time);
-            double inside = WireStations[WireStations.Length - 1] - lead - Catheter.Rod.Length[0];
+            var slips = new HubSlip[drives.Length];
+            for (int i = 0; i < slips.Length; i++)
+            {
+                double limit = i == slips.Length - 1 ? _parameters.Drive.HubForceLimit
+                    : _parameters.Scene.Catheters[i].Drive.HubForceLimit;
+                slips[i] = new HubSlip(drives[i], limit, OfRadius * Scenes[i].Rod.Radius[0]);
+            }
+            return slips;
+        }
+
+        /// <summary>What is read off of each catheter, the outermost one first.</summary>
+        public CoaxialRecord[] Records()
+        {
+            IReadOnlyList<Catheter> catheters = _parameters.Scene.Catheters;
+            double slip = _parameters.Contact.ElasticSlip > 0.0 ? _parameters.Contact.ElasticSlip
+                : FrictionEnergy.ElasticSlipOf(Wire.Rod);
+            var records = new CoaxialRecord[catheters.Count];
+            for (int i = records.Length - 1; i >= 0; i--)
+            {
+                records[i] = new CoaxialRecord(Scenes[i].Rod.ElementCount, Wire.Metres,
+                    Instruments[i].LumenRadius, new LumenFriction(catheters[i].LumenFriction, slip), i)
+                {
+                    Inside = i + 1 < records.Length ? records[i + 1] : null,
+                };
+            }
+            return records;
+        }
+
+        /// <summary>Lets hubs go in the step that begins at a time so far that none passes the next one nor the exit of
+        /// a sheath, and that the tips inside stay in the outermost catheter by an element at least.</summary>
+        public void LimitDrives(MaterialDrive[] drives, CoaxialHubs hubs, double time)
+        {
+            int last = drives.Length - 1;
+            for (int i = 1; i <= last; i++)
+            {
+                double lead = hubs.LeadAt(i, time);
+                double[] station = Instruments[i].Stations;
+                _inside[i] = station[station.Length - 1] - lead - Catheter.Rod.Length[0];
+                _gap[i] = lead - hubs.LeadAt(i - 1, time);
+            }
             double toExit = Sheath == null ? Nowhere : hubs.SheathedAt(time);
-            outer.Limit(-Nowhere, toExit);
-            double catheter = outer.NextMove(time);
-            inner.Limit(Math.Min(0.0, catheter - inside), Math.Max(0.0, lead + catheter));
-            double wire = inner.NextMove(time);
-            outer.Limit(Math.Min(0.0, wire - lead), Math.Min(toExit, Math.Max(0.0, inside + wire)));
+            drives[0].Limit(-Nowhere, toExit);
+            _move[0] = drives[0].NextMove(time);
+            LimitInner(drives, time);
+            // What is to rest inside may hold back what is around it.
+            for (int i = last - 1; i > 0; i--)
+            {
+                drives[i].Limit(Math.Min(0.0, Math.Max(_move[0] - _inside[i], _move[i + 1] - _gap[i + 1])),
+                    Math.Max(0.0, _gap[i] + _move[i - 1]));
+                _move[i] = drives[i].NextMove(time);
+            }
+            double forward = toExit;
+            for (int i = 1; i <= last; i++)
+            {
+                forward = Math.Min(forward, Math.Max(0.0, _inside[i] + _move[i]));
+            }
+            drives[0].Limit(Math.Min(0.0, _move[1] - _gap[1]), forward);
+            if (last > 1)
+            {
+                _move[0] = drives[0].NextMove(time);
+                LimitInner(drives, time);
+            }
         }
 
-        /// <summary>Energies and loads of both, which follow their hubs.</summary>
+        private void LimitInner(MaterialDrive[] drives, double time)
+        {
+            for (int i = 1; i < drives.Length; i++)
+            {
+                drives[i].Limit(Math.Min(0.0, _move[0] - _inside[i]), Math.Max(0.0, _gap[i] + _move[i - 1]));
+                _move[i] = drives[i].NextMove(time);
+            }
+        }
+
+        /// <summary>Energies and loads of all, which follow their hubs.</summary>
         public RodTerms Terms(MaterialScene scene, CoaxialHubs hubs)
         {
             WallTerms? walls = Wire.Walls.Length == 0 ? null
-                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0),
-                    _parameters.Scene.Catheters[0].FrictionCoefficient);
+                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0));
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             ((CoaxialBendTwist)terms.Bending).Hubs = hubs;
             return terms;
         }
 
-        /// <summary>The motion of both.</summary>
+        /// <summary>The motion of all.</summary>
         public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
         {
             return DirectSetup.DynamicsOf(_parameters, scene, terms);
         }
 
-        /// <summary>What is wrong with the start between walls, in one phrase, or null: of the catheter, and of the
-        /// wire beyond it; in a sheath, of what is beyond its exit.</summary>
+        /// <summary>What is wrong with the start between walls, in one phrase, or null: of the outermost catheter, and
+        /// of the others beyond it; in a sheath, of what is beyond its exit.</summary>
         public string? FindProblemOfStart()
         {
             if (Sheath != null)
             {
                 return FindProblemBeyondSheath(Sheath);
             }
-            double tip = Catheter.Schedule.Hub.PositionAt(0.0).Z - Wire.Schedule.Hub.PositionAt(0.0).Z
-                + Catheter.Rod.TotalLength;
-            int n = Wire.Rod.ElementCount;
-            int first = Array.FindIndex(WireStations, 1, station => station > tip);
-            return MaterialStart.FindProblem(Catheter, 0, Catheter.Rod.ElementCount, name: CatheterName)
-                ?? (first < 0 ? null : MaterialStart.FindProblem(Wire, first - 1, n));
+            double tip = 0.0;      // the farthest so far, m from the outermost hub
+            string? problem = null;
+            for (int i = 0; i < Scenes.Length && problem == null; i++)
+            {
+                double lead = Catheter.Schedule.Hub.PositionAt(0.0).Z - Scenes[i].Schedule.Hub.PositionAt(0.0).Z;
+                double around = lead + tip;
+                int first = i == 0 ? 1 : Array.FindIndex(Instruments[i].Stations, 1, station => station > around);
+                int end = Scenes[i].Rod.ElementCount;
+                problem = first < 0 ? null : i == Scenes.Length - 1 ? MaterialStart.FindProblem(Scenes[i], first - 1, end)
+                    : MaterialStart.FindProblem(Scenes[i], first - 1, end, name: "catheters[" + i + "]");
+                tip = Math.Max(tip, Scenes[i].Rod.TotalLength - lead);
+            }
+            return problem;
+        }
+
+        // The nearest and the stiffest of those of all.
+        private Barrier FindBarrier()
+        {
+            double step = _parameters.Method.TimeStep;
+            double move = _parameters.Drive.LargestMove(step, Wire.Metres);
+            foreach (Catheter catheter in _parameters.Scene.Catheters)
+            {
+                DriveParameters drive = _parameters.OfCatheter(catheter, Axis).Drive;
+                move = Math.Max(move, drive.LargestMove(step, Wire.Metres));
+            }
+            double distance = double.PositiveInfinity;
+            double product = 0.0;
+            foreach (MaterialScene scene in Scenes)
+            {
+                Barrier one = BarrierDefaults.Of(scene.Rod, _parameters.Contact, Wire.Walls, Wire.Metres, move);
+                distance = Math.Min(distance, one.Distance);
+                product = Math.Max(product, one.Distance * one.Stiffness);
+            }
+            return new Barrier(distance, product / distance);
         }
 
         // That of the wire is found as if it were alone.

@@ -109,14 +109,24 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>What is not as asked of two hubs, the wire's and the catheter's, in one line; or null.</summary>
+        /// <summary>What is not as asked of the hubs, in one line; or null.</summary>
+        /// <param name="hubs">The outermost one first, the wire's last.</param>
         /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
-        public static string? WarningOf(HubSlip wire, HubSlip catheter, bool isSheathed)
+        public static string? WarningOf(HubSlip[] hubs, bool isSheathed)
         {
-            string text = wire.TextOf("the wire's hub",
-                "it came to the catheter's hub, or the wire's tip to the first element of the catheter")
-                + catheter.TextOf("the catheter's hub", "it came to the wire's hub, or its first element to the"
-                + " wire's tip" + (isSheathed ? ", or its hub to the exit of the sheath" : ""));
+            string text = "";
+            int last = hubs.Length - 1;
+            for (int k = last; k >= 0; k--)
+            {
+                string name = k == last ? "the wire's hub" : last == 1 ? "the catheter's hub"
+                    : k == 0 ? "the outer catheter's hub" : "the inner catheter's hub";
+                string stops = k == last
+                    ? "it came to the catheter's hub, or the wire's tip to the first element of the catheter"
+                    : last == 1 ? "it came to the wire's hub, or its first element to the wire's tip"
+                    : "it came to the next hub, or its first element to a tip inside";
+                stops += k < last && isSheathed ? ", or its hub to the exit of the sheath" : "";
+                text += hubs[k].TextOf(name, stops);
+            }
             return text == "" ? null : text.Substring(Separator.Length);
         }
 

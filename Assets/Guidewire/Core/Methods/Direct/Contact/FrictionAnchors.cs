@@ -64,12 +64,12 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes over the anchors of another wire between the same walls, where nodes have come in after one
-        /// or have gone there.</summary>
-        /// <param name="node">The last one before them.</param>
-        public void TakeAround(FrictionAnchors other, int node)
+        /// <summary>Takes over the anchors of another wire between the same walls, where nodes have come in or
+        /// gone.</summary>
+        /// <param name="node">What each node was in the other one, -1 where it comes in; an element was that which
+        /// ended at the same node.</param>
+        public void Take(FrictionAnchors other, int[] node)
         {
-            int more = _nodes - other._nodes;
             Dissipated = other.Dissipated;
             for (int w = 0; w < _walls; w++)
             {
@@ -77,14 +77,11 @@ namespace Guidewire.Core
                 int others = w * (2 * other._nodes - 1);
                 for (int i = 0; i < _nodes; i++)
                 {
-                    int from = i <= node ? i : i - more;
-                    bool isThere = i <= node || from > node;
-                    _anchors[own + i] = isThere ? other._anchors[others + from] : default;
-                    from = i < node ? i : i - more;
-                    isThere = i < node || from >= node;
-                    if (i < _nodes - 1)
+                    _anchors[own + i] = node[i] >= 0 ? other._anchors[others + node[i]] : default;
+                    if (i > 0)
                     {
-                        _anchors[own + _nodes + i] = isThere ? other._anchors[others + other._nodes + from] : default;
+                        _anchors[own + _nodes + i - 1] = node[i] > 0
+                            ? other._anchors[others + other._nodes + node[i] - 1] : default;
                     }
                 }
             }

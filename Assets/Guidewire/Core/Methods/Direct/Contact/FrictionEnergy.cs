@@ -30,8 +30,7 @@ namespace Guidewire.Core
         private readonly double[] _limitSum;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
-        private int _outerCount;                  // elements of an outer instrument
-        private double _outerCoefficient = double.NaN;
+        private readonly double[] _coefficient;   // of elements with one of their own on all walls; else NaN
 
         /// <summary>Friction at the contacts of a barrier.</summary>
         /// <param name="elasticSlip">s, m.</param>
@@ -42,16 +41,18 @@ namespace Guidewire.Core
             _start = new Vector3d[elementCount + 1];
             _frames = new Quaterniond[elementCount];
             Array.Fill(_frames, Quaterniond.Identity);
+            _coefficient = new double[elementCount];
+            Array.Fill(_coefficient, double.NaN);
             Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount);
             _limitSum = new double[Anchors.Count];
         }
 
-        /// <summary>The first elements are an outer instrument's, with a coefficient of its own on all walls.</summary>
+        /// <summary>Elements from one up to another are an instrument's with a coefficient of its own on all
+        /// walls.</summary>
         /// <param name="coefficient">NaN: those of the walls.</param>
-        public void SetOuter(int elements, double coefficient)
+        public void SetCoefficient(int from, int to, double coefficient)
         {
-            _outerCount = elements;
-            _outerCoefficient = coefficient;
+            Array.Fill(_coefficient, coefficient, from, to - from);
         }
 
         /// <summary>s by rule, m: a hundredth of the thinnest element's radius, by which a surface turns about the
@@ -199,8 +200,8 @@ namespace Guidewire.Core
 
         private double CoefficientOf(in WallContact contact)
         {
-            return contact.Element < _outerCount && !double.IsNaN(_outerCoefficient) ? _outerCoefficient
-                : _barrier.Walls[contact.Wall].FrictionCoefficient;
+            double own = _coefficient[contact.Element];
+            return double.IsNaN(own) ? _barrier.Walls[contact.Wall].FrictionCoefficient : own;
         }
 
         // Force over displacement, N/m.

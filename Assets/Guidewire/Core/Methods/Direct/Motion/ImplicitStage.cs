@@ -41,7 +41,7 @@ namespace Guidewire.Core
             _schedule = schedule;
             _motion = motion;
             _shape = motion.Shape;
-            _before = new RodShape(n, _shape.Twist.Length > 0);
+            _before = new RodShape(n, _shape.InnerCount);
             _startPositions = new Vector3d[n + 1];
             _velocityHistory = new Vector3d[n + 1];
             _predicted = new Quaterniond[n];

@@ -5,7 +5,8 @@ namespace Guidewire.Core
     /// <summary>Motion of an instrument inside another one about the axis they share: inertia of its spin, and drag of
     /// the fluid in the lumen.</summary>
     /// <remarks>The part of it in element j turns by w_3 + z' about d3, w the angular velocity of the outer one and z
-    /// its angle from there. With its inertia I and the drag c of the fluid between both,
+    /// its angle from there; where an innermost one is in it too, its drag goes with its own z' less this one's, and
+    /// acts back. With its inertia I and the drag c of the fluid between both,
     ///   T = 1/2 I (w_3 + z')^2,   I (z'' + w_3') + c z' + a I (z' + w_3) = -dE/dz,
     /// and I (z'' + a z') adds to the couple about d3, in which <see cref="InertiaEnergy"/> has I w_3' and a I w_3
     /// already, for I is a part of the element's; a is the damping of turns in proportion to mass. Gyroscopic couples
@@ -17,7 +18,7 @@ namespace Guidewire.Core
         private readonly CoaxialRod _rod;
         private readonly InertiaEnergy _inertia;
         private readonly double _damping;            // a, 1/s
-        private readonly double[] _twistRates;       // z' of the motion, rad/s, n
+        private readonly double[] _twistRates;       // z' of the motion, rad/s, n for each instrument inside
         private readonly double[] _start;            // z when the step began, rad
         private readonly double[] _history;          // z^
         private readonly double[] _rateHistory;      // r^
@@ -36,7 +37,7 @@ namespace Guidewire.Core
         /// <param name="stageCount">Of the scheme, an explicit one counted.</param>
         public InnerSpin(CoaxialRod rod, InertiaEnergy inertia, RodMotion motion, int stageCount)
         {
-            int n = motion.Shape.ElementCount;
+            int n = motion.TwistRates.Length;
             _rod = rod;
             _inertia = inertia;
             _damping = rod.Rod.MassDamping;
@@ -49,7 +50,7 @@ namespace Guidewire.Core
             _rate = Arrays(stageCount, n);
             _acceleration = Arrays(stageCount, n);
             _anchor = new double[n];
-            _anchorFrame = new Quaterniond[n];
+            _anchorFrame = new Quaterniond[motion.Shape.ElementCount];
             _anchorCouple = new double[n];
             _anchorTurn = new double[n];
         }
@@ -58,9 +59,14 @@ namespace Guidewire.Core
         public static double KineticEnergy(CoaxialRod rod, Vector3d[] spins, double[] twistRates)
         {
             double sum = 0.0;
-            for (int j = 0; j < rod.Joints.ActiveCount; j++)
+            for (int i = 1; i < rod.Joints.Count; i++)
             {
-                sum += rod.InnerSpin[j] * twistRates[j] * (spins[j].Z + 0.5 * twistRates[j]);
+                int first = (i - 1) * rod.Joints.ElementCount;
+                for (int j = 0; j < rod.Joints.ActiveCountOf(i); j++)
+                {
+                    double rate = twistRates[first + j];
+                    sum += rod.InnerSpin[first + j] * rate * (spins[j].Z + 0.5 * rate);
+                }
             }
             return sum;
         }
@@ -107,9 +113,13 @@ namespace Guidewire.Core
         {
             Array.Clear(_rate[stage], 0, _history.Length);
             Array.Clear(_acceleration[stage], 0, _history.Length);
-            for (int j = 0; j < Count; j++)
+            for (int i = 1; i < _rod.Joints.Count; i++)
             {
-                Rates(shape, j, out _rate[stage][j], out _acceleration[stage][j]);
+                for (int j = 0; j < CountOf(i); j++)
+                {
+                    int at = At(i, j);
+                    Rates(shape, at, out _rate[stage][at], out _acceleration[stage][at]);
+                }
             }
         }
 
@@ -138,19 +148,46 @@ namespace Guidewire.Core
         public double SetFirst(RodVector[] gradient, Vector3d[] spins, Vector3d[] rotary, Vector3d[] spinRate)
         {
             double largest = 0.0;
-            int twist = _history.Length + 2;
+            int twist = spins.Length + 2;
             Array.Clear(_acceleration[0], 0, _history.Length);
-            for (int j = 0; j < Count; j++)
+            for (int j = 0; j < _rod.Joints.ActiveCount; j++)
             {
-                double onAngle = gradient[twist + j].T3 + _rod.LumenDrag[j] * _twistRates[j];
-                double outer = rotary[j].Z - _rod.InnerSpin[j];
+                double outer = rotary[j].Z;
+                double couple = -gradient[j].T3;
                 double spin = spins[j].Z;
-                double rate = (onAngle - gradient[j].T3) / outer - _damping * spin;
+                for (int i = 1; i < _rod.Joints.Count; i++)
+                {
+                    if (j < CountOf(i))
+                    {
+                        double onAngle = OnAngle(gradient[twist + j], i, j);
+                        outer -= _rod.InnerSpin[At(i, j)];
+                        couple += onAngle;
+                        _acceleration[0][At(i, j)] = -onAngle / _rod.InnerSpin[At(i, j)]
+                            - _damping * (_twistRates[At(i, j)] + spin);
+                    }
+                }
+                double rate = couple / outer - _damping * spin;
                 spinRate[j] = new Vector3d(spinRate[j].X, spinRate[j].Y, rate);
-                _acceleration[0][j] = -onAngle / _rod.InnerSpin[j] - _damping * (_twistRates[j] + spin) - rate;
-                largest = Math.Max(largest, Math.Abs(_acceleration[0][j]));
+                for (int i = 1; i < _rod.Joints.Count; i++)
+                {
+                    if (j < CountOf(i))
+                    {
+                        _acceleration[0][At(i, j)] -= rate;
+                        largest = Math.Max(largest, Math.Abs(_acceleration[0][At(i, j)]));
+                    }
+                }
             }
             return largest;
+        }
+
+        private double OnAngle(in RodVector gradient, int instrument, int j)
+        {
+            double couple = instrument == 1 ? gradient.T3 : gradient.T2;
+            int at = At(instrument, j);
+            double drag = Between(j);
+            couple += _rod.LumenDrag[at] * _twistRates[at];
+            return drag == 0.0 ? couple : instrument == 2 ? couple - drag * _twistRates[j]
+                : couple + drag * (_twistRates[j] - _twistRates[At(2, j)]);
         }
 
         /// <summary>Forgets the stages before.</summary>
@@ -166,13 +203,21 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double sum = 0.0;
-            for (int j = 0; j < Count; j++)
+            for (int i = 1; i < _rod.Joints.Count; i++)
             {
-                double change = shape.Twist[j] - _anchor[j];
-                double turn = RotationVector.Log(_anchorFrame[j].Conjugate * shape.Q[j]).Z;
-                Seconds(j, out double diagonal, out double mixed);
-                sum += _anchorCouple[j] * change + _anchorTurn[j] * turn
-                    + (0.5 * diagonal * change + mixed * turn) * change;
+                for (int j = 0; j < CountOf(i); j++)
+                {
+                    int at = At(i, j);
+                    double change = shape.Twist[at] - _anchor[at];
+                    double turn = RotationVector.Log(_anchorFrame[j].Conjugate * shape.Q[j]).Z;
+                    Seconds(i, j, out double diagonal, out double mixed);
+                    sum += _anchorCouple[at] * change + _anchorTurn[at] * turn
+                        + (0.5 * diagonal * change + mixed * turn) * change;
+                    if (i == 2 && Between(j) > 0.0)
+                    {
+                        sum -= Between(j) / _inertia.StageLength * change * (shape.Twist[j] - _anchor[j]);
+                    }
+                }
             }
             return sum;
         }
@@ -186,11 +231,18 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            for (int j = 0; j < Count; j++)
+            for (int j = 0; j < _rod.Joints.ActiveCount; j++)
             {
-                _anchor[j] = shape.Twist[j];
                 _anchorFrame[j] = shape.Q[j];
-                Couples(shape, j, out _anchorCouple[j], out _anchorTurn[j]);
+            }
+            for (int i = 1; i < _rod.Joints.Count; i++)
+            {
+                for (int j = 0; j < CountOf(i); j++)
+                {
+                    int at = At(i, j);
+                    _anchor[at] = shape.Twist[at];
+                    Couples(shape, i, j, out _anchorCouple[at], out _anchorTurn[at]);
+                }
             }
         }
 
@@ -198,12 +250,17 @@ namespace Guidewire.Core
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            int twist = _history.Length + 2;
-            for (int j = from; j < Math.Min(to, Count); j++)
+            int twist = shape.ElementCount + 2;
+            for (int i = 1; i < _rod.Joints.Count; i++)
             {
-                Couples(shape, j, out double onAngle, out double onTurn);
-                gradient[twist + j].T3 += onAngle;
-                gradient[j].T3 += onTurn;
+                for (int j = from; j < Math.Min(to, CountOf(i)); j++)
+                {
+                    Couples(shape, i, j, out double onAngle, out double onTurn);
+                    ref RodVector angle = ref gradient[twist + j];
+                    angle.T3 += i == 1 ? onAngle : 0.0;
+                    angle.T2 += i == 2 ? onAngle : 0.0;
+                    gradient[j].T3 += onTurn;
+                }
             }
         }
 
@@ -217,11 +274,16 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddTwistRows(RodShape shape, TwistRow[] rows, int from, int to)
         {
-            for (int j = from; j < Math.Min(to, Count); j++)
+            for (int i = 1; i < _rod.Joints.Count; i++)
             {
-                Seconds(j, out double diagonal, out double mixed);
-                rows[j].Diagonal += diagonal;
-                rows[j].Turn += mixed * Vector3d.UnitZ;
+                int first = (i - 1) * (shape.ElementCount + 1);
+                for (int j = from; j < Math.Min(to, CountOf(i)); j++)
+                {
+                    Seconds(i, j, out double diagonal, out double mixed);
+                    rows[first + j].Diagonal += diagonal;
+                    rows[first + j].Turn += mixed * Vector3d.UnitZ;
+                    rows[j].Other -= i == 2 ? Between(j) / _inertia.StageLength : 0.0;
+                }
             }
         }
 
@@ -238,30 +300,53 @@ namespace Guidewire.Core
             }
         }
 
-        private int Count => _rod.Joints.ActiveCount;
-
-        private void Rates(RodShape shape, int j, out double rate, out double acceleration)
+        private int CountOf(int instrument)
         {
-            double perStage = 1.0 / _inertia.StageLength;
-            rate = perStage * (shape.Twist[j] - _history[j]);
-            acceleration = perStage * (rate - _rateHistory[j]);
+            return _rod.Joints.ActiveCountOf(instrument);
         }
 
-        private void Couples(RodShape shape, int j, out double onAngle, out double onTurn)
+        private int At(int instrument, int element)
         {
-            Rates(shape, j, out double rate, out double acceleration);
+            return (instrument - 1) * _rod.Joints.ElementCount + element;
+        }
+
+        // Drag of the innermost instrument in one that has an angle of its own there.
+        private double Between(int element)
+        {
+            return _rod.Joints.InnerCount > 1 && element < CountOf(1) && element < CountOf(2)
+                ? _rod.LumenDrag[At(2, element)] : 0.0;
+        }
+
+        private void Rates(RodShape shape, int at, out double rate, out double acceleration)
+        {
+            double perStage = 1.0 / _inertia.StageLength;
+            rate = perStage * (shape.Twist[at] - _history[at]);
+            acceleration = perStage * (rate - _rateHistory[at]);
+        }
+
+        private void Couples(RodShape shape, int instrument, int j, out double onAngle, out double onTurn)
+        {
+            int at = At(instrument, j);
+            Rates(shape, at, out double rate, out double acceleration);
             _inertia.AxialSpin(shape.Q[j], j, out double spin, out double spinRate);
-            double inertia = _rod.InnerSpin[j];
+            double inertia = _rod.InnerSpin[at];
             onTurn = inertia * (acceleration + _damping * rate);
-            onAngle = onTurn + inertia * (spinRate + _damping * spin) + _rod.LumenDrag[j] * rate;
+            onAngle = onTurn + inertia * (spinRate + _damping * spin) + _rod.LumenDrag[at] * rate;
+            double drag = Between(j);
+            if (drag > 0.0)
+            {
+                Rates(shape, At(3 - instrument, j), out double other, out _);
+                onAngle += instrument == 2 ? -drag * other : drag * (rate - other);
+            }
         }
 
         // By z twice, and by z and the turn about d3.
-        private void Seconds(int j, out double diagonal, out double mixed)
+        private void Seconds(int instrument, int j, out double diagonal, out double mixed)
         {
+            int at = At(instrument, j);
             double perStage = 1.0 / _inertia.StageLength;
-            mixed = _rod.InnerSpin[j] * perStage * (perStage + _damping);
-            diagonal = mixed + perStage * _rod.LumenDrag[j];
+            mixed = _rod.InnerSpin[at] * perStage * (perStage + _damping);
+            diagonal = mixed + perStage * (_rod.LumenDrag[at] + (instrument == 1 ? Between(j) : 0.0));
         }
 
         private static double[][] Arrays(int count, int length)

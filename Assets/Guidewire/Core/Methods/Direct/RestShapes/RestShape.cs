@@ -41,7 +41,7 @@ namespace Guidewire.Core
             _terms.SetTime(_scene.Schedule, 0.0);
             if (_scene.StartsStraight && _scene.Supports.Distal == DistalEnd.Free)
             {
-                var straight = new RodShape(shape.ElementCount, shape.Twist.Length > 0);
+                var straight = new RodShape(shape.ElementCount, shape.InnerCount);
                 straight.CopyFrom(shape);
                 if (_terms.Bending.RelaxTurns(shape))
                 {

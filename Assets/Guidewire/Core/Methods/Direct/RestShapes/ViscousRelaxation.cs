@@ -41,7 +41,7 @@ namespace Guidewire.Core
             _tangent = new FollowerTangent(rod, supports, terms, followers);
             _keys = followers.Keys;
             _step = new RodVector[_tangent.System.VectorCount];
-            _trial = new RodShape(rod.ElementCount, supports.Coaxial != null);
+            _trial = new RodShape(rod.ElementCount, supports.InnerCount);
             _totalLength = rod.TotalLength;
             _bendForce = rod.BendForce;
         }

@@ -27,8 +27,8 @@ namespace Guidewire.Core
         private readonly double[] _at;           // s_i, m
         private readonly double _shortest;       // element, m
         private readonly CoaxialBendTwist? _coaxial;
-        private readonly int _tip;                // of an outer instrument; beyond it nodes slide with the inner one
-        private double _slide;                    // m
+        private readonly double[] _slide;         // of each node with its instrument, m
+        private readonly double[] _slideBefore;   // a stage before
         private Vector3d _start;
         private bool _isHeld;
         private double _travel;                     // p, m
@@ -48,11 +48,13 @@ namespace Guidewire.Core
             _at = new double[_past.Length];
             _shortest = double.PositiveInfinity;
             _coaxial = terms.Bending as CoaxialBendTwist;
-            _tip = terms.Supports.Coaxial == null ? terms.Rod.ElementCount : terms.Supports.Coaxial.Joints.OuterCount;
+            _slide = new double[_past.Length];
+            _slideBefore = new double[_past.Length];
             for (int j = 0; j < terms.Rod.ElementCount; j++)
             {
                 _at[j + 1] = _at[j] + terms.Rod.Length[j];
-                _shortest = j == _tip ? _shortest : Math.Min(_shortest, terms.Rod.Length[j]);
+                bool isAtTip = _coaxial != null && _coaxial.Joints.IsTip(j);
+                _shortest = isAtTip ? _shortest : Math.Min(_shortest, terms.Rod.Length[j]);
             }
         }
 
@@ -75,20 +77,23 @@ namespace Guidewire.Core
             _start = start;
             _travel = Vector3d.Dot((_isHeld ? start : _inertia.FreePositions[0]) - shape.X[0], along);
             int at = 0;
-            SetSlide(shape);
+            SetSlide();
             double travelBefore = Vector3d.Dot(shape.X[0] - _past[0], along);
-            double slideBefore = SlideBefore(shape);
-            ShiftInner(-slideBefore);
+            ShiftInner(-1.0);
             SetSlopes(_past);
             for (int i = 0; i <= n; i++)
             {
-                double s = i > _tip ? _at[i] + slideBefore : _at[i];
+                double s = _at[i] + _slideBefore[i];
                 _change[i] = shape.X[i] - PointOn(_past, s + travelBefore, ref at);
             }
-            ShiftInner(slideBefore);
+            ShiftInner(1.0);
             SetSlopes(_before);
-            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0,
-                Math.Max(Math.Abs(_travel), Math.Abs(_travel + _slide)) / (OfElement * _shortest))));
+            double farthest = Math.Abs(_travel);
+            foreach (double slide in _slide)
+            {
+                farthest = Math.Max(farthest, Math.Abs(_travel + slide));
+            }
+            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, farthest / (OfElement * _shortest))));
         }
 
         /// <summary>Sets the prediction.</summary>
@@ -103,7 +108,7 @@ namespace Guidewire.Core
             int at = 0;
             for (int i = 0; i <= last; i++)
             {
-                double travel = i > _tip ? _travel + _slide : _travel;
+                double travel = _travel + _slide[i];
                 _point[i] = PointOn(_before, _at[i] + fraction * travel, ref at) + fraction * _change[i];
             }
             predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _point[0];
@@ -121,34 +126,31 @@ namespace Guidewire.Core
             }
         }
 
-        // What slides out of an outer instrument in the stage, and where nodes are before it does.
-        private void SetSlide(RodShape shape)
+        // What slides out of outer instruments in the stage, and where nodes are before it does; in the stage before,
+        // by how much the elements at tips became longer.
+        private void SetSlide()
         {
-            if (_coaxial == null || shape.ElementCount == _tip)
+            if (_coaxial == null)
             {
                 return;
             }
-            _slide = _coaxial.Slide;
-            double[] station = _coaxial.Stations;
-            for (int i = _tip + 1; i < _at.Length; i++)
+            CoaxialJoints joints = _coaxial.Joints;
+            for (int i = joints.OuterCount + 1; i < _at.Length; i++)
             {
-                _at[i] = station[i] - _slide;
+                _slide[i] = _coaxial.SlideOf(joints.CarrierOf(i - 1));
+                _slideBefore[i] = joints.IsTip(i - 1)
+                    ? _slideBefore[i - 1] + (_length[i] - Vector3d.Distance(_past[i - 1], _past[i]))
+                    : _slideBefore[i - 1];
+                _at[i] = joints.Stations[i] - _slide[i];
             }
         }
 
-        // By how much the element at an outer tip became longer in the stage before, m: what slid out.
-        private double SlideBefore(RodShape shape)
+        // Along the curve, by what slid out in the stage before.
+        private void ShiftInner(double sense)
         {
-            return shape.ElementCount == _tip ? 0.0
-                : _length[_tip + 1] - Vector3d.Distance(_past[_tip], _past[_tip + 1]);
-        }
-
-        // Along the curve, m.
-        private void ShiftInner(double length)
-        {
-            for (int i = _tip + 1; i < _at.Length; i++)
+            for (int i = 0; i < _at.Length; i++)
             {
-                _at[i] += length;
+                _at[i] += sense * _slideBefore[i];
             }
         }
 
@@ -158,7 +160,7 @@ namespace Guidewire.Core
         {
             for (int i = 1; i <= last; i++)
             {
-                double length = i == _tip + 1 ? _length[i] + fraction * _slide : _length[i];
+                double length = _length[i] + fraction * (_slide[i] - _slide[i - 1]);
                 x[i] = x[i - 1] + length * Vector3d.Normalize(curve[i] - curve[i - 1]);
             }
         }

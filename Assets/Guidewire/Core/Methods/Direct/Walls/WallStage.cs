@@ -22,7 +22,7 @@ namespace Guidewire.Core
             _terms = terms;
             _supports = terms.Supports;
             _prediction = new WallPrediction(terms, inertia);
-            _predicted = new RodShape(n, terms.Supports.Coaxial != null);
+            _predicted = new RodShape(n, terms.Supports.InnerCount);
             _direction = new RodVector[terms.VectorCount];
             _totalLength = terms.Rod.TotalLength;
             Newton = new BarrierNewton(terms, moving);

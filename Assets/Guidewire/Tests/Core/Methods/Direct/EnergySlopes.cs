@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>E'(z1)(z0 - z1) of the coordinates, J: along straight lines of the nodes, rotation vectors of the
-        /// elements and, with another instrument inside, its twist.</summary>
+        /// elements and, with others inside, their twist.</summary>
         public static double Along(RodDynamics motion, RodShape before)
         {
             RodShape shape = motion.Shape;
@@ -30,9 +30,10 @@ namespace Guidewire.Core.Tests
                     Vector3d turn = RotationVector.Log(shape.Q[i].Conjugate * before.Q[i]);
                     sum += g.T1 * turn.X + g.T2 * turn.Y + g.T3 * turn.Z;
                 }
-                if (i < shape.Twist.Length)
+                for (int k = 0; i < n && k < shape.InnerCount; k++)
                 {
-                    sum += gradient[n + 2 + i].T3 * (before.Twist[i] - shape.Twist[i]);
+                    RodVector z = gradient[n + 2 + i];
+                    sum += (k == 0 ? z.T3 : z.T2) * (before.Twist[k * n + i] - shape.Twist[k * n + i]);
                 }
             }
             return sum;

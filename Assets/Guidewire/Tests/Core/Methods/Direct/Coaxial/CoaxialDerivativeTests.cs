@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -10,10 +11,17 @@ namespace Guidewire.Core.Tests
         // Fourth-order central differences: truncation Step^4, rounding 1e-16/Step of the energy.
         private const double Step = 1e-3;
 
+        // From here on that of three instruments (ThreeTubes.Mixed).
+        private const int Three = 10;
+
         [TestCase(0.05, 2)]
         [TestCase(0.6, 2)]
         [TestCase(0.6, 0)]
         [TestCase(0.6, -1)]
+        [TestCase(0.6, Three)]
+        [TestCase(0.6, Three + 1)]
+        [TestCase(0.6, Three + 2)]
+        [TestCase(0.6, Three + 3)]
         public void Gradient_IsTheDifferenceOfTheEnergy(double angle, int beyond)
         {
             CoaxialPair pair = Pair(angle, beyond);
@@ -22,7 +30,7 @@ namespace Guidewire.Core.Tests
             double worst = 0.0;
             for (int i = 0; i < exact.Length; i++)
             {
-                double difference = Difference(s => pair.Bending.Value(Moved(pair.Shape, i, s)));
+                double difference = Difference(s => pair.Bending.Value(Moved(pair, i, s)));
                 worst = Math.Max(worst, Math.Abs(difference - exact[i]));
                 largest = Math.Max(largest, Math.Abs(difference));
             }
@@ -33,6 +41,10 @@ namespace Guidewire.Core.Tests
         [TestCase(0.6, 2)]
         [TestCase(0.6, 0)]
         [TestCase(0.6, -1)]
+        [TestCase(0.6, Three)]
+        [TestCase(0.6, Three + 1)]
+        [TestCase(0.6, Three + 2)]
+        [TestCase(0.6, Three + 3)]
         public void Blocks_AreTheDifferencesOfTheEnergy(double angle, int beyond)
         {
             CoaxialPair pair = Pair(angle, beyond);
@@ -45,7 +57,7 @@ namespace Guidewire.Core.Tests
                 for (int k = 0; k <= i; k++)
                 {
                     double difference = Difference(s => Difference(t =>
-                        pair.Bending.Value(Moved(pair.Shape, i, s, k, t))));
+                        pair.Bending.Value(Moved(pair, i, s, k, t))));
                     worst = Math.Max(worst, Math.Abs(difference - exact[i, k]));
                     largest = Math.Max(largest, Math.Abs(difference));
                 }
@@ -56,6 +68,10 @@ namespace Guidewire.Core.Tests
         [TestCase(2)]
         [TestCase(0)]
         [TestCase(-1)]
+        [TestCase(Three)]
+        [TestCase(Three + 1)]
+        [TestCase(Three + 2)]
+        [TestCase(Three + 3)]
         public void Solution_IsTheDenseOne(int beyond)
         {
             CoaxialPair pair = Pair(0.3, beyond, 0.0);
@@ -89,9 +105,9 @@ namespace Guidewire.Core.Tests
         public void NegativePivots_CountTheNegativeEigenvalues()
         {
             // Hub turned by half a turn against curvatures well beyond the threshold: the straight twist is unstable.
-            foreach (double shift in new[] { 0.0, 1.0, 10.0 })
+            foreach ((double shift, int beyond) in new[] { (0.0, 2), (1.0, 2), (10.0, 2), (0.0, Three), (10.0, Three) })
             {
-                CoaxialPair pair = Pair(0.8, 2);
+                CoaxialPair pair = Pair(0.8, beyond);
                 var system = new BlockTridiagonal(pair.Coaxial.Rod, pair.Supports);
                 int negative = system.Factorise(new EnergyTerm[] { pair.Bending, pair.Terms.Stretch }, pair.Shape,
                     new RodVector[system.VectorCount], new RodVector[system.VectorCount], shift);
@@ -121,9 +137,14 @@ namespace Guidewire.Core.Tests
             var inner = new[] { new CoaxialPair.Piece(0.83, 0.5, 0.3, 0.1, 0.3), new CoaxialPair.Piece(0.52, 0.9, -1.4,
                 0.8, -0.6) };
             double lead = beyond == 2 ? 0.15 : beyond == 0 ? 0.35 : 0.48;
-            var pair = new CoaxialPair(outer, 4, inner, 10, 0.3, lead, Math.Max(beyond, 0));
+            CoaxialPair pair = beyond >= Three ? ThreeTubes.Mixed(beyond - Three)
+                : new CoaxialPair(outer, 4, inner, 10, 0.3, lead, Math.Max(beyond, 0));
             var random = new Random(7);
-            pair.Bending.HubTwist = 0.7;
+            for (int i = 1; i < pair.Bending.HubTwist.Length; i++)
+            {
+                pair.Bending.HubTwist[i] = 1.4 / i - 0.7;
+            }
+            pair.Bending.HubTwist[1] = 0.7;
             RodShape bent = Rods.Random(pair.Coaxial.Rod, angle, strain, 5);
             Array.Copy(bent.X, pair.Shape.X, bent.X.Length);
             Array.Copy(bent.Q, pair.Shape.Q, bent.Q.Length);
@@ -143,35 +164,48 @@ namespace Guidewire.Core.Tests
             return Long(pair, gradient);
         }
 
-        // Positions and rotations of all nodes but the last rotation, then the active angles.
+        // Positions and rotations of all nodes but the last rotation, then the active angles, those of the innermost of
+        // three last.
         private static double[] Long(CoaxialPair pair, RodVector[] v)
         {
             int n = pair.Shape.ElementCount;
-            int active = pair.Coaxial.Joints.ActiveCount;
-            double[] nodes = DenseMatrix.From(v, n + 1);
-            Array.Resize(ref nodes, 6 * n + 3 + active);
-            for (int j = 0; j < active; j++)
+            var all = new List<double>(DenseMatrix.From(v, n + 1));
+            all.RemoveRange(6 * n + 3, all.Count - 6 * n - 3);
+            foreach ((int instrument, int j) in Angles(pair))
             {
-                nodes[6 * n + 3 + j] = v[n + 2 + j].T3;
+                all.Add(instrument == 1 ? v[n + 2 + j].T3 : v[n + 2 + j].T2);
             }
-            return nodes;
+            return all.ToArray();
+        }
+
+        private static List<(int Instrument, int Element)> Angles(CoaxialPair pair)
+        {
+            var angles = new List<(int, int)>();
+            for (int i = 1; i < pair.Coaxial.Joints.Count; i++)
+            {
+                for (int j = 0; j < pair.Coaxial.Joints.ActiveCountOf(i); j++)
+                {
+                    angles.Add((i, j));
+                }
+            }
+            return angles;
         }
 
         private static double[,] Assembled(CoaxialPair pair, EnergyTerm[] terms, double shift)
         {
             int n = pair.Shape.ElementCount;
-            int active = pair.Coaxial.Joints.ActiveCount;
             var blocks = new RodBlock[n + 2];
-            var rows = new TwistRow[n + 1];
+            var rows = new TwistRow[pair.Shape.InnerCount * (n + 1)];
             var gradient = new RodVector[pair.Terms.VectorCount];
             foreach (EnergyTerm term in terms)
             {
                 term.AddBlocks(pair.Shape, blocks, gradient, 0, n + 1);
-                term.AddTwistRows(pair.Shape, rows, 0, active);
+                term.AddTwistRows(pair.Shape, rows, 0, pair.Coaxial.Joints.ActiveCount);
             }
             double[,] nodes = DenseMatrix.From(blocks, n + 1);
+            List<(int Instrument, int Element)> angles = Angles(pair);
             int first = 6 * n + 3;
-            var h = new double[first + active, first + active];
+            var h = new double[first + angles.Count, first + angles.Count];
             double[] length = pair.Coaxial.Rod.Length;
             double total = pair.Coaxial.Rod.TotalLength;
             for (int i = 0; i < first; i++)
@@ -183,18 +217,31 @@ namespace Guidewire.Core.Tests
                 double weight = length[Math.Min(i / 6, n - 1)];
                 h[i, i] += shift * weight * (i % 6 < 3 ? 1.0 / (total * total) : 1.0);
             }
-            for (int j = 0; j < active; j++)
+            for (int at = 0; at < angles.Count; at++)
             {
-                h[first + j, first + j] = rows[j].Diagonal + shift * length[j];
-                Put(h, first + j, 6 * j + 3, rows[j].Turn);
+                (int i, int j) = angles[at];
+                TwistRow row = rows[(i - 1) * (n + 1) + j];
+                h[first + at, first + at] = row.Diagonal + shift * length[j];
+                Put(h, first + at, 6 * j + 3, row.Turn);
                 if (j + 1 < n)
                 {
-                    Put(h, first + j, 6 * j + 9, rows[j].NextTurn);
+                    Put(h, first + at, 6 * j + 9, row.NextTurn);
                 }
-                if (j + 1 < active)
+                int next = angles.IndexOf((i, j + 1));
+                if (next >= 0)
                 {
-                    h[first + j, first + j + 1] = h[first + j + 1, first + j] = rows[j].NextTwist;
-                    Put(h, first + j + 1, 6 * j + 3, rows[j].TurnOfNext);
+                    h[first + at, first + next] = h[first + next, first + at] = row.NextTwist;
+                    Put(h, first + next, 6 * j + 3, row.TurnOfNext);
+                }
+                int other = angles.IndexOf((3 - i, j));
+                if (other >= 0 && i == 1)
+                {
+                    h[first + at, first + other] = h[first + other, first + at] = row.Other;
+                }
+                int nextOther = angles.IndexOf((3 - i, j + 1));
+                if (nextOther >= 0)
+                {
+                    h[first + at, first + nextOther] = h[first + nextOther, first + at] = row.NextOther;
                 }
             }
             return h;
@@ -207,11 +254,12 @@ namespace Guidewire.Core.Tests
             h[i, k + 2] = h[k + 2, i] = v.Z;
         }
 
-        private static RodShape Moved(RodShape shape, int i, double s, int k = -1, double t = 0.0)
+        private static RodShape Moved(CoaxialPair pair, int i, double s, int k = -1, double t = 0.0)
         {
-            int n = shape.ElementCount;
+            int n = pair.Shape.ElementCount;
+            List<(int Instrument, int Element)> angles = Angles(pair);
             var direction = new RodVector[2 * n + 3];
-            var v = new double[6 * n + 3 + n];
+            var v = new double[6 * n + 3 + angles.Count];
             if (i >= 0)
             {
                 v[i] += s;
@@ -224,12 +272,14 @@ namespace Guidewire.Core.Tests
             Array.Copy(v, nodes, 6 * n + 3);
             RodVector[] part = DenseMatrix.ToRod(nodes);
             Array.Copy(part, direction, n + 1);
-            for (int j = 0; j < n; j++)
+            for (int at = 0; at < angles.Count; at++)
             {
-                direction[n + 2 + j].T3 = v[6 * n + 3 + j];
+                (int instrument, int j) = angles[at];
+                direction[n + 2 + j].T3 += instrument == 1 ? v[6 * n + 3 + at] : 0.0;
+                direction[n + 2 + j].T2 += instrument == 2 ? v[6 * n + 3 + at] : 0.0;
             }
-            var to = new RodShape(n, true);
-            RodStep.ApplyStraight(shape, direction, 1.0, to);
+            var to = new RodShape(n, pair.Shape.InnerCount);
+            RodStep.ApplyStraight(pair.Shape, direction, 1.0, to);
             return to;
         }
 

@@ -40,7 +40,7 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < 60; k++)
             {
                 RodDynamics motion = run.Dynamics;
-                var before = new RodShape(motion.Shape.ElementCount, true);
+                var before = new RodShape(motion.Shape.ElementCount, 1);
                 before.CopyFrom(motion.Shape);
                 var v = (Vector3d[])motion.Velocities.Clone();
                 var w = (Vector3d[])motion.Spins.Clone();
@@ -131,13 +131,13 @@ namespace Guidewire.Core.Tests
         private static double EnergyAt(CoaxialStep run, double on, double turn)
         {
             var bending = (CoaxialBendTwist)run.Dynamics.Terms.Bending;
-            double lead = bending.Lead;
-            double twist = bending.HubTwist;
-            run.Rod.SetLead(lead - on);
-            bending.HubTwist = twist + turn;
+            double lead = bending.Joints.LeadOf(1);
+            double twist = bending.HubTwist[1];
+            run.Rod.SetHubs(new[] { 0.0, lead - on }, 0.0);
+            bending.HubTwist[1] = twist + turn;
             double energy = run.Dynamics.Terms.Potential(run.Dynamics.Shape);
-            run.Rod.SetLead(lead);
-            bending.HubTwist = twist;
+            run.Rod.SetHubs(new[] { 0.0, lead }, 0.0);
+            bending.HubTwist[1] = twist;
             return energy;
         }
 

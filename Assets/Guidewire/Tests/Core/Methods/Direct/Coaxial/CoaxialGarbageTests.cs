@@ -22,6 +22,19 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        [TestCase(0.2, 0.05, 0.07)]
+        [TestCase(-0.1, -0.2, 0.05)]
+        public void StepOfThreeThatKeepsItsElements_LeavesNothing(double wire, double middle, double outer)
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Method.MaxSimulationSteps = Steps;
+            parameters.Drive.InsertionSpeed = wire;
+            parameters.Scene.Catheters[0].Drive.InsertionSpeed = outer;
+            parameters.Scene.Catheters[1].Drive.InsertionSpeed = middle;
+            parameters.Scene.Catheters[1].Drive.RotationSpeed = 2.0;
+            AssertNothingIsLeft(parameters, 3);
+        }
+
         // In a tube that the bent tips touch, with friction on it and in the lumen.
         [TestCase(0.1, 0.05, 0.0, 2)]
         [TestCase(-0.1, 0.05, 0.0, 3)]

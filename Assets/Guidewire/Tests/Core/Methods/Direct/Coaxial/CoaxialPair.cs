@@ -2,28 +2,36 @@ using System;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Two coaxial instruments with even pieces, straight along z from the outer hub, and their rest
+    /// <summary>Two or three coaxial instruments with even pieces, straight along z from the outer hub, and their rest
     /// shapes.</summary>
     internal sealed class CoaxialPair
     {
         public const double Stretch = 1e6;  // EA and GA, N
 
-        private readonly Piece[] _outer;
-        private readonly Piece[] _inner;
-        private readonly MaterialRod _outerRod;
-        private readonly MaterialRod _innerRod;
+        private readonly CoaxialInstrument[] _instruments;
+        private readonly double[] _hubTwist;
 
         /// <summary>A pair.</summary>
         /// <param name="nu">GJ = EI/(1 + nu).</param>
         public CoaxialPair(Piece[] outer, int outerElements, Piece[] inner, int innerElements, double nu, double lead,
             int beyond = 0)
+            : this(new[] { outer, inner }, new[] { outerElements, innerElements }, nu, new[] { 0.0, lead },
+                new[] { 0, beyond })
         {
-            _outer = outer;
-            _inner = inner;
+        }
+
+        /// <summary>Two or three, the outermost one first.</summary>
+        /// <param name="nu">GJ = EI/(1 + nu).</param>
+        public CoaxialPair(Piece[][] pieces, int[] elements, double nu, double[] leads, int[] beyond)
+        {
             Nu = nu;
-            _outerRod = RodOf(outer, outerElements);
-            _innerRod = RodOf(inner, innerElements);
-            Build(beyond, lead);
+            _instruments = new CoaxialInstrument[pieces.Length];
+            for (int i = 0; i < pieces.Length; i++)
+            {
+                _instruments[i] = new CoaxialInstrument(RodOf(pieces[i], elements[i]), ProfileOf(pieces[i]));
+            }
+            _hubTwist = new double[pieces.Length];
+            Build(beyond, leads);
             Shape.SetStraight(Vector3d.Zero, Quaterniond.Identity, Coaxial.Joints.Stations);
         }
 
@@ -71,26 +79,34 @@ namespace Guidewire.Core.Tests
         /// <param name="sheathed">Length in a sheath, m.</param>
         public void Build(int beyond, double lead, double sheathed = 0.0)
         {
+            Build(new[] { 0, beyond }, new[] { 0.0, lead }, sheathed);
+        }
+
+        /// <summary>The same of all.</summary>
+        public void Build(int[] beyond, double[] leads, double sheathed = 0.0)
+        {
             RodShape? old = Shape;
-            var rod = new CoaxialRod(_outerRod, ProfileOf(_outer), _innerRod, ProfileOf(_inner), beyond, lead,
-                sheathed: sheathed);
+            CoaxialJoints? was = Coaxial?.Joints;
+            var rod = new CoaxialRod(_instruments, beyond, leads, sheathed);
             Supports = new RodSupports { Clamp = ClampRule.HalfElement, Coaxial = rod };
             Coaxial = rod;
             Terms = new RodTerms(rod.Rod, Supports);
-            if (old != null)
-            {
-                Bending.HubTwist = _hubTwist;
-            }
-            Shape = old == null ? new RodShape(rod.Joints.ElementCount, true) : CoaxialShape.Take(old, rod.Joints);
+            _hubTwist.CopyTo(Bending.HubTwist, 0);
+            Shape = old == null ? new RodShape(rod.Joints.ElementCount, rod.Joints.InnerCount)
+                : new CoaxialChange(was!, rod.Joints).Take(old);
         }
-
-        private double _hubTwist;
 
         /// <summary>The rest shape at an angle of the inner hub; throws where there is none.</summary>
         public void Solve(double hubTwist)
         {
-            _hubTwist = hubTwist;
-            Bending.HubTwist = hubTwist;
+            Solve(new[] { 0.0, hubTwist });
+        }
+
+        /// <summary>The same at angles of all hubs against the outermost one.</summary>
+        public void Solve(double[] hubTwists)
+        {
+            hubTwists.CopyTo(_hubTwist, 0);
+            hubTwists.CopyTo(Bending.HubTwist, 0);
             Bending.SetIdleTwists(Shape);
             Terms.Loads.Set(Vector3d.Zero, TipForce);
             EquilibriumResult result = new RodStatics(Terms).Solve(Shape, 1e-11, 300);
@@ -104,8 +120,17 @@ namespace Guidewire.Core.Tests
         /// <summary>Whether the shape with this angle of the inner instrument all along is stable.</summary>
         public bool IsStable(double hubTwist)
         {
-            Bending.HubTwist = hubTwist;
-            Array.Fill(Shape.Twist, hubTwist);
+            return IsStable(new[] { 0.0, hubTwist });
+        }
+
+        /// <summary>The same with angles of all.</summary>
+        public bool IsStable(double[] hubTwists)
+        {
+            hubTwists.CopyTo(Bending.HubTwist, 0);
+            for (int i = 1; i < hubTwists.Length; i++)
+            {
+                Array.Fill(Shape.Twist, hubTwists[i], (i - 1) * Shape.ElementCount, Shape.ElementCount);
+            }
             Bending.RelaxTurns(Shape);
             for (int j = 0; j < Shape.ElementCount; j++)
             {

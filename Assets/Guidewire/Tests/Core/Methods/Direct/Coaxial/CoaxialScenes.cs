@@ -41,6 +41,26 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
+        /// <summary>The same pair in an outer catheter of 160 mm with a bent tip, its hub 30 mm ahead of the
+        /// catheter's.</summary>
+        public static SimulationParameters Three(Integrator integrator)
+        {
+            SimulationParameters parameters = Pair(integrator);
+            var outer = new Catheter { Length = 160.0, Elements = 16, Start = 130.0 };
+            outer.Material.WireRadius = 1.35e-3;
+            outer.Material.InnerRadius = 1.0e-3;
+            outer.Material.YoungsModulus = 1e9;
+            outer.Material.ShearModulus = 0.4e9;
+            outer.Material.Density = 1200.0;
+            outer.Material.Sections = new[]
+            {
+                new WireSection { From = 123.0, To = 160.0, YoungsModulus = 0.6e9,
+                    RestCurvature = new Vector3d(-8.0, 14.0, 0.0) },
+            };
+            parameters.Scene.Catheters = new[] { outer, parameters.Scene.Catheters[0] };
+            return parameters;
+        }
+
         /// <summary>Work of both hubs, J, in one cycle, forth and back and turned, slowly: trapezoids of forces and
         /// torques.</summary>
         /// <param name="perStep">Of an element of 10 mm, by which they move in a step.</param>

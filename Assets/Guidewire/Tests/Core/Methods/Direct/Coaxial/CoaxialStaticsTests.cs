@@ -164,7 +164,7 @@ namespace Guidewire.Core.Tests
             double step = 10.0;
             double at = 0.0;
             pair.Solve(0.0);
-            var kept = new RodShape(n, true);
+            var kept = new RodShape(n, 1);
             while (step > 1e-3)
             {
                 kept.CopyFrom(pair.Shape);

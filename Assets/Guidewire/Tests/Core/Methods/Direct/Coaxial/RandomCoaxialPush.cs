@@ -13,12 +13,15 @@ namespace Guidewire.Core.Tests
         private readonly SimulationParameters _parameters;
         private readonly double _wireRadius;       // units
         private readonly double _catheterRadius;
+        private readonly double _outerRadius;      // of a catheter around both; 0 without one
         private readonly string _vessel;
         private double _extension;
+        private double _outerAsked;                // m
 
         /// <summary>Draws both and takes them to the end.</summary>
         /// <param name="isSheathed">Whether both come out of a sheath.</param>
-        public RandomCoaxialPush(int seed, bool isSheathed = false)
+        /// <param name="hasOuter">Whether both are in another catheter.</param>
+        public RandomCoaxialPush(int seed, bool isSheathed = false, bool hasOuter = false)
         {
             Seed = seed;
             var random = new RandomGeometry(seed);
@@ -26,8 +29,17 @@ namespace Guidewire.Core.Tests
             _vessel = RandomWallPush.Vessels[vessel];
             _wireRadius = random.Number(0.15, 0.45);
             _catheterRadius = _wireRadius + random.Number(0.1, 0.4);
+            var outer = new RandomGeometry(seed + 3 * OtherSeeds);
+            _outerRadius = hasOuter ? _catheterRadius + outer.Number(0.1, 0.4) : 0.0;
             _parameters = Draw(random, vessel);
-            DrawHubs(new RandomGeometry(seed + OtherSeeds));
+            if (hasOuter)
+            {
+                DrawOuter(outer);
+            }
+            else
+            {
+                DrawHubs(new RandomGeometry(seed + OtherSeeds));
+            }
             if (isSheathed)
             {
                 DrawSheath(new RandomGeometry(seed + 2 * OtherSeeds));
@@ -35,13 +47,19 @@ namespace Guidewire.Core.Tests
             Simulation = Simulation.Create(_parameters);
             int steps = 20 + random.Index(20);
             double dt = _parameters.Method.TimeStep;
-            Catheter catheter = _parameters.Scene.Catheters[0];
+            Catheter catheter = _parameters.Scene.Catheters[_parameters.Scene.Catheters.Count - 1];
             for (int piece = 0; piece < Pieces; piece++)
             {
                 _parameters.Drive.Steering!.Push = dt * Speed(random, 0.65);
                 _parameters.Drive.Steering.Turn = dt * random.Number(-10.0, 10.0);
                 catheter.Drive.Steering!.Push = dt * Speed(random, 0.6);
                 catheter.Drive.Steering.Turn = dt * random.Number(-10.0, 10.0);
+                if (hasOuter)
+                {
+                    Steering steering = _parameters.Scene.Catheters[0].Drive.Steering!;
+                    steering.Push = dt * Speed(outer, 0.55);
+                    steering.Turn = dt * outer.Number(-10.0, 10.0);
+                }
                 for (int k = 0; k < steps && Simulation.Outcome == Outcome.Running; k++)
                 {
                     Simulation.Step();
@@ -49,6 +67,8 @@ namespace Guidewire.Core.Tests
                     {
                         WireAsked += 1e-3 * Math.Abs(_parameters.Drive.Steering.Push);
                         CatheterAsked += 1e-3 * Math.Abs(catheter.Drive.Steering.Push);
+                        _outerAsked += hasOuter
+                            ? 1e-3 * Math.Abs(_parameters.Scene.Catheters[0].Drive.Steering!.Push) : 0.0;
                         Look();
                     }
                 }
@@ -75,9 +95,12 @@ namespace Guidewire.Core.Tests
         {
             get
             {
-                CoaxialRecord record = Simulation.Coaxial()!;
-                return Math.Max(Math.Abs(CatheterAsked - record.Gone - record.Shortfall),
-                    Math.Abs(WireAsked - record.WireGone - record.WireShortfall));
+                CoaxialRecord outermost = Simulation.Coaxial()!;
+                CoaxialRecord record = outermost.Inside ?? outermost;
+                double outer = outermost == record ? 0.0
+                    : Math.Abs(_outerAsked - outermost.Gone - outermost.Shortfall);
+                return Math.Max(outer, Math.Max(Math.Abs(CatheterAsked - record.Gone - record.Shortfall),
+                    Math.Abs(WireAsked - record.WireGone - record.WireShortfall)));
             }
         }
 
@@ -118,7 +141,8 @@ namespace Guidewire.Core.Tests
             double tip = -Math.Max(extension, 0.0) - 1.0;
             parameters.Scene.GuidewireLength = lead + length + extension;
             parameters.Scene.GuidewireOffset = tip - length - lead;
-            parameters.Scene.Walls = RandomWallPush.Walls(random, vessel, _catheterRadius);
+            parameters.Scene.Walls = RandomWallPush.Walls(random, vessel,
+                Math.Max(_catheterRadius, _outerRadius));
             foreach (ContactShape wall in parameters.Scene.Walls)
             {
                 wall.FrictionCoefficient = random.Index(2) == 0 ? 0.0 : random.Number(0.0, 0.2);
@@ -147,6 +171,32 @@ namespace Guidewire.Core.Tests
             material.Sections = new[] { Tip(random, length, 20.0) };
             parameters.Scene.Catheters = new[] { catheter };
             return parameters;
+        }
+
+        // Its tip behind or before the catheter's, and its hub ahead.
+        private void DrawOuter(RandomGeometry random)
+        {
+            Catheter inner = _parameters.Scene.Catheters[0];
+            double hub = _parameters.Scene.GuidewireOffset + inner.Start;
+            double tip = hub + inner.Length;
+            double ahead = random.Number(0.0, 60.0);
+            tip = random.Index(2) == 0 ? tip + random.Number(0.0, -1.0 - tip) : tip - random.Number(0.0, 60.0);
+            var outer = new Catheter
+            {
+                Length = tip - hub - ahead,
+                Elements = 10 + random.Index(30),
+                Start = inner.Start + ahead,
+                FrictionCoefficient = random.Index(3) == 0 ? random.Number(0.0, 0.3) : double.NaN,
+                Drive = { Steering = new Steering() },
+            };
+            MaterialParameters material = outer.Material;
+            material.WireRadius = 1e-3 * _outerRadius;
+            material.InnerRadius = 0.5e-3 * (_outerRadius + _catheterRadius);
+            material.YoungsModulus = Math.Pow(10.0, random.Number(8.0, 9.5));
+            material.ShearModulus = 0.38 * material.YoungsModulus;
+            material.Density = 1200.0;
+            material.Sections = new[] { Tip(random, outer.Length, 15.0) };
+            _parameters.Scene.Catheters = new[] { outer, inner };
         }
 
         // In one of four both or one of the hubs slip; in one of three the catheter has friction of its own.
@@ -181,21 +231,31 @@ namespace Guidewire.Core.Tests
         // The catheter's axis, and the wire's beyond it.
         private void Look()
         {
-            CoaxialRecord record = Simulation.Coaxial()!;
+            CoaxialRecord outermost = Simulation.Coaxial()!;
+            CoaxialRecord record = outermost.Inside ?? outermost;
             Overtakings += _extension * record.Extension < 0.0 ? 1 : 0;
             _extension = record.Extension;
             Beyond = Math.Max(Beyond, Math.Max(OverLimit(record.WireForce, _parameters.Drive.HubForceLimit),
-                OverLimit(record.Force, _parameters.Scene.Catheters[0].Drive.HubForceLimit)));
-            Vector3d[] catheter = record.Positions;
-            Look(catheter, 0, _catheterRadius);
-            Vector3d[] wire = Simulation.State.Positions;
-            int n = _parameters.Scene.NumberRodElements;
-            double perUnit = n / _parameters.Scene.GuidewireLength;
-            int beyond = (int)Math.Floor(1e3 * record.Extension * perUnit);
-            if (beyond > 0)
+                OverLimit(outermost.Force, _parameters.Scene.Catheters[0].Drive.HubForceLimit)));
+            // Beyond the tips around them.
+            double outer = outermost == record ? double.PositiveInfinity : outermost.Extension;
+            if (outermost != record)
             {
-                Look(wire, n - beyond, _wireRadius);
+                Look(outermost.Positions, 0, _outerRadius);
             }
+            Look(record.Positions, FirstBeyond(record.Positions.Length - 1, CatheterLength, outer), _catheterRadius);
+            Vector3d[] wire = Simulation.State.Positions;
+            double beyond = Math.Min(record.Extension, record.Extension + outer);
+            Look(wire, FirstBeyond(wire.Length - 1, _parameters.Scene.GuidewireLength, beyond), _wireRadius);
+        }
+
+        private double CatheterLength => _parameters.Scene.Catheters[_parameters.Scene.Catheters.Count - 1].Length;
+
+        // The first of n + 1 nodes that is out; the last where none is.
+        private static int FirstBeyond(int n, double length, double beyond)
+        {
+            double nodes = Math.Floor(1e3 * beyond * n / length);
+            return nodes <= 0.0 ? n : nodes >= n ? 0 : n - (int)nodes;
         }
 
         private static double OverLimit(double force, double limit)

@@ -1,0 +1,10 @@
+namespace Guidewire.Core
+{
+    /// <summary>Second derivatives of an energy by two angles, J.</summary>
+    internal struct AngleSeconds
+    {
+        public double First;
+        public double Second;
+        public double Mixed;
+    }
+}

@@ -1,0 +1,47 @@
+using System;
+using System.Runtime.CompilerServices;
+
+namespace Guidewire.Core
+{
+    /// <summary>What an instrument with an angle t of its own against a joint's frame adds to the joint
+    /// (<see cref="CoaxialJoint"/>).</summary>
+    internal struct CoaxialPart
+    {
+        public double TurnedX, TurnedY;   // F', rad
+        public double Cosine;      // C with the instrument whose frame it is, J
+        public double Sine;        // S
+        public double Twist;       // K', N m; 0 where it ends at the joint
+        public double RestTwist;   // r', rad
+        public double Weight;      // of the angle after the joint in t; the rest is that before it
+
+        /// <summary>Adds R(t) F' to f.</summary>
+        /// <param name="slope">Derivative of f by t.</param>
+        /// <param name="turned">What was added, minus the second derivative.</param>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly void AddRest(double t, ref Vector3d rest, out Vector3d slope, out Vector3d turned)
+        {
+            slope = Vector3d.Zero;
+            turned = Vector3d.Zero;
+            if (TurnedX == 0.0 && TurnedY == 0.0)
+            {
+                return;
+            }
+            double c = Math.Cos(t);
+            double s = Math.Sin(t);
+            double x = c * TurnedX - s * TurnedY;
+            double y = s * TurnedX + c * TurnedY;
+            Vector3d before = rest;
+            rest = new Vector3d(before.X + x, before.Y + y, 0.0);
+            slope = new Vector3d(-y, x, 0.0);
+            turned = rest - before;
+        }
+
+        /// <summary>C cos t + S sin t, J, which is its second derivative's negative, and minus its first.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public readonly double Held(double t, out double slope)
+        {
+            slope = 0.0;
+            return Cosine == 0.0 && Sine == 0.0 ? 0.0 : CoaxialJoint.Wave(Cosine, Sine, t, out slope);
+        }
+    }
+}

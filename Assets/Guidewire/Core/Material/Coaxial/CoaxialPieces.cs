@@ -1,0 +1,172 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The pieces of coaxial instruments along one side of a joint, from one border of any of them to the
+    /// next.</summary>
+    internal sealed class CoaxialPieces
+    {
+        private readonly CrossSection[][] _pieces;   // of each instrument
+        private readonly double[][] _borders;
+        private readonly int[] _piece;         // where each is
+        private readonly bool[] _isPresent;
+        private int _carrier;                  // the outermost one
+        private int _presentCount;
+
+        /// <summary>Of these instruments, the outermost one first.</summary>
+        public CoaxialPieces(CoaxialInstrument[] instruments)
+        {
+            _pieces = Array.ConvertAll(instruments, instrument => instrument.Profile.Pieces);
+            _borders = Array.ConvertAll(instruments, instrument => instrument.Profile.Borders);
+            _piece = new int[instruments.Length];
+            _isPresent = new bool[instruments.Length];
+            Compliance = new double[instruments.Length];
+            Rest = new double[instruments.Length];
+            Shared = new double[instruments.Length];
+        }
+
+        /// <summary>Sum of lambda/GJ of each, rad/(N m).</summary>
+        public double[] Compliance { get; }
+
+        /// <summary>Sum of lambda times the rest twist of each, rad.</summary>
+        public double[] Rest { get; }
+
+        /// <summary>Sum of lambda where each is with others, out of a sheath, m.</summary>
+        public double[] Shared { get; }
+
+        /// <summary>There are no pieces yet.</summary>
+        public void Clear()
+        {
+            for (int i = 0; i < _piece.Length; i++)
+            {
+                Compliance[i] = 0.0;
+                Rest[i] = 0.0;
+                Shared[i] = 0.0;
+            }
+        }
+
+        /// <summary>Begins at a place along the chain.</summary>
+        /// <param name="carrier">The outermost instrument there.</param>
+        /// <param name="from">m.</param>
+        /// <param name="leads">How far each hub is behind the outermost one's, m.</param>
+        public void Begin(int carrier, double from, double[] leads)
+        {
+            _carrier = carrier;
+            for (int i = carrier; i < _piece.Length; i++)
+            {
+                double position = from + leads[i];
+                double[] borders = _borders[i];
+                int p = 0;
+                while (p < borders.Length - 2 && borders[p + 1] <= position)
+                {
+                    p++;
+                }
+                _piece[i] = p;
+            }
+        }
+
+        /// <summary>Finds the next border of a piece.</summary>
+        /// <param name="at">Where the pieces begin, m along the chain.</param>
+        /// <param name="to">It is no farther than this, m.</param>
+        /// <param name="ends">Of the instruments, m.</param>
+        public double FindNext(double at, double to, double[] leads, double[] ends)
+        {
+            double next = to;
+            _presentCount = 0;
+            for (int i = _carrier; i < _piece.Length; i++)
+            {
+                bool isPresent = i == _carrier || at < ends[i];
+                _isPresent[i] = isPresent;
+                if (isPresent)
+                {
+                    int p = _piece[i];
+                    double[] borders = _borders[i];
+                    _presentCount++;
+                    double border = p < borders.Length - 2 ? borders[p + 1] - leads[i] : i == _carrier ? to : ends[i];
+                    next = border < next ? border : next;
+                }
+            }
+            return next;
+        }
+
+        /// <summary>Adds the pieces up to that border to a joint.</summary>
+        /// <param name="lambda">Integral of its hat function, m.</param>
+        /// <param name="frame">The instrument on whose frame it stands.</param>
+        public void Add(ref CoaxialJoint joint, double lambda, int frame, bool isSheathed)
+        {
+            double bend = 0.0;
+            double held = 0.0;
+            for (int i = _carrier; i < _piece.Length; i++)
+            {
+                if (_isPresent[i])
+                {
+                    ref readonly CrossSection piece = ref PieceOf(i);
+                    Compliance[i] += lambda / piece.TwistStiffness;
+                    Rest[i] += lambda * piece.RestCurvature.Z;
+                    if (isSheathed)
+                    {
+                        bend += piece.BendStiffness1;
+                        held += Straightened(piece);
+                    }
+                    else if (i != frame)
+                    {
+                        Shared[i] += lambda;
+                    }
+                }
+            }
+            if (isSheathed)
+            {
+                joint.AddSheathed(lambda, bend, held);
+            }
+            else
+            {
+                AddBend(ref joint, lambda, frame);
+            }
+        }
+
+        /// <summary>Goes on to a place along the chain, m.</summary>
+        public void Advance(double at, double[] leads)
+        {
+            for (int i = _carrier; i < _piece.Length; i++)
+            {
+                int p = _piece[i];
+                double[] borders = _borders[i];
+                if (p < borders.Length - 2 && at >= borders[p + 1] - leads[i])
+                {
+                    _piece[i] = p + 1;
+                }
+            }
+        }
+
+        /// <summary>Energy of a piece that is kept straight, J/m.</summary>
+        public static double Straightened(in CrossSection piece)
+        {
+            Vector3d curvature = piece.RestCurvature;
+            return 0.5 * (piece.BendStiffness1 * curvature.X * curvature.X
+                + piece.BendStiffness2 * curvature.Y * curvature.Y);
+        }
+
+        private ref readonly CrossSection PieceOf(int instrument)
+        {
+            return ref _pieces[instrument][_piece[instrument]];
+        }
+
+        private void AddBend(ref CoaxialJoint joint, double lambda, int frame)
+        {
+            if (_presentCount == 1)
+            {
+                joint.AddAlone(lambda, PieceOf(_carrier));
+                return;
+            }
+            if (_presentCount == 2)
+            {
+                int inner = _isPresent[_carrier + 1] ? _carrier + 1 : _carrier + 2;
+                int other = frame == inner ? _carrier : inner;
+                CoaxialJoint.AddShared(ref joint, ref (other == 0 || (other == 1 && frame == 0) ? ref joint.First
+                    : ref joint.Second), lambda, PieceOf(_carrier), PieceOf(inner), frame == inner);
+                return;
+            }
+            joint.AddThree(lambda, PieceOf(frame), PieceOf(frame == 0 ? 1 : 0), PieceOf(frame == 2 ? 1 : 2));
+        }
+    }
+}

@@ -1,0 +1,105 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Which nodes of inner instruments are beyond the tips around them, and when one comes to its
+    /// limit.</summary>
+    /// <remarks>A node comes in where it is 0.02 of its element's length beyond the tip to the end of a step. It goes
+    /// where it is 0.01 beyond it, and a step ends a part there: so what takes its place lies where it was. The tip
+    /// around an instrument is that of the next one around it which is beyond those around it in turn.</remarks>
+    internal sealed class CoaxialNodes
+    {
+        /// <summary>Of a step, or of an element's length.</summary>
+        public const double SameTime = 1e-6;
+
+        private const double Reached = 0.02;    // of an element's length
+        private const double Left = 0.01;
+
+        private readonly CoaxialInstrument[] _instrument;
+        private readonly CoaxialHubs _hubs;
+
+        /// <summary>Of these instruments, on these hubs.</summary>
+        public CoaxialNodes(CoaxialInstrument[] instruments, CoaxialHubs hubs)
+        {
+            _instrument = instruments;
+            _hubs = hubs;
+            Beyond = new int[instruments.Length];
+        }
+
+        /// <summary>What was found last, of each instrument.</summary>
+        public int[] Beyond { get; }
+
+        /// <summary>Finds how many are beyond in a part of a step.</summary>
+        /// <param name="time">Of its start, s.</param>
+        /// <param name="length">s.</param>
+        public void Find(double time, double length)
+        {
+            for (int i = 1; i < _instrument.Length; i++)
+            {
+                int around = AroundOf(i, Beyond);
+                double lead = _hubs.LeadAt(i, time) - _hubs.LeadAt(around, time);
+                double next = _hubs.LeadAt(i, time + length) - _hubs.LeadAt(around, time + length);
+                Beyond[i] = Find(i, Beyond[i], Math.Max(lead, next) + _instrument[around].Rod.TotalLength);
+            }
+        }
+
+        /// <summary>Time until the first inner node beyond a tip is as near to it as one may come, s: there it goes,
+        /// before the element that takes over its length would be another than the two that were. Or until a tip inside
+        /// is as far out as it comes in: there it is where the tip around it has been, and outside no wall.</summary>
+        public double TimeToNode(double time)
+        {
+            double least = double.PositiveInfinity;
+            for (int i = 1; i < _instrument.Length; i++)
+            {
+                int around = AroundOf(i, Beyond);
+                double tip = _hubs.LeadAt(i, time) - _hubs.LeadAt(around, time)
+                    + _instrument[around].Rod.TotalLength;
+                least = Math.Min(least, TimeToNode(i, Beyond[i], tip, _hubs.SlideOf(i, around)));
+            }
+            return least;
+        }
+
+        // The last instrument around one that is the outermost one anywhere.
+        private static int AroundOf(int instrument, int[] beyond)
+        {
+            return instrument == 2 && beyond[1] > 0 ? 1 : 0;
+        }
+
+        private int Find(int instrument, int beyond, double tip)
+        {
+            double[] station = _instrument[instrument].Stations;
+            double[] length = _instrument[instrument].Rod.Length;
+            int n = length.Length;
+            while (beyond > 0 && station[n + 1 - beyond] - tip < (1.0 - SameTime) * Left * length[n - beyond])
+            {
+                beyond--;
+            }
+            while (beyond < n && station[n - beyond] - tip
+                >= Reached * length[n - 1 - beyond] - SameTime * length[n - 1 - beyond])
+            {
+                beyond++;
+            }
+            return beyond;
+        }
+
+        // slide: of the instrument against the one around it, m/s.
+        private double TimeToNode(int instrument, int beyond, double tip, double slide)
+        {
+            double[] station = _instrument[instrument].Stations;
+            double[] length = _instrument[instrument].Rod.Length;
+            int n = length.Length;
+            if (beyond == 0 || !(slide < 0.0))
+            {
+                double ahead = Reached * length[n - 1] - (station[n] - tip);
+                return beyond == 0 && slide > 0.0 && ahead > SameTime * length[n - 1] ? ahead / slide
+                    : double.PositiveInfinity;
+            }
+            while (beyond > 0 && station[n + 1 - beyond] - tip <= (1.0 + SameTime) * Left * length[n - beyond])
+            {
+                beyond--;
+            }
+            return beyond == 0 ? double.PositiveInfinity
+                : (station[n + 1 - beyond] - tip - Left * length[n - beyond]) / -slide;
+        }
+    }
+}

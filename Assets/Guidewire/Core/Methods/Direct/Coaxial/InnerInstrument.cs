@@ -1,0 +1,95 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Where an inner instrument is, as logs have it: its own nodes and elements, in those around it on the
+    /// shared centreline, before the outermost hub on the axis.</summary>
+    internal sealed class InnerInstrument
+    {
+        private readonly int _instrument;
+        private readonly CoaxialInstrument _own;
+        private readonly CoaxialHubs _hubs;
+        private readonly Vector3d _axis;
+
+        /// <summary>One of the instruments.</summary>
+        /// <param name="instrument">Counted from the outermost one, 0.</param>
+        public InnerInstrument(CoaxialSetup setup, CoaxialHubs hubs, int instrument)
+        {
+            _instrument = instrument;
+            _own = setup.Instruments[instrument];
+            _hubs = hubs;
+            _axis = setup.Axis;
+            int n = _own.Rod.ElementCount;
+            Shape = new RodShape(n);
+            Velocities = new Vector3d[n + 1];
+            Spins = new Vector3d[n];
+        }
+
+        /// <summary>Its nodes and elements.</summary>
+        public RodShape Shape { get; }
+
+        /// <summary>Velocities of its nodes, m/s.</summary>
+        public Vector3d[] Velocities { get; }
+
+        /// <summary>Spins of its elements, rad/s.</summary>
+        public Vector3d[] Spins { get; }
+
+        /// <summary>Takes it from all as one rod.</summary>
+        public void Take(RodDynamics dynamics, CoaxialJoints joints)
+        {
+            RodShape shape = dynamics.Shape;
+            double[] chain = joints.Stations;
+            double lead = _hubs.LeadAt(_instrument, dynamics.Time);
+            int n = shape.ElementCount;
+            int j = 0;
+            for (int i = 0; i < Shape.X.Length; i++)
+            {
+                double at = _own.Stations[i] - lead;
+                while (j < n - 1 && at > chain[j + 1])
+                {
+                    j++;
+                }
+                // Before the hub and beyond the last node by what is too short for an element.
+                double fraction = (at - chain[j]) / (chain[j + 1] - chain[j]);
+                bool isBefore = at <= 0.0;
+                Vector3d direction = isBefore ? _axis : shape.Q[j].Director3;
+                Shape.X[i] = isBefore ? shape.X[0] + at * _axis
+                    : fraction > 1.0 ? shape.X[n] + (at - chain[n]) * direction
+                    : Vector3d.Lerp(shape.X[j], shape.X[j + 1], fraction);
+                bool isInside = at < chain[joints.TipOf(_instrument - 1)];
+                Velocities[i] = (isBefore ? dynamics.Velocities[0]
+                    : Vector3d.Lerp(dynamics.Velocities[j], dynamics.Velocities[j + 1], Math.Min(fraction, 1.0)))
+                    + (isInside ? _hubs.SlideOf(_instrument, joints.CarrierOf(j)) : 0.0) * direction;
+                if (i < Shape.Q.Length)
+                {
+                    TakeElement(dynamics, joints, i, at + 0.5 * _own.Rod.Length[i], j);
+                }
+            }
+        }
+
+        private void TakeElement(RodDynamics dynamics, CoaxialJoints joints, int element, double at, int j)
+        {
+            RodShape shape = dynamics.Shape;
+            double[] chain = joints.Stations;
+            if (at <= 0.0)
+            {
+                // Between the hubs it twists evenly, on to the middle of the outermost instrument's first element.
+                double lead = joints.LeadOf(_instrument);
+                double middle = 0.5 * chain[1];
+                double fraction = (lead + at) / (lead + middle);
+                double hub = ((CoaxialBendTwist)dynamics.Terms.Bending).HubTwist[_instrument];
+                double turn = hub + fraction
+                    * (CoaxialShape.Angle(shape, shape.Twist, joints, 0, _instrument, 0) - hub);
+                Shape.Q[element] = shape.ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+                Spins[element] = Vector3d.Zero;
+                return;
+            }
+            while (j < shape.ElementCount - 1 && at > chain[j + 1])
+            {
+                j++;
+            }
+            Shape.Q[element] = CoaxialShape.FrameOf(shape, joints, j, _instrument);
+            Spins[element] = dynamics.Spins[j];
+        }
+    }
+}

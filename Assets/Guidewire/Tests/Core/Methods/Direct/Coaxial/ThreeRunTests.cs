@@ -1,0 +1,127 @@
+using System;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Runs of a wire in two catheters.</summary>
+    public sealed class ThreeRunTests
+    {
+        private const double Length = 400.0;   // of the wire, mm
+
+        // The hubs of both catheters together, elements and leads of 10 mm: all chains have the same stations.
+        [TestCase(0)]
+        [TestCase(1)]
+        public void CatheterWithoutStiffnessAndMass_LeavesTheRestShapeOfTheOthers(int soft)
+        {
+            Vector3d[] three = AtRest(soft, true);
+            Vector3d[] two = AtRest(soft, false);
+            Assert.That(Math.Abs(two[40].Y), Is.GreaterThan(0.02 * Length), "it sags");
+            for (int i = 0; i <= 40; i++)
+            {
+                Assert.That((three[i] - two[i]).Length, Is.LessThan(1e-6 * Length), "node " + i);
+            }
+        }
+
+        private static Vector3d[] AtRest(int soft, bool isThere)
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Method.MaxSimulationSteps = 0;
+            Catheter[] catheters = { parameters.Scene.Catheters[0], parameters.Scene.Catheters[1] };
+            catheters[0].Start = 100.0;
+            MaterialParameters material = catheters[soft].Material;
+            material.YoungsModulus *= 1e-7;
+            material.ShearModulus *= 1e-7;
+            material.Density *= 1e-7;
+            // Along the axis elements strain as the outermost instrument there, and so as the next one inside.
+            CrossSection next = (soft == 0 ? new WireProfile(catheters[1].Material, catheters[1].Length)
+                : new WireProfile(parameters.Material, Length)).Pieces[0];
+            material.Sections = new[]
+            {
+                new WireSection { From = 0.0, To = catheters[soft].Length, AxialStiffness = next.StretchStiffness,
+                    ShearStiffness = next.ShearStiffness },
+            };
+            // In one plane: where they twist, the frame of another instrument counts in second order of the elements.
+            catheters[1 - soft].Material.Sections[0].RestCurvature = new Vector3d(14.0, 0.0, 0.0);
+            parameters.Scene.Catheters = isThere ? catheters : new[] { catheters[1 - soft] };
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            return (Vector3d[])run.State.Positions.Clone();
+        }
+
+        // Each hub forth and back to the last element: tips come in and go, in either order.
+        [TestCase(true)]
+        [TestCase(false)]
+        public void TipsGoInAndOut_AndWhatWasAskedIsGone(bool isInnerFirst)
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            const double dt = 0.02;
+            parameters.Method.TimeStep = dt;
+            parameters.Method.MaxSimulationSteps = 200;
+            double[] times = { 0.0, 1.0, 2.0, 3.0, 4.0 };
+            // Outer tip at 290, inner one at 350, wire's at 400 mm.
+            SetDrive(parameters.Drive, times, new[] { 0.0, -0.12, -0.12, -0.2, 0.0 });
+            SetDrive(parameters.Scene.Catheters[1].Drive, times,
+                isInnerFirst ? new[] { 0.0, -0.08, 0.0, -0.09, 0.0 } : new[] { 0.0, 0.0, -0.09, -0.09, 0.0 });
+            SetDrive(parameters.Scene.Catheters[0].Drive, times, new[] { 0.0, 0.0, 0.07, -0.02, 0.0 });
+            Simulation run = Simulation.Create(parameters);
+            bool isInside = false;
+            bool isWireInside = false;
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                CoaxialRecord outer = run.Coaxial()!;
+                isInside |= outer.Extension < -0.02;
+                isWireInside |= outer.Inside!.Extension < -0.02;
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(isInside && isWireInside, "both tips were inside");
+            CoaxialRecord first = run.Coaxial()!;
+            CoaxialRecord inside = first.Inside!;
+            AssertSum(first.Asked, first.Gone, first.Shortfall);
+            AssertSum(inside.Asked, inside.Gone, inside.Shortfall);
+            AssertSum(first.WireAsked, first.WireGone, first.WireShortfall);
+            Assert.That(inside.Gone, Is.GreaterThan(0.1));
+            Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.0).Within(1e-9));
+        }
+
+        [Test]
+        public void RunAgain_HasTheSameBits_AndASnapshotGoesOnToThem()
+        {
+            Vector3d[] whole = End(-1);
+            Assert.That(End(-1), Is.EqualTo(whole));
+            Assert.That(End(17), Is.EqualTo(whole));
+        }
+
+        private static Vector3d[] End(int snapshotAt)
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Method.MaxSimulationSteps = 40;
+            parameters.Drive.InsertionSpeed = 0.3;
+            parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.35;
+            parameters.Scene.Catheters[1].Drive.InsertionSpeed = -0.2;
+            parameters.Scene.Catheters[1].Drive.RotationSpeed = 4.0;
+            Simulation run = Simulation.Create(parameters);
+            for (int k = 0; k < 40; k++)
+            {
+                if (k == snapshotAt)
+                {
+                    run = Simulation.Restore(parameters, run.Save());
+                }
+                run.Step();
+            }
+            return (Vector3d[])run.State.Positions.Clone();
+        }
+
+        private static void SetDrive(DriveParameters drive, double[] times, double[] insertions)
+        {
+            drive.Table = new DriveTable(new TimeTable(times, insertions), new TimeTable(times, new double[5]));
+        }
+
+        private static void AssertSum(double asked, double gone, double shortfall)
+        {
+            Assert.That(asked, Is.EqualTo(gone + shortfall).Within(1e-9));
+        }
+    }
+}
