@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+
 namespace Guidewire.Core
 {
     /// <summary>Where a sheath ends, and what is in it.</summary>
@@ -33,6 +35,28 @@ namespace Guidewire.Core
         public double Outside(in Vector3d node)
         {
             return Vector3d.Dot(node - Exit, Axis);
+        }
+
+        /// <summary>Whether the wire has buckled at the exit: a node in the sheath that is farther from its axis than
+        /// the lumen is wide there would come out through a wall. Nothing but its frame holds the wire sideways in the
+        /// last element before the exit.</summary>
+        /// <param name="x">Nodes, m.</param>
+        /// <param name="metres">Of a unit of the walls.</param>
+        public bool IsBuckled(Vector3d[] x, IReadOnlyList<ContactShape> walls, double metres)
+        {
+            int inside = NodesInside(x);
+            for (int i = 0; i < inside; i++)
+            {
+                Vector3d atExit = (1.0 / metres) * (x[i] - Outside(x[i]) * Axis);
+                foreach (ContactShape wall in walls)
+                {
+                    if (!wall.Contains(atExit))
+                    {
+                        return true;
+                    }
+                }
+            }
+            return false;
         }
     }
 }

@@ -49,7 +49,7 @@ namespace Guidewire.Core
             {
                 walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
-                _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
+                _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor, scene.Metres);
                 _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
                 _jam = new JamReport(dynamics.Terms, scene.Metres);
                 if (record != null)

@@ -1,5 +1,4 @@
 using System;
-using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -73,7 +72,7 @@ namespace Guidewire.Core
         {
             MoveWindow();
             bool isDone = _inner.Step();
-            Failure = _inner.Failure ?? FindBuckled();
+            Failure = _inner.Failure;
             Divergence = _inner.Divergence;
             SteadyState = _inner.SteadyState;
             PredictionError = _inner.PredictionError;
@@ -201,29 +200,6 @@ namespace Guidewire.Core
             {
                 _anchors.Take(friction.Anchors, -_window.First);
             }
-        }
-
-        // A node in the sheath that is farther from its axis than the lumen is wide at the exit would come out through
-        // a wall: nothing but its frame holds the wire sideways in the last element before the exit.
-        private string? FindBuckled()
-        {
-            Vector3d[] x = _dynamics.Shape.X;
-            int inside = _window.NodesInside(x);
-            for (int i = 0; i < inside; i++)
-            {
-                Vector3d atExit = (1.0 / _whole.Metres) * (x[i] - _window.Outside(x[i]) * _setup.Axis);
-                foreach (ContactShape wall in _parameters.Scene.Walls)
-                {
-                    if (!wall.Contains(atExit))
-                    {
-                        return string.Format(CultureInfo.InvariantCulture,
-                            "the wire buckles at the exit of its sheath, under {0:G3} N of the hub at t = {1:G6} s, and"
-                            + " would come out through a wall; a hubForceLimit lets the hub slip, or shorter elements",
-                            Math.Abs(AxialForce()), _dynamics.Time);
-                    }
-                }
-            }
-            return null;
         }
 
         // The whole wire, of what was simulated and what the springs say of the rest.

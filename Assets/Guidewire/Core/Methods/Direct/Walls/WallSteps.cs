@@ -14,12 +14,16 @@ namespace Guidewire.Core
         private readonly RodSchedule _schedule;
         private readonly WallMonitor _monitor;
         private readonly HalvedSteps _halved;
+        private readonly double _metres;
         private StageForces _meanForces;
         private readonly double _longestMove;     // m
 
         /// <summary>For this motion.</summary>
-        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor monitor)
+        /// <param name="metres">Of a unit of the walls.</param>
+        public WallSteps(RodDynamics dynamics, HalvedSteps halved, RodSchedule schedule, WallMonitor monitor,
+            double metres)
         {
+            _metres = metres;
             _dynamics = dynamics;
             _schedule = schedule;
             _monitor = monitor;
@@ -41,7 +45,7 @@ namespace Guidewire.Core
             int parts = Parts(dt);
             for (int k = 0; k < parts; k++)
             {
-                string? failure = _halved.Step(dt / parts);
+                string? failure = _halved.Step(dt / parts) ?? FindBuckled();
                 if (failure != null)
                 {
                     return failure;
@@ -49,6 +53,14 @@ namespace Guidewire.Core
                 _meanForces.Add(dt / parts / dt, _halved.MeanForces);
             }
             return null;
+        }
+
+        private string? FindBuckled()
+        {
+            RodTerms terms = _dynamics.Terms;
+            SheathEnd? sheath = terms.Supports.SheathEnd;
+            return sheath == null || !sheath.IsBuckled(_dynamics.Shape.X, terms.Walls()!.Barrier.Walls, _metres) ? null
+                : "the wire buckles at the exit of its sheath and would come out through a wall";
         }
 
         private int Parts(double dt)

@@ -21,6 +21,16 @@ namespace Guidewire.Core.Tests
             Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Running), push.Simulation.Reason);
         }
 
+        [TestCase(80079)]
+        [TestCase(81231)]
+        public void BothThatBuckleAtTheExitOfTheSheath_EndBeforeTheyAreOutside(int seed)
+        {
+            var push = new RandomCoaxialPush(seed, true);
+            Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That(push.Simulation.Reason, Does.Contain("buckles at the exit of its sheath"));
+            Assert.That(push.Contacts.Passages + push.PointsOutside, Is.Zero);
+        }
+
         [Category("Long")]
         [TestCase(false)]
         [TestCase(true)]
