@@ -24,6 +24,7 @@ _FLEXIBLE = 2.5  # mm: length of the elements of a longer flexible section
 _OVER, _TIGHT, _NARROW = 20.0, 75.0, 5.0  # mm, degrees, mm: a lumen of less radius that turns more over that length
 _LONGEST = 300.0  # mm of flexible wire, the tip included
 _HUB_FORCE = 5.0  # N, at which a grip slides along the wire
+_CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by less than 0.2 mm
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _PLACES = 10  # of a kind that a report lists
 
@@ -96,7 +97,7 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
         "hubForceLimit": _HUB_FORCE,
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
-        "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": 0.00005,
+        "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": _CONTACT_DISTANCE,
         "timeStep": _TIME_STEP, "deltaThreshold": 0.0,
         "maxSimulationSteps": math.ceil(way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
     }
