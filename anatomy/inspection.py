@@ -168,11 +168,12 @@ def inspect(mesh: Mesh, unit: str | None = None) -> Inspection:
 
 def sort_rims(mesh: Mesh, rims: list[Rim]) -> list[Rim]:
     """The rims with holes told from ends: around a hole the lumen is much wider than the rim."""
-    tree = cKDTree(mesh.vertices)
+    from anatomy.surfaces import distances
+
+    steps = np.array([1.0, 2.0, 3.0])
+    points = [rim.centre + max(rim.radius, 1e-12) * steps[:, None] * rim.normal for rim in rims]
     found = []
-    for rim in rims:
-        reach = np.array([1.0, 2.0, 3.0]) * max(rim.radius, 1e-12)
-        wide, _ = tree.query(rim.centre + reach[:, None] * rim.normal)
+    for rim, wide in zip(rims, distances(np.concatenate(points), mesh).reshape(-1, 3) if rims else ()):
         # The distance from the rim's own plane bounds the first ones; a lumen as wide as the rim gives its radius.
         is_hole = len(rim.vertices) < 3 or bool((wide > _HOLE * rim.radius).any())
         found.append(Rim(rim.number, rim.centre, rim.radius, rim.normal, rim.vertices, is_hole))

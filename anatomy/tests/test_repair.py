@@ -126,6 +126,12 @@ def test_a_hole_in_the_side_is_filled_and_ends_stay_open() -> None:
     assert 0.0 < distances(mesh.vertices, repaired.mesh).max() <= repaired.moved
 
 
+def test_an_end_is_no_hole_where_triangles_are_longer_than_the_lumen_is_wide() -> None:
+    mesh = tube(length=60.0, rings=2)
+    assert [rim.is_hole for rim in inspect(mesh).rims] == [False, False]
+    assert not repair(mesh).changes[:-1] and len(repair(mesh).rims) == 2
+
+
 def test_of_a_double_wall_the_inner_one_is_kept() -> None:
     phantom = double_walled()
     found = inspect(phantom)
