@@ -77,7 +77,7 @@ def _tetrahedra(points: np.ndarray) -> Delaunay:
         return Delaunay(points)
     except QhullError:
         try:
-            return Delaunay(points, qhull_options="Qbb Qc Qz QJ")
+            return Delaunay(points, qhull_options="Qbb Qc QJ")
         except QhullError as error:
             raise AnatomyError("the wall's points lie in one plane") from error
 
