@@ -182,7 +182,7 @@ namespace Guidewire.Core
             _dynamics.GoOn(time, _frameTurn);
             _dynamics.Terms.SetTime(scene.Schedule, time);
             _dynamics.Terms.Walls()!.Spring.Axis = _setup.Axis;
-            _dynamics.Terms.Walls()!.Spring.Besides = besides;  // with it the hub's force is as before, within its limit
+            _dynamics.Terms.Walls()!.Spring.Besides = besides;  // the hub's force stays within its limit
             _inner = new DirectStep(scene, _dynamics, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
             _inner.Contacts!.Take(Contacts!, -_window.First);
