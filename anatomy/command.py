@@ -63,11 +63,12 @@ def _mesh_of(arguments: argparse.Namespace) -> tuple[Mesh, str | None, list[str]
         from anatomy.shapes import make
 
         return make(arguments.make, arguments.type, arguments.seed, arguments.stenosis, arguments.aneurysm)
-    return read(arguments.file, arguments.unit, arguments.label, arguments.threshold, arguments.error)
+    return read(arguments.file, arguments.unit, arguments.label, arguments.threshold, arguments.error,
+                arguments.region)
 
 
 def read(file: Path, unit: str | None = None, label: float | None = None, threshold: float | None = None,
-         error: float | None = None) -> tuple[Mesh, str | None, list[str]]:
+         error: float | None = None, region: int | None = None) -> tuple[Mesh, str | None, list[str]]:
     """The mesh of a file, or one made of its mask or centreline; its unit where it is known, and what was done.
 
     Raises
@@ -78,14 +79,15 @@ def read(file: Path, unit: str | None = None, label: float | None = None, thresh
     if kind in MASKS:
         from anatomy.masks import mesh_of_image
 
-        return mesh_of_image(reading.read_image(file), label, threshold, error)
+        return mesh_of_image(reading.read_image(file), label, threshold, error, region)
     line = reading.line_of_poly_data(file) if kind == ".vtp" else None
     if kind in CENTRELINES or line is not None:
         from anatomy.shapes import tube_mesh
 
         line = line or reading.read_line(file)
+        left = f"; of {line.others + 1} lines the longest, the others are left out" if line.others else ""
         return tube_mesh(line.points, line.radii), unit or line.unit or None, [
-            f"a tube around a centreline of {len(line.points)} points"]
+            f"a tube around a centreline of {len(line.points)} points{left}"]
     return reading.read_mesh(file), unit, []
 
 

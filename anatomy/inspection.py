@@ -116,6 +116,22 @@ def without_slivers(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
     return mesh.part(kept), mesh.corners[~kept].mean(axis=1)
 
 
+def without_fins(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
+    """The mesh without triangles that stand on an edge of more than two triangles and end in the open, and the middles
+    (k, 3) of those. Of such triangles those with two open edges go first: one with a single open edge may be the wall's
+    own, at a rim."""
+    places = np.empty((0, 3))
+    while True:
+        edges = Edges.of(mesh)
+        at_edges = edges.counts[edges.of_triangles]
+        opened = np.where((at_edges > 2).any(axis=1), (at_edges == 1).sum(axis=1), 0)
+        fin = opened == 2 if (opened == 2).any() else opened == 1
+        if not fin.any():
+            return mesh, places
+        places = np.vstack([places, mesh.corners[fin].mean(axis=1)])
+        mesh = mesh.part(~fin)
+
+
 def inspect(mesh: Mesh, unit: str | None = None) -> Inspection:
     """All that can be said of a mesh as a file has it.
 
@@ -132,7 +148,8 @@ def inspect(mesh: Mesh, unit: str | None = None) -> Inspection:
     edges = Edges.of(clean)
     bodies = find_bodies(clean)
     main = clean.part(bodies == 0)
-    rims = sort_rims(clean, find_rims(clean, edges))
+    plain, _ = without_fins(clean)  # a fin has no rim of a lumen
+    rims = sort_rims(plain, find_rims(plain, Edges.of(plain)))
     crossings, _ = self_intersections(clean)
     pairs = edges.pairs()
     same = edges.forward.ravel()[_halves(edges)].reshape(-1, 2) if len(pairs) else np.empty((0, 2), bool)
@@ -151,11 +168,12 @@ def inspect(mesh: Mesh, unit: str | None = None) -> Inspection:
 
 def sort_rims(mesh: Mesh, rims: list[Rim]) -> list[Rim]:
     """The rims with holes told from ends: around a hole the lumen is much wider than the rim."""
-    tree = cKDTree(mesh.vertices)
+    from anatomy.surfaces import distances
+
+    steps = np.array([1.0, 2.0, 3.0])
+    points = [rim.centre + max(rim.radius, 1e-12) * steps[:, None] * rim.normal for rim in rims]
     found = []
-    for rim in rims:
-        reach = np.array([1.0, 2.0, 3.0]) * max(rim.radius, 1e-12)
-        wide, _ = tree.query(rim.centre + reach[:, None] * rim.normal)
+    for rim, wide in zip(rims, distances(np.concatenate(points), mesh).reshape(-1, 3) if rims else ()):
         # The distance from the rim's own plane bounds the first ones; a lumen as wide as the rim gives its radius.
         is_hole = len(rim.vertices) < 3 or bool((wide > _HOLE * rim.radius).any())
         found.append(Rim(rim.number, rim.centre, rim.radius, rim.normal, rim.vertices, is_hole))

@@ -71,6 +71,17 @@ class WallDistance:
         return best
 
 
+def _tetrahedra(points: np.ndarray) -> Delaunay:
+    """Of points, which Qhull displaces by its rounding where too many of them lie on one sphere for exact merging."""
+    try:
+        return Delaunay(points)
+    except QhullError:
+        try:
+            return Delaunay(points, qhull_options="Qbb Qc QJ")
+        except QhullError as error:
+            raise AnatomyError("the wall's points lie in one plane") from error
+
+
 class MedialGraph:
     """Voronoi vertices inside a lumen, and the lines between neighbouring ones.
 
@@ -79,10 +90,7 @@ class MedialGraph:
 
     def __init__(self, samples: Mesh) -> None:
         points, normals = samples.vertices, samples.vertex_normals()
-        try:
-            cells = Delaunay(points)
-        except QhullError as error:
-            raise AnatomyError("the wall's points lie in one plane") from error
+        cells = _tetrahedra(points)
         corners = points[cells.simplices]
         rows = corners[:, 1:] - corners[:, :1]
         right = 0.5 * np.einsum("ijk,ijk->ij", rows, rows)

@@ -24,8 +24,10 @@ _FLEXIBLE = 2.5  # mm: length of the elements of a longer flexible section
 _OVER, _TIGHT, _NARROW = 20.0, 75.0, 5.0  # mm, degrees, mm: a lumen of less radius that turns more over that length
 _LONGEST = 300.0  # mm of flexible wire, the tip included
 _HUB_FORCE = 5.0  # N, at which a grip slides along the wire
+_CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by less than 0.2 mm
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _PLACES = 10  # of a kind that a report lists
+_BENT = 0.25  # of a rim's radius, by which it is out of a plane
 
 
 def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source: str) -> None:
@@ -96,7 +98,7 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
         "hubForceLimit": _HUB_FORCE,
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
-        "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": 0.00005,
+        "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": _CONTACT_DISTANCE,
         "timeStep": _TIME_STEP, "deltaThreshold": 0.0,
         "maxSimulationSteps": math.ceil(way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
     }
@@ -163,6 +165,9 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
     if line is not None:
         lines += [f"end {end.number} '{end.name}': {'open' if end.is_open else 'closed'}, at {_place(end.centre)}, "
                   f"radius {mm * end.radius:.3g} mm" for end in line.ends]
+        lines += [f"the rim of '{name}' is out of a plane by {mm * off:.2g} mm: a wire may find no straight start "
+                  "there; another end, or a sheath.exit farther inside, may do"
+                  for name, off in _bent_rims(repaired).items()] if repaired is not None else []
         least = line.narrowest
         lines.append(f"narrowest place: radius {mm * line.radii[least]:.3g} mm at {_place(line.points[least])}, in "
                      f"branch {line.branches[least]}")
@@ -170,6 +175,13 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
         lines.append(f"a wire of {diameter:g} mm " + ("passes everywhere" if not narrow else
                      f"does not pass all of branch {', '.join(map(str, narrow))}"))
     return lines
+
+
+def _bent_rims(repaired: Repaired) -> dict[str, float]:
+    """By name, how far rims are out of their planes, in the file's units, where that is a quarter of their radius."""
+    off = {rim.name: float(np.abs((repaired.mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max())
+           for rim in repaired.rims}
+    return {rim.name: off[rim.name] for rim in repaired.rims if off[rim.name] > _BENT * rim.radius}
 
 
 def _place(point: np.ndarray) -> str:

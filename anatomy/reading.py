@@ -16,23 +16,29 @@ from anatomy.mesh import AnatomyError, Mesh
 
 _LARGEST = 1 << 30  # bytes of a mesh file
 _MOST_VOXELS = 1 << 30
+_MM = {1: 1e3, 3: 1e-3}  # of a length in a NIfTI file, by its code of units: m, um; others are mm
+_TO_LPS = {"l": 1.0, "p": 1.0, "s": 1.0, "r": -1.0, "a": -1.0, "i": -1.0}
 
 
 @dataclass(frozen=True)
 class Image:
-    """values : ndarray (i, j, k); to_space : ndarray (4, 4), from indices of voxels to mm."""
+    """values : ndarray (i, j, k); to_space : ndarray (4, 4), from indices of voxels to mm; note : what was done to its
+    axes, or empty."""
 
     values: np.ndarray
     to_space: np.ndarray
+    note: str = ""
 
 
 @dataclass(frozen=True)
 class Line:
-    """points : ndarray (k, 3); radii : ndarray (k,); unit : its name where the file says it, else empty."""
+    """points : ndarray (k, 3); radii : ndarray (k,); unit : its name where the file says it, else empty; others : how
+    many further lines the file has."""
 
     points: np.ndarray
     radii: np.ndarray
     unit: str = ""
+    others: int = 0
 
 
 def kind_of(file: Path) -> str:
@@ -125,11 +131,14 @@ def read_image(file: Path) -> Image:
     if turn is not None:
         # VTK's matrix takes positions, spacing included, to the patient's axes.
         to_space = np.array([[turn.GetElement(i, j) for j in range(4)] for i in range(4)]) @ to_space
+    note = ""
     if kind == ".nrrd":
-        to_space = _nrrd_axes(file, to_space)
+        to_space, note = _nrrd_axes(file, to_space)
+    else:
+        to_space[:3] *= _MM.get(reader.GetNIFTIHeader().GetXYZTUnits() & 7, 1.0)
     if np.asarray(values).dtype.kind == "f" and not np.isfinite(values).all():
         raise AnatomyError(f"{file}: {int((~np.isfinite(values)).sum())} voxels are not finite")
-    return Image(values, to_space)
+    return Image(values, to_space, note)
 
 
 def read_line(file: Path) -> Line:
@@ -166,15 +175,18 @@ def line_of_poly_data(file: Path) -> Line | None:
     longest = int(np.argmax(np.diff(ends)))
     index = vtk_to_numpy(cells.GetConnectivityArray())[ends[longest]:ends[longest + 1]]
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)[index]
-    return Line(points, vtk_to_numpy(data.GetPointData().GetArray(radius)).astype(float)[index])
+    return Line(points, vtk_to_numpy(data.GetPointData().GetArray(radius)).astype(float)[index],
+                others=len(ends) - 2)
 
 
 def _read_csv(file: Path) -> Line:
     try:
-        rows = [row for row in csv.reader(file.read_text(encoding="utf-8-sig").splitlines()) if row]
+        lines = file.read_text(encoding="utf-8-sig").splitlines()
+        separator = next((mark for mark in ";\t" if lines and mark in lines[0]), ",")
+        rows = [row for row in csv.reader(lines, delimiter=separator) if row]
     except (UnicodeDecodeError, csv.Error) as error:
         raise AnatomyError(f"{file}: not a text of x, y, z, radius in columns") from error
-    names = [word.strip().lower() for word in rows[0]] if rows else []
+    names = ["radius" if word.strip().lower() == "r" else word.strip().lower() for word in rows[0]] if rows else []
     start = 1 if any(re.search("[a-df-z]", word) for word in names) else 0
     columns = [names.index(word) if word in names else k for k, word in enumerate(("x", "y", "z", "radius"))]
     numbers = []
@@ -182,7 +194,7 @@ def _read_csv(file: Path) -> Line:
         try:
             numbers.append([float(row[k]) for k in columns])
         except (ValueError, IndexError) as error:
-            raise AnatomyError(f"{file}: line {number} is not x, y, z, radius: {','.join(row)[:60]}") from error
+            raise AnatomyError(f"{file}: line {number} is not x, y, z, radius: {separator.join(row)[:60]}") from error
     table = np.array(numbers).reshape(-1, 4)
     return Line(table[:, :3], table[:, 3])
 
@@ -341,7 +353,7 @@ def _check_image(file: Path, kind: str) -> None:
     if kind == ".nrrd":
         if not head.startswith(b"NRRD"):
             raise AnatomyError(f"{file}: not a NRRD: it does not begin with 'NRRD'")
-        found = re.search(rb"^sizes:([\d ]+)$", head, re.M)
+        found = re.search(rb"^sizes:([\d ]+)\r?$", head, re.M)
         sizes = [int(word) for word in found[1].split()] if found else []
         is_packed = b"encoding: raw" not in head
         bytes_each = 1
@@ -383,16 +395,24 @@ def _check_packed(file: Path, needed: int) -> None:
         raise AnatomyError(f"{file}: the file breaks off: the voxels need {needed} bytes, there are {read}")
 
 
-def _nrrd_axes(file: Path, fallback: np.ndarray) -> np.ndarray:
+def _nrrd_axes(file: Path, fallback: np.ndarray) -> tuple[np.ndarray, str]:
+    """From voxels to mm, and what was done to axes that are mirrored."""
     with file.open("rb") as stream:
-        head = stream.read(4096).split(b"\n\n")[0].decode("ascii", "replace")
+        head = stream.read(4096).replace(b"\r\n", b"\n").split(b"\n\n")[0].decode("ascii", "replace")
     found = re.search(r"^space directions:(.*)$", head, re.M)
     rows = re.findall(r"\(([^()]*)\)", found[1]) if found else []
     if len(rows) != 3:
-        return fallback
+        return fallback, ""
     to_space = np.eye(4)
     to_space[:3, :3] = np.array([[float(word) for word in row.split(",")] for row in rows]).T
     origin = re.search(r"^space origin:\s*\(([^()]*)\)", head, re.M)
     if origin:
         to_space[:3, 3] = [float(word) for word in origin[1].split(",")]
-    return to_space
+    space = re.search(r"^space:\s*([\w-]+)", head, re.M)
+    letters = [word[0] for word in space[1].lower().split("-")] if space and "-" in space[1] else list(
+        space[1].lower()) if space else []
+    signs = [_TO_LPS.get(letter, 0.0) for letter in letters]
+    if len(signs) == 3 and np.prod(signs) < 0.0:
+        to_space[:3] *= np.array(signs)[:, None]
+        return to_space, f"space {space[1]}, which is left-handed, turned to left-posterior-superior"
+    return to_space, ""

@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 from anatomy.distance_grid import cut_open, remesh
 from anatomy.double_wall import inner_wall
 from anatomy.inspection import (facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
-                                without_slivers)
+                                without_fins, without_slivers)
 from anatomy.intersections import relaxed, self_intersections
 from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, signed_volume
 from anatomy.surfaces import distances
@@ -159,14 +159,8 @@ class _Work:
 
     def cut_crowded(self) -> None:
         """Fins off, then the triangles around edges of more than two; their holes are filled afterwards."""
-        for _ in range(50):
-            edges = Edges.of(self.mesh)
-            at_edges = edges.counts[edges.of_triangles]
-            fin = (at_edges > 2).any(axis=1) & (at_edges == 1).any(axis=1)
-            if not fin.any():
-                break
-            self._note("triangles of fins removed", int(fin.sum()), 0.0, self.mesh.corners[fin][0].mean(axis=0))
-            self.mesh = self.mesh.part(~fin)
+        self.mesh, places = without_fins(self.mesh)
+        self._note("triangles of fins removed", len(places), 0.0, places[0] if len(places) else None)
         edges = Edges.of(self.mesh)
         bad = (edges.counts[edges.of_triangles] > 2).any(axis=1)
         if bad.any():

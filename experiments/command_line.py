@@ -250,6 +250,8 @@ def _add_anatomy(commands: argparse._SubParsersAction) -> None:
     anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="of the file's numbers (guessed from the sizes)")
     anatomy.add_argument("--label", type=finite, metavar="N", help="of a mask: value of the vessel's voxels")
     anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
+    anatomy.add_argument("--region", type=positive, metavar="K",
+                         help="of what --label or --threshold takes: the K-th largest connected region (default 1)")
     anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
                                                                         "(a tenth of a voxel)")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")

@@ -276,7 +276,8 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
     place = (f"{found.attempts} attempts failed; tip bent {f'by {found.tip}' if found.tip else 'as in the scene'}, at "
              f"most at {found.farthest:.0f} of {found.length:.0f} mm")
     if not found.is_reached:
-        print(f"target not reached, no drive written: {place}")
+        print(f"target not reached, no drive written: {place}; more --attempts, another --target of 'anatomy', or a "
+              "catheter may do")
         return 1
     steered = write(scene, found)
     print(f"target reached: {place}; drive: {os.path.relpath(steered)}")

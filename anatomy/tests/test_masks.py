@@ -68,6 +68,19 @@ def test_a_mirrored_image_keeps_its_place_and_its_orientation() -> None:
     assert signed_volume(mirrored) == pytest.approx(signed_volume(plain), rel=1e-9)
 
 
+def test_a_region_is_chosen_by_its_number_and_all_are_listed() -> None:
+    values = np.zeros((30, 30, 30))
+    values[2:28, 2:28, 2:6] = 1.0  # a table, larger than the vessel
+    values[12:18, 12:18, 10:28] = 1.0
+    image = Image(values, np.diag([0.5, 0.5, 0.5, 1.0]))
+    largest, _, _ = mesh_of_image(image, None, None, None)
+    second, _, notes = mesh_of_image(image, None, None, None, region=2)
+    assert largest.vertices[:, 2].max() < 3.5 and second.vertices[:, 2].min() > 4.0
+    assert any("2 of 648 voxels around [7.25, 7.25, 9.25]" in note for note in notes)
+    with pytest.raises(AnatomyError, match="--region 3: there are 2 regions"):
+        mesh_of_image(image, None, None, None, region=3)
+
+
 @pytest.mark.parametrize("label, threshold, expected", [
     (7.0, None, "--label 7: no voxel"), (None, 9.0, "--threshold 9: no voxel"), (None, -1.0, "every voxel"),
     (None, None, "say --label N"),

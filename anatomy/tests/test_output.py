@@ -5,7 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from anatomy.output import _flexible_length
+from anatomy.mesh import Edges, find_rims
+from anatomy.output import _bent_rims, _flexible_length
+from anatomy.repair import Repaired
+from anatomy.tests.solids import SLANT, tube
 
 
 def path_with_a_turn(radius: float) -> np.ndarray:
@@ -33,3 +36,18 @@ def test_a_bend_at_the_inlet_of_a_long_path_leaves_the_wire_stiff() -> None:
     onward = points[-1] + np.outer(np.arange(1.0, 201.0), points[-1] - points[-2])
     points = np.vstack([points, onward])
     assert _flexible_length(points, np.full(len(points), 3.0)) == 0.0
+
+
+def test_a_rim_that_is_not_flat_is_told_from_one_that_is_cut_off_at_a_slant() -> None:
+    mesh = tube()
+    along = mesh.vertices @ SLANT
+    side = mesh.vertices - along[:, None] * SLANT
+    across = side @ np.linalg.svd(SLANT[None])[2][1] / 3.0
+    for bent, count in ((0.0, 0), (4.0, 1)):
+        # One end is cut off at a slant, and bent into a saddle or not.
+        at_end = np.isclose(along, along.max())
+        moved = mesh.vertices + (at_end * (3.0 * across + bent * across**2))[:, None] * SLANT
+        made = type(mesh)(moved, mesh.triangles)
+        rims = find_rims(made, Edges.of(made))
+        found = _bent_rims(Repaired(made, rims, []))
+        assert len(found) == count and all(0.8 < off < 4.0 for off in found.values())

@@ -106,7 +106,9 @@ def test_centreline_of_slicer_and_of_columns(tmp_path: Path) -> None:
                       '[{"name": "Radius", "controlPointValues": [2.0, 1.5]}]}]}')
     table = tmp_path / "a.csv"
     table.write_text("radius,x,y,z\n2,1,2,3\n1.5,1,2,5\n")
-    for file in (markup, table):
+    other = tmp_path / "b.csv"
+    other.write_text("X;Y;Z;R\n1;2;3;2\n1;2;5;1.5\n")
+    for file in (markup, table, other):
         line = reading.read_line(file)
         np.testing.assert_array_equal(line.points, [[1.0, 2.0, 3.0], [1.0, 2.0, 5.0]])
         np.testing.assert_array_equal(line.radii, [2.0, 1.5])
@@ -121,6 +123,29 @@ def test_voxels_of_a_nifti_lie_where_its_header_says(tmp_path: Path) -> None:
     assert image.values.shape == (8, 8, 8) and image.values[1, 2, 5] == 1
     place = image.to_space @ [1.0, 2.0, 5.0, 1.0]
     np.testing.assert_allclose(place[:3], [0.5, 1.0, 2.5], atol=1e-6)
+
+
+def test_a_nifti_in_metres_is_read_in_mm(tmp_path: Path) -> None:
+    content = bytearray(nifti(voxels=bytes(512)))
+    (tmp_path / "mm.nii").write_bytes(bytes(content))
+    content[123] = 1
+    (tmp_path / "m.nii").write_bytes(bytes(content))
+    millimetres, metres = (reading.read_image(tmp_path / name).to_space for name in ("mm.nii", "m.nii"))
+    np.testing.assert_allclose(metres[:3], 1e3 * millimetres[:3], rtol=1e-12)
+
+
+@pytest.mark.parametrize("space, signs", [
+    ("left-posterior-superior", [1, 1, 1]), ("RAS", [1, 1, 1]), ("left-anterior-superior", [1, -1, 1]),
+    ("RPI", [1, 1, 1]), ("RPS", [-1, 1, 1])])
+def test_a_left_handed_space_of_an_nrrd_is_turned_and_lines_may_end_as_in_windows(tmp_path: Path, space, signs) -> None:
+    head = (f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 12 12\nencoding: gzip\nspace: {space}\n"
+            "space directions: (0.5,0,0) (0,0.6,0) (0,0,0.7)\nspace origin: (1,2,3)\n\n")
+    for name, text in (("a.nrrd", head), ("b.nrrd", head.replace("\n", "\r\n"))):
+        (tmp_path / name).write_bytes(text.encode() + gzip.compress(bytes(12**3)))
+        image = reading.read_image(tmp_path / name)
+        expected = np.c_[np.diag([0.5, 0.6, 0.7]), [1.0, 2.0, 3.0]] * np.array(signs)[:, None]
+        np.testing.assert_allclose(image.to_space[:3], expected, atol=1e-12)
+        assert ("left-handed" in image.note) == (signs != [1, 1, 1])
 
 
 def test_binary_stl_is_read(tmp_path: Path) -> None:

@@ -93,6 +93,19 @@ def test_a_fin_is_cut_off_and_named_with_its_place() -> None:
     check(finned, "fins")
 
 
+def test_fins_on_many_edges_go_and_the_wall_stays_whole_up_to_its_rims() -> None:
+    mesh = tube()
+    edges = Edges.of(mesh)
+    chosen = edges.ends[np.random.default_rng(3).choice(np.flatnonzero(edges.counts == 2), 300, replace=False)]
+    tips = 1.2 * mesh.vertices[chosen].mean(axis=1)
+    fins = np.column_stack([chosen, len(mesh.vertices) + np.arange(300)])
+    finned = Mesh(np.vstack([mesh.vertices, tips]), np.vstack([mesh.triangles, fins]))
+    found, repaired = inspect(finned), repair(finned)
+    assert len(found.crowded) == 300 and len(found.rims) == 2
+    assert len(repaired.mesh.triangles) == len(mesh.triangles)
+    assert [change.count for change in repaired.changes if "fins" in change.name] == [300]
+
+
 def test_a_stray_body_goes_and_a_large_one_is_refused() -> None:
     small = tube(0.2, 0.5, rings=2)
     check(joined(tube(), Mesh(small.vertices + 20.0, small.triangles)), "stray bodies")
@@ -111,6 +124,12 @@ def test_a_hole_in_the_side_is_filled_and_ends_stay_open() -> None:
     assert len(repaired.rims) == 2 and is_vessel(repaired.mesh)
     # The lid is flat, the wall was round: distance of the chord from the arc.
     assert 0.0 < distances(mesh.vertices, repaired.mesh).max() <= repaired.moved
+
+
+def test_an_end_is_no_hole_where_triangles_are_longer_than_the_lumen_is_wide() -> None:
+    mesh = tube(length=60.0, rings=2)
+    assert [rim.is_hole for rim in inspect(mesh).rims] == [False, False]
+    assert not repair(mesh).changes[:-1] and len(repair(mesh).rims) == 2
 
 
 def test_of_a_double_wall_the_inner_one_is_kept() -> None:

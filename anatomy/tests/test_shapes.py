@@ -6,7 +6,7 @@ import os
 
 import numpy as np
 import pytest
-from scipy.spatial import cKDTree
+from scipy.spatial import ConvexHull, Delaunay, cKDTree
 
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
@@ -140,3 +140,25 @@ def test_stenosis_and_aneurysm_have_the_diameter_asked_for(stenosis, aneurysm, t
 def test_what_is_not_made_is_one_line(kind, number, stenosis, aneurysm, expected) -> None:
     with pytest.raises(AnatomyError, match=expected):
         make(kind, number, 1, stenosis, aneurysm)
+
+
+def test_points_too_regular_for_exact_merging_are_displaced_by_rounding(monkeypatch: pytest.MonkeyPatch) -> None:
+    from anatomy import medial_graph
+
+    asked = []
+
+    def fails_once(points, qhull_options=None):
+        asked.append(qhull_options)
+        if qhull_options is None:
+            raise medial_graph.QhullError("QH6271: a wide merge error")
+        return Delaunay(points, qhull_options=qhull_options)
+
+    points = np.random.default_rng(1).uniform(size=(40, 3))
+    monkeypatch.setattr(medial_graph, "Delaunay", fails_once)
+    found = medial_graph._tetrahedra(points)
+    assert asked == [None, "Qbb Qc QJ"]
+    corners = points[found.simplices]
+    volume = np.abs(np.linalg.det(corners[:, 1:] - corners[:, :1])).sum() / 6.0
+    assert volume == pytest.approx(ConvexHull(points).volume, rel=1e-6)
+    with pytest.raises(AnatomyError, match="in one plane"):
+        medial_graph._tetrahedra(points[:3])

@@ -3,7 +3,7 @@
 ``python3 -m experiments.campaigns.anatomy_independence FOLDER ... --runs 10`` takes folders that ``guidewire.py
 anatomy`` wrote. A seed draws thickness (0.36 or 0.89 mm), stiffness and the bend of the tip of a wire that is pushed in
 from the scene's inlet; it is run as the scene has it and with each setting finer. Tips are compared where both runs
-finish in the same branches; others are counted.
+finish in the same branches; others are counted. Runs whose tip moves by more than a limit are printed.
 """
 
 from __future__ import annotations
@@ -12,6 +12,7 @@ import argparse
 import json
 import sys
 import tempfile
+from collections import Counter
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -27,6 +28,8 @@ from experiments.campaigns.vessel import write_obj
 from experiments.runner import Request, Runner
 
 DISTANCE = 300.0  # mm pushed, at most
+LIMITS = {"timeStep/4": 0.2, "elements x 2": 0.2, "contactDistance/4": 0.2, "triangles x 4": 0.1,
+          "triangles x 16": 0.1}  # mm, by which the tip may move
 _DIGITS = 9  # of a mesh's coordinates: corners between two others are on their edge to that
 
 
@@ -86,28 +89,41 @@ def main(arguments: Sequence[str]) -> int:
         prog="python3 -m experiments.campaigns.anatomy_independence", description=__doc__.split("\n")[0])
     parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="of guidewire.py anatomy")
     parser.add_argument("--runs", type=int, default=10, help="how many in each (default 10)")
+    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
     given = parser.parse_args(arguments)
     runner = Runner(building.build(building.RUNNER, print))
+    moved: dict[str, dict[str, list[float]]] = {name: {} for name in LIMITS}
+    other: Counter[tuple[str, str]] = Counter()
     with tempfile.TemporaryDirectory() as scratch:
         for folder in given.folders:
             meshes = refined(folder, Path(scratch))
-            moved: dict[str, list[float]] = {}
-            other: dict[str, int] = {}
-            for seed in range(given.runs):
+            for seed in range(given.first, given.first + given.runs):
                 scene = draw(folder, seed)
                 base = _tip(runner, scene, Path(scratch))
                 for name, changed in finer(scene, meshes).items() if base else ():
                     found = _tip(runner, changed, Path(scratch))
-                    if found and found[1] == base[1]:
-                        moved.setdefault(name, []).append(float(np.linalg.norm(found[0] - base[0])))
-                    else:
-                        other[name] = other.get(name, 0) + 1
-            for name, distances in moved.items():
-                print(f"{folder.name}, {name}: {len(distances)} runs, tip moved by {np.median(distances):.3g} mm "
-                      f"(median), {np.quantile(distances, 0.95):.3g} (95 of 100), {max(distances):.3g} (largest); "
-                      f"{other.get(name, 0)} in other branches or without an end", flush=True)
+                    if not found or found[1] != base[1]:
+                        other[name, folder.name] += 1
+                        continue
+                    distance = float(np.linalg.norm(found[0] - base[0]))
+                    moved[name].setdefault(folder.name, []).append(distance)
+                    if distance > LIMITS[name]:
+                        print(f"{folder.name} {seed}, {name}: {distance:.3g} mm", flush=True)
+            for name in LIMITS:
+                _tell(folder.name, name, moved[name].get(folder.name, []), other[name, folder.name])
+    for name, found in moved.items():
+        _tell("all", name, [distance for distances in found.values() for distance in distances],
+              sum(other[name, folder.name] for folder in given.folders))
     runner.close()
     return 0
+
+
+def _tell(where: str, name: str, distances: list[float], others: int) -> None:
+    """One line on the runs with one setting finer; distances of their tips in mm."""
+    if distances:
+        print(f"{where}, {name}: {np.count_nonzero(np.array(distances) <= LIMITS[name])} of {len(distances)} within "
+              f"{LIMITS[name]} mm; median {np.median(distances):.3g}, 95 of 100 {np.quantile(distances, 0.95):.3g}, "
+              f"largest {max(distances):.3g}; {others} in other branches or without an end", flush=True)
 
 
 if __name__ == "__main__":

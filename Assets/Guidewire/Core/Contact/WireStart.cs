@@ -31,7 +31,8 @@ namespace Guidewire.Core
             double length = parameters.Scene.GuidewireLength;
             double radius = MethodTable.Of(parameters.Method.Solver).TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius;
-            Vector3d[] wire = new Scene(parameters).Shape.X;
+            var scene = new Scene(parameters);
+            Vector3d tip = (1.0 / scene.UnitLength) * scene.Shape.X[scene.Shape.ElementCount];
             foreach (ContactShape wall in parameters.Scene.Walls)
             {
                 Extents? box = wall is ConvexObstacle ? null : Extents.Of(wall);
@@ -40,7 +41,7 @@ namespace Guidewire.Core
                     continue;
                 }
                 double fraction = box.Value.LargestSide / length;
-                double width = DistanceFrom(wall, wire[wire.Length - 1]);
+                double width = DistanceFrom(wall, tip);
                 if (fraction > OddLengths || fraction < 1.0 / OddLengths || width > OddRadii * radius)
                 {
                     return string.Format(CultureInfo.InvariantCulture,

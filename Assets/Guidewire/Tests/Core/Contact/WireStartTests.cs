@@ -117,6 +117,19 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        [Test]
+        public void VesselFarFromTheOrigin_IsNoOddOne_ForAWireInMetres()
+        {
+            SimulationParameters p = WallScenes.Wire(20, 0.18e-3);
+            p.Scene.GuidewireOffset = 1000.0;
+            p.Scene.Walls = new ContactShape[] { new TubeShape(
+                new[] { 990.0 * Vector3d.UnitZ, 1600.0 * Vector3d.UnitZ }, new[] { 5.0, 5.0 }, true, true) };
+            Assert.That(WireStart.FindOddSizes(p), Is.Null);
+            p.Scene.Walls = new ContactShape[] { new TubeShape(
+                new[] { 990.0 * Vector3d.UnitZ, 1600.0 * Vector3d.UnitZ }, new[] { 90.0, 90.0 }, true, true) };
+            Assert.That(WireStart.FindOddSizes(p), Does.Contain("its wall 90 units from the wire's tip"));
+        }
+
         private static SimulationParameters Wire(double radius)
         {
             var p = new SimulationParameters();

@@ -174,6 +174,7 @@ namespace Guidewire.Core
         // The first node has been shifted along the wire, m.
         private void Build(double time, double shift, DirectStep? old)
         {
+            double besides = old == null ? 0.0 : _dynamics.Terms.Walls()!.Spring.Besides;
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _drive, shift,
                 _frameTurn);
             _drive = scene.Drive;
@@ -181,6 +182,7 @@ namespace Guidewire.Core
             _dynamics.GoOn(time, _frameTurn);
             _dynamics.Terms.SetTime(scene.Schedule, time);
             _dynamics.Terms.Walls()!.Spring.Axis = _setup.Axis;
+            _dynamics.Terms.Walls()!.Spring.Besides = besides;  // the hub's force stays within its limit
             _inner = new DirectStep(scene, _dynamics, _parameters.Method, _report,
                 new ContactRecord(scene.Shape.X.Length));
             _inner.Contacts!.Take(Contacts!, -_window.First);
