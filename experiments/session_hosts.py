@@ -87,7 +87,9 @@ class Library:
     def __init__(self, path: Path) -> None:
         self._functions = _load(str(path))
         self._number = self._functions.guidewire_new()
-        self._numbers = np.empty(0)
+        self._layout: Mapping[str, tuple[int, ...]] | None = None    # that of the parts
+        self._parts: list[tuple[str, slice, tuple[int, ...]]] = []    # of the numbers of a state, by array
+        self._count = HEAD
         self._grey_levels = 256 * 256    # of the last picture
         self._is_killed = threading.Event()
 
@@ -110,27 +112,23 @@ class Library:
         The head of the state, shape (4,), and its arrays; or the answer of a session that refused. Arrays of other
         shapes than the layout's are asked for by a request: then the answer to that.
         """
-        count = HEAD + sum(math.prod(shape) for shape in layout.values())
-        if self._numbers.size != count:
-            self._numbers = np.empty(count)
+        if layout is not self._layout:
+            self._lay_out(layout)
+        numbers = np.empty(self._count)    # new ones for each state: its arrays are parts of them
+        address = numbers.ctypes.data
         for done in range(0, steps, _STEPS_AT_ONCE):
             if self._is_killed.is_set():
                 raise Ended("this session was ended while it made steps")
             written = self._functions.guidewire_step(
                 self._number, push / steps, turn / steps, hub, min(_STEPS_AT_ONCE, steps - done),
-                self._numbers.ctypes.data, count)
+                address, self._count)
             if written == 0:
                 return self._answer(b"")
-            if self._numbers[2]:
+            if numbers[2]:
                 break
-        if written != count or self._numbers[2]:    # other arrays than before, or an end that has a reason
+        if written != self._count or numbers[2]:    # other arrays than before, or an end that has a reason
             return self.ask('{"session": "state"}')
-        arrays, start = {}, HEAD
-        for name, shape in layout.items():
-            end = start + math.prod(shape)
-            arrays[name] = self._numbers[start:end].reshape(shape).copy()
-            start = end
-        return self._numbers[:HEAD], arrays
+        return numbers[:HEAD], {name: numbers[part].reshape(shape) for name, part, shape in self._parts}
 
     def picture(self, view: str, positions: np.ndarray | None) -> np.ndarray | dict[str, Any]:
         """Take a fluoroscopic picture.
@@ -147,11 +145,10 @@ class Library:
         if self._is_killed.is_set():
             raise Ended("this session was ended")
         text = view.encode("utf-8")
-        nodes = self._numbers if positions is None else positions
-        count = 0 if positions is None else positions.size
+        nodes, count = (None, 0) if positions is None else (positions.ctypes.data, positions.size)
 
         def take(grey: np.ndarray) -> int:
-            return self._functions.guidewire_picture(self._number, text, len(text), nodes.ctypes.data, count,
+            return self._functions.guidewire_picture(self._number, text, len(text), nodes, count,
                                                      grey.ctypes.data, grey.size)
 
         grey = np.empty(self._grey_levels, dtype=np.uint8)
@@ -173,6 +170,13 @@ class Library:
     def close(self) -> None:
         """Forget the session."""
         self._functions.guidewire_close(self._number)
+
+    def _lay_out(self, layout: Mapping[str, tuple[int, ...]]) -> None:
+        self._layout, self._parts, self._count = layout, [], HEAD
+        for name, shape in layout.items():
+            end = self._count + math.prod(shape)
+            self._parts.append((name, slice(self._count, end), shape))
+            self._count = end
 
     def _answer(self, request: bytes) -> dict[str, Any]:
         if self._is_killed.is_set():

@@ -203,7 +203,8 @@ def state_of(step: int, time: float, outcome: str | None, reason: str, predictio
     positions = arrays["positions"]
     state = State(
         step, time, outcome, reason, prediction_error, positions, arrays["velocities"], arrays["orientations"],
-        arrays["angularVelocities"], arrays.get("contactForces", np.zeros_like(positions)),
+        arrays["angularVelocities"],
+        arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
         arrays["reaction"][0] if "reaction" in arrays else None,
         arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
         Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None,

@@ -55,16 +55,28 @@ namespace Guidewire.Core
             return _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;
         }
 
-        /// <summary>The same of its first end alone.</summary>
-        public readonly double ClearanceAtA(in Vector3d a)
+        /// <summary>False where the wall is certainly farther from segment a b than a range.</summary>
+        public readonly bool MayReach(in Vector3d a, in Vector3d b, double range)
         {
-            return Clearance(a, _b);
+            return MayReach(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
+        }
+
+        /// <summary>The same of its first end alone.</summary>
+        public readonly bool MayReachA(in Vector3d a, double range)
+        {
+            return MayReach((a - _a).LengthSquared, range);
         }
 
         /// <summary>The same of its second end.</summary>
-        public readonly double ClearanceAtB(in Vector3d b)
+        public readonly bool MayReachB(in Vector3d b, double range)
         {
-            return Clearance(_a, b);
+            return MayReach((b - _b).LengthSquared, range);
+        }
+
+        private readonly bool MayReach(double squaredMotion, double range)
+        {
+            double left = _clearance - range;
+            return _skin < 0.0 || !(left > 0.0 && squaredMotion < left * left);
         }
 
         /// <summary>Its features, if the result is valid between a and b.</summary>

@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -65,7 +66,7 @@ namespace Guidewire.Core
         /// outside. Concave, because the lumen is convex, and of slope 1 or less.</summary>
         public double Distance(in Vector3d x)
         {
-            return Distance(x, out _, out _);
+            return DistanceFrom(CentreAt(Free(x - From), out double y), y, x);
         }
 
         /// <summary>The same with the centre that gives it, and where along the piece that centre would lie if the
@@ -74,15 +75,27 @@ namespace Guidewire.Core
         /// |k| &lt; 1, the maximum of R0 + k y - sqrt(h^2 + (z - y)^2) lies at y = z + k h/sqrt(1 - k^2).</remarks>
         public double Distance(in Vector3d x, out Vector3d centre, out double along)
         {
-            Vector3d offset = x - From;
-            double free = Free(offset);
+            double free = Free(x - From);
             along = free / _length;
-            double y = Math.Min(Math.Max(free, 0.0), _length);
-            centre = y >= _length ? To : From + y * _axis;
+            centre = CentreAt(free, out double y);
+            return DistanceFrom(centre, y, x);
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private Vector3d CentreAt(double free, out double y)
+        {
+            y = Math.Min(Math.Max(free, 0.0), _length);
+            return y >= _length ? To : From + y * _axis;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private double DistanceFrom(in Vector3d centre, double y, in Vector3d x)
+        {
             return _radius + _slope * y - Vector3d.Distance(x, centre);
         }
 
         // Arc length of the centre if the piece had no ends, for an offset from the first knot.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private double Free(in Vector3d offset)
         {
             double z = Vector3d.Dot(offset, _axis);

@@ -105,6 +105,12 @@ namespace Guidewire.Core
                 contact = default;
                 return false;
             }
+            if (range <= double.MaxValue && AreDeeper(a, b, range, ref guess))
+            {
+                hint = guess;
+                contact = default;
+                return false;
+            }
             int piece = FindLeast(a, b, guess, range, out double s, out _);
             hint = piece;
             Vector3d x = Vector3d.Lerp(a, b, s);
@@ -126,24 +132,27 @@ namespace Guidewire.Core
         {
             hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
             ref readonly TubePiece piece = ref _tree.Pieces[hint];
-            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || HoldParts(a, b, ref hint)
+            return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || AreDeeper(a, b, 0.0, ref hint)
                 || LeastDistance(a, b) > 0.0;
         }
 
         // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
-        // between the points nearest to its knots: pieces are convex, so checking the ends of a part suffices.
-        private bool HoldParts(in Vector3d a, in Vector3d b, ref int hint)
+        // between the planes of its knots deeper than this: a piece's term is concave, so checking the ends of a part
+        // suffices.
+        private bool AreDeeper(in Vector3d a, in Vector3d b, double distance, ref int hint)
         {
             int first = _tree.Deepest(a, hint, out double atA);
             int last = _tree.Deepest(b, first, out double atB);
             hint = first;
-            bool isHeld = atA > 0.0 && atB > 0.0;
-            for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isHeld; knot++)
+            bool isDeeper = atA > distance && atB > distance;
+            Vector3d u = first <= last ? b - a : a - b;
+            for (int knot = Math.Min(first, last) + 1; knot <= Math.Max(first, last) && isDeeper; knot++)
             {
-                Vector3d point = Vector3d.Lerp(a, b, ClosestPoints.PointSegment(_knots[knot], a, b));
-                isHeld = _tree.Pieces[knot - 1].Distance(point) > 0.0 && _tree.Pieces[knot].Distance(point) > 0.0;
+                Vector3d point = (first <= last ? a : b) + Planes.Cut(knot, first <= last ? a : b, u) * u;
+                isDeeper = _tree.Pieces[knot - 1].Distance(point) > distance
+                    && _tree.Pieces[knot].Distance(point) > distance;
             }
-            return isHeld;
+            return isDeeper;
         }
 
         /// <summary>Pieces that hold something within the skin of the segment, along the centreline. The distance is

@@ -251,7 +251,7 @@ namespace Guidewire.Core
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
             double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
-            bool isFar = _near.ClearanceOf(w, _x, j) > most || motion < QuickFraction * gap;
+            bool isFar = motion < QuickFraction * gap || !_near.MayReach(w, j, _x, most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
         }

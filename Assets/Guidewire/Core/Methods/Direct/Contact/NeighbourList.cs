@@ -112,7 +112,16 @@ namespace Guidewire.Core
         /// <param name="x">Nodes of the wire.</param>
         public bool MayReach(int w, int j, Vector3d[] x)
         {
-            return IsNear(w, j) && ClearanceOf(w, x, j) <= _range[j];
+            return IsNear(w, j) && MayReach(w, j, x, _range[j]);
+        }
+
+        /// <summary>Whether wall w may be within a range, units, of element j.</summary>
+        public bool MayReach(int w, int j, Vector3d[] x, double range)
+        {
+            int n = _range.Length;
+            return _element[w * n + j].MayReach(x[j], x[j + 1], range)
+                || (_caches[w] != null && (_node[w * (n + 1) + j].MayReachA(x[j], range)
+                    || _node[w * (n + 1) + j + 1].MayReachA(x[j + 1], range)));
         }
 
         /// <summary>The same of node i, by what is known of it or of an element beside it.</summary>
@@ -124,9 +133,9 @@ namespace Guidewire.Core
                 return false;
             }
             double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
-            return _caches[w] != null ? _node[w * (n + 1) + i].Clearance(x[i], x[i]) <= range
-                : (i == n || _element[w * n + i].ClearanceAtA(x[i]) <= range)
-                    && (i == 0 || _element[w * n + i - 1].ClearanceAtB(x[i]) <= range);
+            return _caches[w] != null ? _node[w * (n + 1) + i].MayReachA(x[i], range)
+                : (i == n || _element[w * n + i].MayReachA(x[i], range))
+                    && (i == 0 || _element[w * n + i - 1].MayReachB(x[i], range));
         }
 
         /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>
