@@ -43,15 +43,15 @@ namespace Guidewire.Core
             if (!(lumen > widest))
             {
                 string inside = k == catheters.Count - 1 ? "the wire's" : "the inner catheter's";
-                return Of(k, "lumenRadius", "more than {0:G4} m, " + inside + " own radius where it is thickest (the lumen"
-                    + " has {1:G4} m)", widest, lumen);
+                return Of(k, "lumenRadius", "more than {0:G4} m, " + inside + " own radius where it is thickest (the"
+                    + " lumen has {1:G4} m)", widest, lumen);
             }
             foreach (CrossSection piece in new WireProfile(catheter.Material, catheter.Length).Pieces)
             {
                 if (!(piece.Radius > lumen))
                 {
-                    return Of(k, "lumenRadius", "less than {0:G4} m, the catheter's own radius where it is thinnest (the"
-                        + " lumen has {1:G4} m)", piece.Radius, lumen);
+                    return Of(k, "lumenRadius", "less than {0:G4} m, the catheter's own radius where it is thinnest"
+                        + " (the lumen has {1:G4} m)", piece.Radius, lumen);
                 }
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {

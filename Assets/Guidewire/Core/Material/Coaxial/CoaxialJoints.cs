@@ -150,8 +150,8 @@ namespace Guidewire.Core
             return k > 0 && k < _carrier.Length && _carrier[k] != _carrier[k - 1];
         }
 
-        /// <summary>Length of element j over that of what it stretches for: beyond a tip it is the axial spring of all of
-        /// the instrument from its hub.</summary>
+        /// <summary>Length of element j over that of what it stretches for: beyond a tip it is the axial spring of
+        /// all of the instrument from its hub.</summary>
         public double StretchedPart(int j)
         {
             return IsTip(j) ? (_station[j + 1] - _station[j]) / (LeadOf(CarrierOf(j)) + _station[j + 1]) : 1.0;

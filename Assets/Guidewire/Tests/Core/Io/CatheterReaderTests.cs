@@ -103,7 +103,7 @@ namespace Guidewire.Core.Tests
         [TestCase("\"elements\": 10", "\"hubForceLimit\": 0.1", "hubForceLimit 0 of all where there are two")]
         [TestCase("\"elements\": 10", "\"insertionSpeed\": -0.2", "inner catheter's hub would pass the outer one's")]
         [TestCase("\"start\": 110", "\"start\": 10", "catheters[1].start = 100 is not allowed: needs at most 10 units")]
-        [TestCase("\"start\": 110", "\"start\": 245", "catheters[1].start = 100 is not allowed: needs at least 103 units")]
+        [TestCase("\"start\": 110", "\"start\": 245", "start = 100 is not allowed: needs at least 103 units")]
         [TestCase("0.001,", "0.0008,", "needs more than 0.00083 m, the inner catheter's own radius")]
         public void OuterCatheterThatDoesNotFit_IsRefused(string part, string other, string expected)
         {

@@ -196,7 +196,8 @@ namespace Guidewire.Core
                 double around = lead + tip;
                 int first = i == 0 ? 1 : Array.FindIndex(Instruments[i].Stations, 1, station => station > around);
                 int end = Scenes[i].Rod.ElementCount;
-                problem = first < 0 ? null : i == Scenes.Length - 1 ? MaterialStart.FindProblem(Scenes[i], first - 1, end)
+                problem = first < 0 ? null
+                    : i == Scenes.Length - 1 ? MaterialStart.FindProblem(Scenes[i], first - 1, end)
                     : MaterialStart.FindProblem(Scenes[i], first - 1, end, name: "catheters[" + i + "]");
                 tip = Math.Max(tip, Scenes[i].Rod.TotalLength - lead);
             }
