@@ -280,7 +280,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WireThatDrivesItselfOut_EndsTheRunWithThatReason([Values(1e-4, 3e-4)] double limit)
+        public void WireThatDrivesItselfOut_EndsTheRunWithThatReason([Values(3e-4, 2e-3)] double limit)
         {
             Simulation run = Simulation.Create(Weak(limit, 0.01));
             while (run.Outcome == Outcome.Running)
