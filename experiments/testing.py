@@ -40,7 +40,7 @@ WAITING = ("test_view.py", "test_view_browser.py", "test_endings.py", "test_clus
            "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
 _POLL_SECONDS = 0.05
-_NICENESS = 5    # suites give way to builds, for which others wait
+_NICENESS = 15    # suites give way to builds, for which others wait
 
 
 @dataclass(frozen=True)
@@ -114,11 +114,11 @@ def suites(program: str, full: bool) -> list[Suite]:
              if "pytest.mark.timed" in path.read_text(encoding="utf-8")]
     core, *shorter = (_dotnet_suite(program, name, full) for name in _DOTNET)
     return [
-        _pytest_suite("analysis/tests", ["analysis/tests"], needs=""),
-        _pytest_suite("anatomy/tests", ["anatomy/tests"], needs=""),
         _pytest_suite(f"{tests}, the rest", [*not_timed, tests, *(f"--ignore={path}" for path in runs + waiting)]),
         _pytest_suite(f"{tests}, waiting", [*not_timed, *waiting]),
         core,
+        _pytest_suite("analysis/tests", ["analysis/tests"], needs=""),
+        _pytest_suite("anatomy/tests", ["anatomy/tests"], needs=""),
         _pytest_suite(f"{tests}, runs", [*not_timed, *runs]),
         _pytest_suite("unitycheck/tests", ["unitycheck/tests"], needs="Runner"),
         *shorter,
