@@ -283,3 +283,17 @@ def is_drawn(path):
         middle = (0.36 * width, 0.11 * height, 0.68 * width, 0.84 * height)
         pixels = np.asarray(picture.convert("RGB").crop(middle)).astype(int)
     return (np.abs(pixels - (20, 23, 31)).max(axis=2) > 20).mean() > 0.01
+
+
+def test_each_of_three_instruments_is_drawn_and_taken_into_the_hand(browse, runner_command, tmp_path):
+    status = "viewer.shown.status"
+    with serving(tmp_path, str(ROOT / "params/guide-catheter.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", "document.getElementById('legend').textContent"],
+            ["see", "viewer.shown.model.drawn.length"],
+            ["press", "i"], ["until", f"{status}.held === 1"], ["press", "i"], ["until", f"{status}.held === 2"],
+            ["see", "document.querySelector('#legend .held').textContent"], ["picture", str(tmp_path / "three.png")],
+            ["press", "i"], ["until", f"{status}.held === 0"],
+        )["seen"]
+    assert seen == ["workhorse-0.014catheter-guide-6fmicrocatheter-2.4f", 3, "microcatheter-2.4f"]
+    assert is_drawn(tmp_path / "three.png")
