@@ -1,37 +1,46 @@
 using System;
+using System.Collections.Generic;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Energy of runs of a wire in a catheter, and the forces of their hubs, which are its
+    /// <summary>Energy of runs of a wire in a catheter or in two, and the forces of their hubs, which are its
     /// differences.</summary>
     public sealed class CoaxialEnergyTests
     {
         [Test]
-        public void HubForcesAndTorques_AreTheDifferencesOfTheEnergy()
+        public void HubForcesAndTorques_AreTheDifferencesOfTheEnergy([Values(2, 3)] int instruments)
         {
-            CoaxialStep run = Swinging(Integrator.ImplicitEuler, 0.31, out _, out RodState state);
+            CoaxialStep run = Swinging(instruments, 0.31, out _, out RodState state);
             var forces = new LargestError();
             var torques = new LargestError();
-            for (int k = 0; k < 60; k++)
+            for (int step = 0; step < 60; step++)
             {
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
-                CoaxialRecord record = run.Coaxial()!;
-                forces.Add(EnergySlopes.Difference(1e-6, d => EnergyAt(run, d, 0.0)), record.WireForce);
-                torques.Add(EnergySlopes.Difference(1e-5, d => EnergyAt(run, 0.0, d)), record.WireTorque);
+                Hub[] hubs = Hubs(run);
+                for (int k = 1; k < instruments; k++)
+                {
+                    int hub = k;
+                    forces.Add(EnergySlopes.Difference(1e-6, d => EnergyAt(run, hub, d, 0.0)), hubs[k].Force);
+                    torques.Add(EnergySlopes.Difference(1e-5, d => EnergyAt(run, hub, 0.0, d)), hubs[k].Torque);
+                }
             }
             forces.AssertBelow(1e-6, 0.02);
             torques.AssertBelow(1e-6, 1e-4);
         }
 
-        [Test]
-        public void EveryStepOfImplicitEuler_ClosesItsEnergy([Values(0.1, 0.31, 1.3)] double perStep)
+        [TestCase(2, 0.1, 25)]
+        [TestCase(2, 0.31, 25)]
+        [TestCase(2, 1.3, 25)]
+        [TestCase(3, 0.02, 15)]
+        [TestCase(3, 0.15, 15)]
+        public void EveryStepOfImplicitEuler_ClosesItsEnergy(int instruments, double perStep, int fewest)
         {
             // With z = (x, q, twist, hubs): work of the hubs, E'(z1) dz of them; change of T + E; drag, a h w.M w; and
-            // the scheme's own, 1/2 |dv|^2_M + E(z0) - E(z1) - E'(z1)(z0 - z1), each by its own formula. The wire's
-            // spin in the catheter is a part of v and T, and has the drag of the lumen.
-            CoaxialStep run = Swinging(Integrator.ImplicitEuler, perStep, out SimulationParameters parameters,
+            // the scheme's own, 1/2 |dv|^2_M + E(z0) - E(z1) - E'(z1)(z0 - z1), each by its own formula. The
+            // spin of what is inside is a part of v and T, and has the drag of the lumen around it.
+            CoaxialStep run = Swinging(instruments, perStep, out SimulationParameters parameters,
                 out RodState state);
             double h = parameters.Method.TimeStep;
             double worst = 0.0;
@@ -40,14 +49,14 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < 60; k++)
             {
                 RodDynamics motion = run.Dynamics;
-                var before = new RodShape(motion.Shape.ElementCount, 1);
+                var before = new RodShape(motion.Shape.ElementCount, instruments - 1);
                 before.CopyFrom(motion.Shape);
                 var v = (Vector3d[])motion.Velocities.Clone();
                 var w = (Vector3d[])motion.Spins.Clone();
                 var rates = (double[])motion.TwistRates.Clone();
                 RodMass mass = motion.Terms.Mass;
-                Hubs old = new Hubs(run);
-                double energy = EnergyAt(run, 0.0, 0.0);
+                Hub[] old = Hubs(run);
+                double energy = EnergyAt(run, 1, 0.0, 0.0);
                 double kinetic = motion.KineticEnergy;
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
@@ -56,11 +65,11 @@ namespace Guidewire.Core.Tests
                     continue;   // a node came in
                 }
                 steps++;
-                Hubs now = new Hubs(run);
-                double onHubs = now.WorkSince(old);
-                double energyNow = EnergyAt(run, 0.0, 0.0);
+                Hub[] now = Hubs(run);
+                double onHubs = WorkOf(now, old);
+                double energyNow = EnergyAt(run, 1, 0.0, 0.0);
                 double kineticNow = motion.KineticEnergy;
-                double drag = 2.0 * parameters.Material.MassDamping * h * kineticNow;
+                double drag = 2.0 * parameters.Material.MassDamping * h * kineticNow + h * DragPower(run);
                 for (int i = 0; i < v.Length; i++)
                 {
                     v[i] = motion.Velocities[i] - v[i];
@@ -68,11 +77,12 @@ namespace Guidewire.Core.Tests
                 for (int j = 0; j < w.Length; j++)
                 {
                     w[j] = motion.Spins[j] - w[j];
-                    rates[j] = motion.TwistRates[j] - rates[j];
-                    drag += j >= run.Rod.LumenDrag.Length ? 0.0
-                        : h * run.Rod.LumenDrag[j] * motion.TwistRates[j] * motion.TwistRates[j];
                 }
-                double slope = EnergySlopes.Along(motion, before) - OnHubsByEnergy(run, now, old);
+                for (int j = 0; j < rates.Length; j++)
+                {
+                    rates[j] = motion.TwistRates[j] - rates[j];
+                }
+                double slope = EnergySlopes.Along(motion, before) - OnHubsByEnergy(now, old);
                 double scheme = mass.KineticEnergy(v, w) + InnerSpin.KineticEnergy(run.Rod, w, rates) + energy
                     - energyNow - slope;
                 double left = onHubs - (energyNow - energy) - (kineticNow - kinetic) - drag - scheme;
@@ -80,18 +90,30 @@ namespace Guidewire.Core.Tests
                 peak = Math.Max(peak, energyNow + kineticNow);
             }
             TestContext.WriteLine("{0:G3} of {1:G3} J in {2} steps", worst, peak, steps);
-            Assert.That(steps, Is.GreaterThan(25));
+            Assert.That(steps, Is.GreaterThan(fewest));
             Assert.That(peak, Is.GreaterThan(1e-3));
             // The spin has some 1e-7 of it.
             Assert.That(worst, Is.LessThan(1e-9 * peak));
         }
 
-        // Work of the hubs by their forces at each step's end; nodes come in and go, too.
+        // Work of the hubs by their forces at each step's end; nodes come in and go, at each tip.
         [Test]
-        public void EnergyIsNeverGained_AtAnySpeed([Values(0.03, 0.1, 0.31, 1.3, 3.7, -0.31, -1.3)] double perStep)
+        public void EnergyIsNeverGained_AtAnySpeed(
+            [Values(0.03, 0.1, 0.31, 1.3, 3.7, -0.31, -1.3)] double perStep)
         {
-            CoaxialStep run = Swinging(Integrator.ImplicitEuler, perStep, out _, out RodState state);
-            double start = EnergyAt(run, 0.0, 0.0) + run.Dynamics.KineticEnergy;
+            AssertNothingIsGained(2, perStep);
+        }
+
+        [Test]
+        public void EnergyOfThreeIsNeverGained_AtAnySpeed([Values(0.03, 0.15, -0.15, -1.3)] double perStep)
+        {
+            AssertNothingIsGained(3, perStep);
+        }
+
+        private static void AssertNothingIsGained(int instruments, double perStep)
+        {
+            CoaxialStep run = Swinging(instruments, perStep, out _, out RodState state);
+            double start = EnergyAt(run, 1, 0.0, 0.0) + run.Dynamics.KineticEnergy;
             double work = 0.0;
             double gained = 0.0;
             double peak = start;
@@ -99,12 +121,12 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < 60; k++)
             {
                 RodDynamics motion = run.Dynamics;
-                Hubs old = new Hubs(run);
+                Hub[] old = Hubs(run);
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
                 rebuilt += run.Dynamics == motion ? 0 : 1;
-                work += new Hubs(run).WorkSince(old);
-                double energy = EnergyAt(run, 0.0, 0.0) + run.Dynamics.KineticEnergy;
+                work += WorkOf(Hubs(run), old);
+                double energy = EnergyAt(run, 1, 0.0, 0.0) + run.Dynamics.KineticEnergy;
                 peak = Math.Max(peak, energy);
                 gained = Math.Max(gained, energy - start - work);
             }
@@ -127,53 +149,81 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Abs(one), Is.LessThan(0.35 * Math.Abs(two)));
         }
 
-        // All energy with the wire's hub this much on, m, and turned on, radians.
-        private static double EnergyAt(CoaxialStep run, double on, double turn)
+        // All energy with an inner hub this much on, m, and turned on, radians.
+        private static double EnergyAt(CoaxialStep run, int instrument, double on, double turn)
         {
             var bending = (CoaxialBendTwist)run.Dynamics.Terms.Bending;
-            double lead = bending.Joints.LeadOf(1);
-            double twist = bending.HubTwist[1];
-            run.Rod.SetHubs(new[] { 0.0, lead - on }, 0.0);
-            bending.HubTwist[1] = twist + turn;
+            var leads = new double[bending.Joints.Count];
+            for (int i = 1; i < leads.Length; i++)
+            {
+                leads[i] = bending.Joints.LeadOf(i);
+            }
+            double twist = bending.HubTwist[instrument];
+            double lead = leads[instrument];
+            leads[instrument] = lead - on;
+            run.Rod.SetHubs(leads, 0.0);
+            bending.HubTwist[instrument] = twist + turn;
             double energy = run.Dynamics.Terms.Potential(run.Dynamics.Shape);
-            run.Rod.SetHubs(new[] { 0.0, lead }, 0.0);
-            bending.HubTwist[1] = twist;
+            leads[instrument] = lead;
+            run.Rod.SetHubs(leads, 0.0);
+            bending.HubTwist[instrument] = twist;
             return energy;
         }
 
-        // E'(z1) (z1 - z0) of the hubs but for the first node, which is among the coordinates.
-        private static double OnHubsByEnergy(CoaxialStep run, Hubs now, Hubs old)
+        // N m rad/s, of the fluid between each two.
+        private static double DragPower(CoaxialStep run)
         {
-            double move = now.WireInsertion - old.WireInsertion - (now.Insertion - old.Insertion);
-            return now.WireForce * move + now.WireTorque * (now.WireTurn - old.WireTurn)
-                + now.Torque * (now.Turn - old.Turn);
+            CoaxialJoints joints = run.Rod.Joints;
+            double[] rate = run.Dynamics.TwistRates;
+            double[] drag = run.Rod.LumenDrag;
+            int n = rate.Length / joints.InnerCount;
+            double power = 0.0;
+            for (int j = 0; j < drag.Length; j++)
+            {
+                bool isInCatheterInside = j >= n && run.Rod.AroundOf(2, j - n) == 1 && joints.CarrierOf(j - n) == 0;
+                double between = isInCatheterInside ? rate[j] - rate[j - n] : rate[j];
+                power += drag[j] * between * between;
+            }
+            return power;
         }
 
-        private readonly struct Hubs
+        // The outermost one first.
+        private static Hub[] Hubs(CoaxialStep run)
         {
-            public readonly double Force, Torque, Insertion, Turn;
-            public readonly double WireForce, WireTorque, WireInsertion, WireTurn;
-
-            public Hubs(CoaxialStep run)
+            var hubs = new List<Hub>();
+            for (CoaxialRecord? record = run.Coaxial(); record != null; record = record.Inside)
             {
-                CoaxialRecord record = run.Coaxial()!;
-                HubRecord hub = run.Hub()!;
-                Force = record.Force;
-                Torque = record.Torque;
-                Insertion = record.Insertion;
-                Turn = record.Turn;
-                WireForce = hub.Force;
-                WireTorque = hub.Torque;
-                WireInsertion = hub.Insertion;
-                WireTurn = hub.Turn;
+                hubs.Add(new Hub { Force = record.Force, Torque = record.Torque, Insertion = record.Insertion,
+                    Turn = record.Turn });
             }
+            HubRecord wire = run.Hub()!;
+            hubs.Add(new Hub { Force = wire.Force, Torque = wire.Torque, Insertion = wire.Insertion, Turn = wire.Turn });
+            return hubs.ToArray();
+        }
 
-            // J, by the forces of now.
-            public double WorkSince(Hubs old)
+        // J, by the forces of now.
+        private static double WorkOf(Hub[] now, Hub[] old)
+        {
+            double work = 0.0;
+            for (int i = 0; i < now.Length; i++)
             {
-                return Force * (Insertion - old.Insertion) + Torque * (Turn - old.Turn)
-                    + WireForce * (WireInsertion - old.WireInsertion) + WireTorque * (WireTurn - old.WireTurn);
+                work += now[i].Force * (now[i].Insertion - old[i].Insertion)
+                    + now[i].Torque * (now[i].Turn - old[i].Turn);
             }
+            return work;
+        }
+
+        // E'(z1) (z1 - z0) of the hubs but for the first node, which is among the coordinates.
+        private static double OnHubsByEnergy(Hub[] now, Hub[] old)
+        {
+            double outer = now[0].Insertion - old[0].Insertion;
+            double work = now[0].Torque * (now[0].Turn - old[0].Turn);
+            for (int i = 1; i < now.Length; i++)
+            {
+                work += now[i].Force * (now[i].Insertion - old[i].Insertion - outer)
+                    + now[i].Torque * (now[i].Turn - old[i].Turn);
+            }
+            return work;
         }
 
         private static double CycleWork(double perStep, out double peak)
@@ -185,22 +235,32 @@ namespace Guidewire.Core.Tests
             return CoaxialScenes.CycleWork(parameters, perStep, out peak);
         }
 
-        // Both hubs move and turn in steps in which the instruments swing.
-        private static CoaxialStep Swinging(Integrator integrator, double perStep, out SimulationParameters parameters,
+        // All hubs move and turn in steps in which the instruments swing.
+        private static CoaxialStep Swinging(int instruments, double perStep, out SimulationParameters parameters,
             out RodState state)
         {
-            parameters = CoaxialScenes.Pair(integrator);
-            parameters.Material.MassDamping = 20.0;
-            parameters.Method.TimeStep = 2e-3;
+            parameters = instruments == 2 ? CoaxialScenes.Pair(Integrator.ImplicitEuler)
+                : CoaxialScenes.Three(Integrator.ImplicitEuler);
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.MaxSimulationSteps = 60;
             parameters.Drive.InsertionSpeed = Math.Min(perStep * 0.01 / parameters.Method.TimeStep, 0.8);
             parameters.Drive.RotationSpeed = 5.0;
-            parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.4 * parameters.Drive.InsertionSpeed;
-            parameters.Scene.Catheters[0].Drive.RotationSpeed = -3.0;
+            IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
+            catheters[0].Drive.InsertionSpeed = (instruments == 2 ? 0.4 : 0.25) * parameters.Drive.InsertionSpeed;
+            catheters[0].Drive.RotationSpeed = -3.0;
+            if (instruments == 3)
+            {
+                catheters[1].Drive.InsertionSpeed = 0.5 * parameters.Drive.InsertionSpeed;
+                catheters[1].Drive.RotationSpeed = 2.0;
+            }
             MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
             state = start.State;
             return (CoaxialStep)start.Stepper;
+        }
+
+        private struct Hub
+        {
+            public double Force, Torque, Insertion, Turn;
         }
     }
 }
