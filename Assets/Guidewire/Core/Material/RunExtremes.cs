@@ -67,7 +67,7 @@ namespace Guidewire.Core
             for (int j = 0; j < n; j++)
             {
                 _stretch[j] = Math.Abs(Vector3d.Distance(shape.X[j], shape.X[j + 1]) / rod.Length[j] - 1.0)
-                    * (coaxial == null ? 1.0 : coaxial.StretchedPart(j));
+                    * (coaxial == null ? 1.0 : coaxial.StretchFraction(j));
             }
             double largest = _curvatureSquared;
             double strain = Strain;

@@ -416,21 +416,21 @@ namespace Guidewire.Core
         }
 
         // Of the last half element, by both angles.
-        private double LastAt(RodShape shape, out AngleSeconds seconds, out double first, out double second)
+        private double LastAt(RodShape shape, out AngleHessian hessian, out double first, out double second)
         {
             int last = _joints.ElementCount - 1;
             int frame = _joints.CarrierOf(last);
             return _joints.Last.HeldAt(frame == 0 ? shape.Twist[last] : 0.0,
-                _hasSecond ? shape.Twist[shape.ElementCount + last] : 0.0, out seconds, out first, out second);
+                _hasSecond ? shape.Twist[shape.ElementCount + last] : 0.0, out hessian, out first, out second);
         }
 
-        private AngleSeconds AddLast(RodShape shape, RodVector[] gradient)
+        private AngleHessian AddLast(RodShape shape, RodVector[] gradient)
         {
             int n = _joints.ElementCount;
-            LastAt(shape, out AngleSeconds seconds, out double first, out double second);
+            LastAt(shape, out AngleHessian hessian, out double first, out double second);
             gradient[n + 2 + n - 1].T3 += first;
             gradient[n + 2 + n - 1].T2 += second;
-            return seconds;
+            return hessian;
         }
 
         private void AddJoint(in CoaxialJointState s, ref RodVector a, ref RodVector b, ref RodBlock blockA,

@@ -47,17 +47,12 @@ namespace Guidewire.Core
         {
             double sum = outer.BendStiffness1 + inner.BendStiffness1;
             double reduced = lambda * outer.BendStiffness1 * inner.BendStiffness1 / sum;
-            Vector3d a = outer.RestCurvature;
-            Vector3d b = inner.RestCurvature;
             joint.Compliance1 += lambda / sum;
             joint.Compliance2 += lambda / sum;
-            joint.Held += 0.5 * reduced * (a.X * a.X + a.Y * a.Y + b.X * b.X + b.Y * b.Y);
-            double sine = reduced * (a.Y * b.X - a.X * b.Y);
-            part.Cosine += reduced * (a.X * b.X + a.Y * b.Y);
-            part.Sine += isInner ? -sine : sine;
+            AddPair(reduced, isInner ? -1.0 : 1.0, outer, inner, ref joint.Held, ref part.Cosine, ref part.Sine);
             double fraction = lambda * outer.BendStiffness1 / sum;
-            Vector3d own = fraction * a;
-            Vector3d other = (lambda - fraction) * b;
+            Vector3d own = fraction * outer.RestCurvature;
+            Vector3d other = (lambda - fraction) * inner.RestCurvature;
             joint.FixedX += isInner ? other.X : own.X;
             joint.FixedY += isInner ? other.Y : own.Y;
             part.TurnedX += isInner ? own.X : other.X;
@@ -79,7 +74,8 @@ namespace Guidewire.Core
             FixedY += own.Y;
             AddTurned(ref First, perSum, frame, first, ref Held);
             AddTurned(ref Second, perSum, frame, second, ref Held);
-            AddPair(perSum, first, second, ref Held, ref PairCosine, ref PairSine);
+            double reduced = perSum * first.BendStiffness1 * second.BendStiffness1;
+            AddPair(reduced, 1.0, first, second, ref Held, ref PairCosine, ref PairSine);
         }
 
         /// <summary>Adds a piece in a sheath: it is straight, whatever it is made of.</summary>
@@ -95,21 +91,21 @@ namespace Guidewire.Core
 
         /// <summary>Energy that does not depend on the joint's rotation, J, and its derivatives by the two
         /// angles.</summary>
-        public readonly double HeldAt(double first, double second, out AngleSeconds seconds, out double firstSlope,
+        public readonly double HeldAt(double first, double second, out AngleHessian hessian, out double firstSlope,
             out double secondSlope)
         {
-            seconds.First = First.Held(first, out firstSlope);
-            seconds.Second = Second.Held(second, out secondSlope);
-            seconds.Mixed = 0.0;
-            double held = Held - seconds.First - seconds.Second;
+            hessian.First = First.Held(first, out firstSlope);
+            hessian.Second = Second.Held(second, out secondSlope);
+            hessian.Mixed = 0.0;
+            double held = Held - hessian.First - hessian.Second;
             if (PairCosine != 0.0 || PairSine != 0.0)
             {
                 double pair = Wave(PairCosine, PairSine, second - first, out double slope);
                 firstSlope -= slope;
                 secondSlope += slope;
-                seconds.First += pair;
-                seconds.Second += pair;
-                seconds.Mixed = -pair;
+                hessian.First += pair;
+                hessian.Second += pair;
+                hessian.Mixed = -pair;
                 held -= pair;
             }
             return held;
@@ -127,21 +123,22 @@ namespace Guidewire.Core
         private static void AddTurned(ref CoaxialPart part, double perSum, in CrossSection frame,
             in CrossSection other, ref double held)
         {
-            AddPair(perSum, frame, other, ref held, ref part.Cosine, ref part.Sine);
+            double reduced = perSum * frame.BendStiffness1 * other.BendStiffness1;
+            AddPair(reduced, 1.0, frame, other, ref held, ref part.Cosine, ref part.Sine);
             Vector3d turned = perSum * other.BendStiffness1 * other.RestCurvature;
             part.TurnedX += turned.X;
             part.TurnedY += turned.Y;
         }
 
-        private static void AddPair(double perSum, in CrossSection one, in CrossSection other, ref double held,
-            ref double cosine, ref double sine)
+        // What two instruments of different curvature hold; sense: 1 where the angle is counted from the first, or -1.
+        private static void AddPair(double reduced, double sense, in CrossSection one, in CrossSection other,
+            ref double held, ref double cosine, ref double sine)
         {
-            double reduced = perSum * one.BendStiffness1 * other.BendStiffness1;
             Vector3d a = one.RestCurvature;
             Vector3d b = other.RestCurvature;
             held += 0.5 * reduced * (a.X * a.X + a.Y * a.Y + b.X * b.X + b.Y * b.Y);
             cosine += reduced * (a.X * b.X + a.Y * b.Y);
-            sine += reduced * (a.Y * b.X - a.X * b.Y);
+            sine += sense * (reduced * (a.Y * b.X - a.X * b.Y));
         }
     }
 }

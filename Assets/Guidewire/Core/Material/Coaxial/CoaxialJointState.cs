@@ -28,7 +28,7 @@ namespace Guidewire.Core
             {
                 joint.Second.AddRest(u, ref rest, out secondSlope, out secondTurned);
             }
-            Held = joint.HeldAt(t, u, out AngleSeconds seconds, out First.Slope, out Second.Slope);
+            Held = joint.HeldAt(t, u, out AngleHessian hessian, out First.Slope, out Second.Slope);
             Joint.Bend1 = 1.0 / joint.Compliance1;
             Joint.Bend2 = 1.0 / joint.Compliance2;
             Turn = law.Measure(Relative);
@@ -36,13 +36,13 @@ namespace Guidewire.Core
             double moment2 = Joint.Bend2 * (Turn.Y - rest.Y);
             Joint.Twist = joint.Twist;
             double restTwist = joint.RestTwist;
-            First.Second = seconds.First;
+            First.Second = hessian.First;
             Set(ref First, joint.First, slope, turned, moment1, moment2, ref restTwist);
             if (hasSecond)
             {
-                Second.Second = seconds.Second;
+                Second.Second = hessian.Second;
                 Set(ref Second, joint.Second, secondSlope, secondTurned, moment1, moment2, ref restTwist);
-                MixedSecond = seconds.Mixed + Joint.Bend1 * slope.X * secondSlope.X
+                MixedSecond = hessian.Mixed + Joint.Bend1 * slope.X * secondSlope.X
                     + Joint.Bend2 * slope.Y * secondSlope.Y;
             }
             Joint.Rest = new Vector3d(rest.X, rest.Y, restTwist);

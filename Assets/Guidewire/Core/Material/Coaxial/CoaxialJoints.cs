@@ -150,9 +150,9 @@ namespace Guidewire.Core
             return k > 0 && k < _carrier.Length && _carrier[k] != _carrier[k - 1];
         }
 
-        /// <summary>Length of element j over that of what it stretches for: beyond a tip it is the axial spring of
-        /// all of the instrument from its hub.</summary>
-        public double StretchedPart(int j)
+        /// <summary>The fraction of a length that is element j: the element beyond a tip stands for the stretch of its
+        /// instrument all the way from its hub; 1 elsewhere.</summary>
+        public double StretchFraction(int j)
         {
             return IsTip(j) ? (_station[j + 1] - _station[j]) / (LeadOf(CarrierOf(j)) + _station[j + 1]) : 1.0;
         }

@@ -183,18 +183,18 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds what the last half element holds.</summary>
-        public void AddLast(in AngleSeconds seconds)
+        public void AddLast(in AngleHessian hessian)
         {
             int last = _joints.ElementCount - 1;
             int carrier = _joints.CarrierOf(last);
             if (carrier == 0)
             {
-                Row(last, 1).Diagonal += Kept(seconds.First, seconds.Mixed);
+                Row(last, 1).Diagonal += Kept(hessian.First, hessian.Mixed);
             }
             if (_joints.InnerCount > 1)
             {
-                Row(last, 2).Diagonal += Kept(seconds.Second, seconds.Mixed);
-                Row(last, 1).Other += Unkept(seconds.Mixed);
+                Row(last, 2).Diagonal += Kept(hessian.Second, hessian.Mixed);
+                Row(last, 1).Other += Unkept(hessian.Mixed);
             }
         }
 

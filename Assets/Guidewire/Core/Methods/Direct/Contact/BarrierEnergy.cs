@@ -172,22 +172,23 @@ namespace Guidewire.Core
             for (int k = 0; k < MostCuts; k++)
             {
                 double fraction = MaxStepTo(_nodes.Move(shape, direction, tried * step, _x, _to));
-                if (!_nodes.IsWide && (fraction == 1.0 || !_nodes.ComesOut))
+                if (!_nodes.LeavesLumen && (fraction == 1.0 || !_nodes.ComesOut))
                 {
                     return tried * fraction;
                 }
-                // What comes out of the sheath does not come straight from its exit.
-                tried *= _nodes.IsWide ? 0.5 : k == 0 ? fraction : Math.Min(fraction, 0.5);
+                // A node that comes out of the sheath does not move straight from its exit to where it will be: what
+                // was cut short is to be tested again.
+                tried *= _nodes.LeavesLumen ? 0.5 : k == 0 ? fraction : Math.Min(fraction, 0.5);
             }
             return 0.0;
         }
 
-        // To where the nodes are to go, the longest of whose moves, squared, is this.
-        private double MaxStepTo(double longest)
+        // Of the motion to _to, the square of whose longest displacement is this, units^2.
+        private double MaxStepTo(double longestSquared)
         {
             double sure = QuickFraction * _units * _leastGap;
             double fraction = 1.0;
-            for (int w = 0; w < _walls.Length && !(longest < sure * sure); w++)
+            for (int w = 0; w < _walls.Length && !(longestSquared < sure * sure); w++)
             {
                 fraction = Math.Min(fraction, MaxStepAt(w));
             }

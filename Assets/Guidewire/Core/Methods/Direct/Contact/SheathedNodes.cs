@@ -3,9 +3,9 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>The nodes of a wire as walls meet them: those in its sheath are at the exit.</summary>
-    /// <remarks>Nothing but its frame holds the wire sideways in the last element before the exit. A node in the
-    /// sheath that is farther from its axis than the lumen is wide at the exit would come out through a wall: no motion
-    /// may lead there.</remarks>
+    /// <remarks>In the last element before the exit only its frame holds the wire sideways. A node there that is
+    /// farther from the axis than the lumen is wide would come out through a wall, so no motion may lead to
+    /// it.</remarks>
     internal sealed class SheathedNodes
     {
         private const double Range = 1e3;    // units, within which the walls around the exit are looked for
@@ -25,13 +25,14 @@ namespace Guidewire.Core
             _clearance = sheath == null ? 0.0 : metres * ClearanceAt(_units * sheath.Exit);
         }
 
-        /// <summary>Whether the last motion left a node in the sheath that would come out through a wall.</summary>
-        public bool IsWide { get; private set; }
+        /// <summary>Whether the last motion takes a node in the sheath farther sideways than the lumen is wide at the
+        /// exit.</summary>
+        public bool LeavesLumen { get; private set; }
 
-        /// <summary>Whether a node came out of the sheath in it.</summary>
+        /// <summary>Whether the last motion takes a node out of the sheath.</summary>
         public bool ComesOut { get; private set; }
 
-        /// <summary>Whether there was a motion of the first kind since this was set to false.</summary>
+        /// <summary>Whether any motion was a <see cref="LeavesLumen"/> since this was last set to false.</summary>
         public bool HasBuckled { get; set; }
 
         /// <summary>How many nodes of a shape, from its first on, are in the sheath.</summary>
@@ -64,12 +65,12 @@ namespace Guidewire.Core
         /// <param name="step">Units a unit of the direction.</param>
         /// <param name="from">Where they are, units.</param>
         /// <param name="to">Receives where they go, units.</param>
-        /// <returns>The square of the longest way between the two, units.</returns>
+        /// <returns>The square of the longest of the nodes' displacements, units^2.</returns>
         public double Move(RodShape shape, RodVector[] direction, double step, Vector3d[] from, Vector3d[] to)
         {
             double longest = 0.0;
             bool isInside = _sheath != null;
-            IsWide = false;
+            LeavesLumen = false;
             ComesOut = false;
             for (int i = 0; i < from.Length; i++)
             {
@@ -80,14 +81,14 @@ namespace Guidewire.Core
                 {
                     Vector3d x = shape.X[i] + (1.0 / _units) * move;
                     isInside = _sheath!.Outside(x) < 0.0;
-                    IsWide |= isInside && IsBesideLumen(x);
+                    LeavesLumen |= isInside && IsOutsideLumen(x);
                     ComesOut |= !isInside && _sheath.Outside(shape.X[i]) < 0.0;
                     to[i] = Place(x, isInside);
                     move = to[i] - from[i];
                 }
                 longest = Math.Max(longest, move.LengthSquared);
             }
-            HasBuckled |= IsWide;
+            HasBuckled |= LeavesLumen;
             return longest;
         }
 
@@ -105,7 +106,7 @@ namespace Guidewire.Core
             return clearance;
         }
 
-        private bool IsBesideLumen(in Vector3d x)
+        private bool IsOutsideLumen(in Vector3d x)
         {
             Vector3d atExit = x - _sheath!.Outside(x) * _sheath.Axis;
             if ((atExit - _sheath.Exit).LengthSquared < _clearance * Math.Abs(_clearance))

@@ -197,7 +197,8 @@ namespace Guidewire.Core.Tests
                     Turn = record.Turn });
             }
             HubRecord wire = run.Hub()!;
-            hubs.Add(new Hub { Force = wire.Force, Torque = wire.Torque, Insertion = wire.Insertion, Turn = wire.Turn });
+            hubs.Add(new Hub { Force = wire.Force, Torque = wire.Torque, Insertion = wire.Insertion,
+                Turn = wire.Turn });
             return hubs.ToArray();
         }
 

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>Second derivatives of an energy by two angles, J.</summary>
-    internal struct AngleSeconds
+    internal struct AngleHessian
     {
         public double First;
         public double Second;
