@@ -58,13 +58,12 @@ class MeshSearch:
             if level:
                 box, node = np.repeat(box, 2), np.repeat(2 * node, 2)
                 node[1::2] += 1
-            meet = np.all((low[box] <= node_high[node]) & (node_low[node] <= high[box]), axis=1)
+            meet = _meet(low, high, box, node_low, node_high, node)
             box, node = box[meet], node[meet]
         box = np.repeat(box, _LEAF)
         slot = (node[:, None] * _LEAF + np.arange(_LEAF)).ravel()
-        meet = np.all((low[box] <= self._high[slot]) & (self._low[slot] <= high[box]), axis=1)
-        pairs = np.unique(np.column_stack([box[meet], self._order[slot[meet]]]), axis=0)
-        return pairs[:, 0], pairs[:, 1]
+        meet = _meet(low, high, box, self._low, self._high, slot)
+        return self._each_once(box[meet], self._order[slot[meet]])
 
     def _near_segments(self, a: np.ndarray, b: np.ndarray, range_: float) -> tuple[np.ndarray, np.ndarray]:
         """Pairs (segment, triangle) that may be within a range: of the boxes around 8 pieces of each segment."""
@@ -73,8 +72,11 @@ class MeshSearch:
         low = np.minimum(ends[:-1], ends[1:]).reshape(-1, 3) - range_ - 1e-9
         high = np.maximum(ends[:-1], ends[1:]).reshape(-1, 3) + range_ + 1e-9
         piece, triangle = self._near(low, high)
-        pairs = np.unique(np.column_stack([piece % len(a), triangle]), axis=0)
-        return pairs[:, 0], pairs[:, 1]
+        return self._each_once(piece % len(a), triangle)
+
+    def _each_once(self, first: np.ndarray, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Pairs (first, triangle) in ascending order, each once."""
+        return np.divmod(np.unique(first * len(self._triangles) + triangle), len(self._triangles))
 
     def crosses(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Whether each segment a b, shapes (p, 3), goes through a triangle, shape (p,)."""
@@ -148,6 +150,17 @@ def _turned(search: MeshSearch) -> tuple[MeshSearch, np.ndarray]:
         turn = np.linalg.qr(np.array([[0.7, 0.31, 0.11], [-0.29, 0.83, 0.23], [0.13, -0.17, 0.91]]))[0]
         search.turned = (MeshSearch(search._triangles @ turn.T), turn)
     return search.turned
+
+
+def _meet(low: np.ndarray, high: np.ndarray, box: np.ndarray,
+          other_low: np.ndarray, other_high: np.ndarray, other: np.ndarray) -> np.ndarray:
+    """Which pairs (box, other) of boxes with these corners, (p, 3) and (q, 3), share a point: axis by axis, of those
+    that share one so far."""
+    left = np.arange(len(box))
+    for axis in range(3):
+        a, b = box[left], other[left]
+        left = left[(low[a, axis] <= other_high[b, axis]) & (other_low[b, axis] <= high[a, axis])]
+    return left
 
 
 def _blocks(count: int, size: int):
