@@ -18,6 +18,7 @@ UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 _RADIUS, _RADIUS_SPREAD = 3.5e-3, 0.9
 _SIDE, _SIDE_SPREAD = 0.15, 0.7
 _WELD = 1e-3  # of the median edge: vertices so near are one
+_SIDES = 5  # of a rim; a gap of fewer is one triangle that is missing, or two
 _HOLE = 2.5  # a lumen so many times wider than its rim: the rim is a hole in its side
 _RAYS = 1500  # sampled for the double wall
 _FACING = 0.3  # of them, that meet the wall from outside: the lumen is outside
@@ -175,7 +176,7 @@ def sort_rims(mesh: Mesh, rims: list[Rim]) -> list[Rim]:
     found = []
     for rim, wide in zip(rims, distances(np.concatenate(points), mesh).reshape(-1, 3) if rims else ()):
         # The distance from the rim's own plane bounds the first ones; a lumen as wide as the rim gives its radius.
-        is_hole = len(rim.vertices) < 3 or bool((wide > _HOLE * rim.radius).any())
+        is_hole = len(rim.vertices) < _SIDES or bool((wide > _HOLE * rim.radius).any())
         found.append(Rim(rim.number, rim.centre, rim.radius, rim.normal, rim.vertices, is_hole))
     ends = [rim for rim in found if not rim.is_hole] + [rim for rim in found if rim.is_hole]
     return [Rim(number, rim.centre, rim.radius, rim.normal, rim.vertices, rim.is_hole)

@@ -132,6 +132,14 @@ def test_an_end_is_no_hole_where_triangles_are_longer_than_the_lumen_is_wide() -
     assert not repair(mesh).changes[:-1] and len(repair(mesh).rims) == 2
 
 
+@pytest.mark.parametrize("missing", [[20], [20, 68]])
+def test_a_missing_triangle_is_a_hole_though_it_is_as_wide_as_the_lumen(missing: list[int]) -> None:
+    mesh = tube(sides=8, rings=6, length=30.0)
+    holed = mesh.part(~np.isin(np.arange(len(mesh.triangles)), missing))
+    assert [len(rim.vertices) for rim in inspect(holed).rims if rim.is_hole] == [2 + len(missing)]
+    assert len(repair(holed).rims) == 2
+
+
 def test_of_a_double_wall_the_inner_one_is_kept() -> None:
     phantom = double_walled()
     found = inspect(phantom)
