@@ -36,8 +36,8 @@ _DOTNET = {
 # runs, and those that mostly wait for processes, pages and workers.
 RUNS = ("test_validation.py", "test_random_parameters.py", "test_core_against_reference.py", "test_random_pushes.py",
         "test_contact_cases.py", "test_wide_material.py")
-WAITING = ("test_view.py", "test_view_browser.py", "test_endings.py", "test_cluster.py", "test_whole_files.py",
-           "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
+WAITING = ("test_view.py", "test_view_browser.py", "test_view_vessel.py", "test_endings.py", "test_cluster.py",
+           "test_whole_files.py", "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
 _POLL_SECONDS = 0.05
 _NICENESS = 15    # suites give way to builds, for which others wait

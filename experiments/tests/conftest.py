@@ -11,6 +11,7 @@ import pytest
 from experiments import building
 from experiments.key_table import read_key_table
 from experiments.runner import Runner
+from browsing import browse  # noqa: F401  a fixture
 from run_claims import Campaign
 
 

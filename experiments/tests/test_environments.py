@@ -42,7 +42,7 @@ def test_the_same_seed_gives_the_same_bits_and_another_one_another_episode(tube)
         with Environment(tube, drive=Drive(noise=0.1, delay=1)) as own:
             random = np.random.default_rng(0)
             seen = [own.reset(seed=seed)[0]]
-            seen += [own.step(random.uniform(-1.0, 1.0, 2))[0] for _ in range(6)]
+            seen += [own.step(random.uniform(-1.0, 1.0, 2))[0] for _ in range(3)]
             return seen, own.reset()[1]["draw"]
 
     (one, after), (other, after_other) = episode(5), episode(5)

@@ -2,7 +2,6 @@
 
 import json
 import os
-import shutil
 import signal
 import subprocess
 import sys
@@ -13,48 +12,14 @@ import pytest
 from PIL import Image
 
 from analysis.logs import read_log
+from browsing import DRAWN, from_npm
 from environments import Environment, RecordedDrive
-from experiments.prepare import ROOT, PreparationError
+from experiments.prepare import ROOT
 from experiments.session import Session
 from test_view import serving
 from viewer import parts
 
 FULL = bool(os.environ.get("GUIDEWIRE_ALL"))
-BROWSERS = ("chromium", "chromium-browser", "google-chrome")
-DRAWN = ["until", "globalThis.viewer?.stage.drawn > 0"]
-
-
-def from_npm(kind):
-    try:
-        return parts.require(kind, print)
-    except PreparationError as error:
-        pytest.skip(str(error))
-
-
-@pytest.fixture(scope="module")
-def browse():
-    """A function that has a browser follow orders and returns what it saw."""
-    browser = next(filter(None, map(shutil.which, BROWSERS)), None)
-    node = shutil.which("node")
-    if browser is None or node is None:
-        pytest.skip("no browser: as root 'apt-get install --no-install-recommends chromium' and nodejs")
-    from_npm("dependencies")
-    modules = from_npm("devDependencies")
-    script = ROOT / "experiments" / "tests" / "browser.mjs"
-    process = subprocess.Popen([node, str(script), str(modules.parent), browser], stdin=subprocess.PIPE,
-                               stdout=subprocess.PIPE, text=True)
-
-    def follow(*steps, offline=False, size=(720, 460)):
-        process.stdin.write(json.dumps({"steps": steps, "offline": offline, "size": size}) + "\n")
-        process.stdin.flush()
-        answer = json.loads(process.stdout.readline())
-        assert answer["troubles"] == []
-        return answer
-
-    yield follow
-    process.stdin.close()
-    process.wait(20)
-    process.stdout.close()
 
 
 @pytest.fixture(scope="module")

@@ -8,9 +8,9 @@ import pytest
 pytest.importorskip("vtkmodules", reason="no VTK: apt-get install python3-vtk9, or pip install vtk")
 
 from anatomy.tests.solids import tube, write_stl  # noqa: E402
+from browsing import DRAWN  # noqa: E402
 from experiments.prepare import PreparationError  # noqa: E402
 from test_view import serving  # noqa: E402
-from test_view_browser import DRAWN, browse  # noqa: E402, F401
 from viewer.anatomy import read_vessel  # noqa: E402
 
 
@@ -49,7 +49,7 @@ def test_an_end_that_is_not_there_writes_nothing(with_a_hole, tmp_path, monkeypa
         read_vessel(tmp_path / "text.stl")
 
 
-def test_a_click_on_an_end_makes_it_the_inlet(browse, with_a_hole, tmp_path):  # noqa: F811
+def test_a_click_on_an_end_makes_it_the_inlet(browse, with_a_hole, tmp_path):
     click = """(() => {
       const [clientX, clientY] = viewer.placeOf(2);
       const canvas = document.getElementById("picture");

@@ -13,7 +13,7 @@ import pytest
 from parameter_strategies import FULL
 from run_claims import Campaign, read_strictly
 
-RUNS = 1000 if FULL else 12
+RUNS = 1000 if FULL else 5
 SEED = 20260
 LIMIT = 60.0  # s of wall time a run
 # Reasons name what would help by its key.
