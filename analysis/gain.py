@@ -35,7 +35,7 @@ class GainRow:
     passages : int
         As the run counted them.
     counted_again : int or None
-        By winding numbers; None where that was not done.
+        From the log; None where that was not done.
     step_time : Spread or None
         Median wall time of a step in each timed repeat, in ms.
     others_busy : float or None
@@ -77,7 +77,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
     folder : Path
         The study's folder.
     count_again : int
-        Count passages through a mesh by winding numbers too, for runs of at most so many elements.
+        Count passages through a mesh from the logs too, for runs of at most so many elements.
 
     Raises
     ------

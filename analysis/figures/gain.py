@@ -154,17 +154,17 @@ def _passed(subject: str, rows: list[GainRow], radius: float) -> str:
 
 
 def _again(table: GainTable) -> str:
-    """Whether the count by winding numbers agrees."""
+    """Whether the count from the logs agrees."""
     rows = [row for row in table.rows if row.counted_again is not None]
     if not rows:
         return ""
     wrong = [row for row in rows if row.counted_again != row.passages]
     if not wrong:
-        return f"Counted again from {len(rows)} of the logs by winding numbers, the passages are the same."
+        return f"Counted again from {len(rows)} of the logs by ray parity, the passages are the same."
     told = "; ".join(
         f"{row.counted_again} instead of {row.passages} with {RULES[row.rule]} at n = {row.elements}" for row in wrong
     )
-    return f"Counted again from {len(rows)} of the logs by winding numbers, the passages are {told}."
+    return f"Counted again from {len(rows)} of the logs by ray parity, the passages are {told}."
 
 
 def _flat(table: GainTable) -> str:

@@ -31,7 +31,7 @@ from experiments import building
 from experiments.campaigns import material_pushes
 from experiments.campaigns.push_campaign import CODES
 from experiments.campaigns.push_claims import contradictions
-from experiments.campaigns.wall_search import MeshSearch
+from analysis.wall_search import MeshSearch
 from experiments.runner import Request, Runner
 
 DIAMETERS = (0.36, 0.89)  # mm

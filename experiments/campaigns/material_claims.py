@@ -9,7 +9,7 @@ import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
 from experiments.campaigns.push_claims import contradictions
-from experiments.campaigns.wall_search import Walls
+from analysis.wall_search import Walls
 
 SAME = 1e-9  # of the wire's radius
 OF_WAY = 1e-6  # of the way asked for: node 0 is on a stiff spring

@@ -28,7 +28,7 @@ from analysis.logs import read_log
 from analysis.surfaces import read_obj
 from experiments import building
 from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
-from experiments.campaigns.wall_search import Walls, crosses_itself, triangles_of
+from analysis.wall_search import Walls, crosses_itself, triangles_of
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run

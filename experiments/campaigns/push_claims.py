@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from experiments.campaigns.wall_search import ClosedForm, MeshSearch, Walls
+from analysis.wall_search import ClosedForm, MeshSearch, Walls
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20

@@ -1,4 +1,4 @@
-"""Wires pushed fast into the vessel: the runner's own count of passages against winding numbers on its logs."""
+"""Wires pushed fast into the vessel: the runner's own count of passages against a search on its logs."""
 
 import json
 import os
@@ -54,6 +54,6 @@ def test_no_wire_with_element_contact_passes_the_wall(runner_command, tmp_path, 
 
 
 @pytest.mark.parametrize("seed", range(RUNS))
-def test_the_runner_counts_what_the_winding_numbers_count(runner_command, tmp_path, wall, seed):
+def test_the_runner_counts_what_the_search_counts(runner_command, tmp_path, wall, seed):
     summary, positions = push(runner_command, tmp_path, seed, "thesis")  # the rule as published, which lets wires pass
     assert count_passages(wall, positions) == summary["passages"]
