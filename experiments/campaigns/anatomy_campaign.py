@@ -42,6 +42,7 @@ _WIRE = ("wireRadius", "youngsModulus", "shearModulus", "density", "wireSections
          "numberRodElements")
 _SAME = 1e-9  # of the radius
 _ELASTIC = 1e-5  # of the wire's length, by which its proximal node may be behind the hub
+_SAME_LENGTH = 1e-3  # mm
 _DEPTH_EVERY = 5  # entries of the log of which the depth is searched
 _REFUSED = 2  # exit code
 
@@ -174,8 +175,9 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
     after = np.minimum(SAMPLES * (first + 1), lumen.shape[1] - 1)
     if not (lumen[np.arange(len(lumen)), after] | (first > n)).all():
         claims.append("the wire is outside where it leaves its sheath")
+    start = float((positions[0, -1] - exit_at) @ along)  # of the wire out of the sheath, mm
     return [*claims, *_depth(vessel, scene, summary, positions, body, bool(crossing.any())),
-            *_drive_claims(scene, summary, positions)]
+            *_drive_claims(scene, summary, positions), *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]))]
 
 
 def _depth(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, body: np.ndarray,
@@ -226,6 +228,20 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
     behind = _ELASTIC * scene["guidewireLength"] + (0.0 if slips else abs(summary["driveShortfall"]))
     if is_whole and abs(gone - 1e3 * way) > behind:
         claims.append(f"node 0 went {gone} mm, the hub {1e3 * way}, driveShortfall = {summary['driveShortfall']}")
+    return claims
+
+
+def _body_claims(scene: dict[str, Any], hub: dict[str, Any], start: float, outside: int) -> list[str]:
+    """What the summary says is in the body: the length out of the sheath at the start, mm, and what the hub pushed in
+    since, less what the wire is shortened by under its push; the nodes counted outside of the sheath at the end."""
+    area = np.pi * (scene["wireRadius"]**2 - scene["innerRadius"]**2)
+    stiffness = scene["axialStiffness"] or scene["youngsModulus"] * area  # EA, N
+    slack = _SAME_LENGTH + scene["guidewireLength"] * abs(hub["force"]) / stiffness
+    claims = []
+    if abs(1e3 * (hub["lengthInBody"] - hub["insertion"]) - start) > slack:
+        claims.append(f"{hub['lengthInBody']} m in the body, pushed in by {hub['insertion']} m after {start} mm")
+    if hub["spheresInBody"] != outside:
+        claims.append(f"{hub['spheresInBody']} spheres in the body, counted {outside}")
     return claims
 
 
