@@ -5,8 +5,6 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from analysis.comparisons import WireRun, read_wire
 from analysis.distances import distances
 from analysis.logs import LogError

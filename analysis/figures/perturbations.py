@@ -154,7 +154,7 @@ def draw_perturbation(view: PerturbationView, table: ComparisonTable) -> tuple[F
     for name in "cd":
         panels[name].set_ylim(0.0, top)
     _legend_above(panels["c"])
-    caption = perturbation_caption(view.figure, table, view.proportional)
+    caption = perturbation_caption(view.figure, table)
     add_caption(figure, caption)
     return figure, caption
 

@@ -12,7 +12,7 @@ from analysis.runs import Run
 from analysis.validation import beam
 from analysis.validation.spatial import Bend
 from analysis.validation.states import solver_report
-from analysis.validation.wire import BASE, Wire
+from analysis.validation.wire import Wire
 from studies.table import Case
 
 UNIT = 1e-3  # m; one unit of length of the files

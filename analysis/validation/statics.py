@@ -193,7 +193,6 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
     }
     runs = yield [Case(solver, {**scene, "numberRodElements": _PLANE_ELEMENTS[solver], **own[solver]})
                   for solver in solvers]
-    run = runs["direct"]
     load = wire.line_density * _GRAVITY * wire.length**3 / wire.bending
     shape, force = elastica.heavy_on_plane(load, PLANE_DROP / wire.length, _POINTS)
     free = elastica.heavy(load, _POINTS)

@@ -8,16 +8,15 @@ the wire is that instrument. A start that the program refuses is skipped and doe
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import json
 import shutil
 import sys
 import tempfile
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,7 +28,7 @@ from analysis.passages import SAMPLES, Wall, sample_wire
 from analysis.surfaces import read_obj
 from experiments import building
 from experiments.campaigns import material_pushes
-from experiments.campaigns.push_campaign import CODES
+from experiments.campaigns.push_campaign import CODES, parser_of
 from experiments.campaigns.push_claims import contradictions
 from analysis.wall_search import MeshSearch
 from experiments.runner import Request, Runner
@@ -249,12 +248,9 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: st
     """Draw, run and judge; its files stay in the folder where it breaks a claim."""
     path = draw(vessel, seed, folder, instrument)
     out = folder / f"run-{path.stem}"
-    watchdog = threading.Timer(RUN_LIMIT, runner.interrupt)
-    watchdog.start()
     start = time.monotonic()
-    answer = runner.run(Request(path.stem, path, out))
+    answer = runner.run(Request(path.stem, path, out), RUN_LIMIT)
     seconds = time.monotonic() - start
-    watchdog.cancel()
     name = vessel.folder.name
     if answer.exit_code == _REFUSED:
         walk = Walk(name, seed, [], "refused", str(answer.message))
@@ -276,24 +272,15 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: st
 def campaign(command: Sequence[str], vessel: Vessel, seeds: Iterable[int], folder: Path,
              instrument: str | None = None) -> Iterator[Walk]:
     """The runs of these seeds in one vessel, one after another in one process."""
-    runner = Runner(command)
-    try:
+    with closing(Runner(command)) as runner:
         for seed in seeds:
-            walk = make(runner, vessel, seed, folder, instrument)
-            if walk.seconds >= RUN_LIMIT:
-                runner.close()
-                runner = Runner(command)
-            yield walk
-    finally:
-        runner.close()
+            yield make(runner, vessel, seed, folder, instrument)
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(
-        prog="python3 -m experiments.campaigns.anatomy_campaign", description=__doc__.split("\n")[0])
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="of guidewire.py anatomy")
-    parser.add_argument("--runs", type=int, default=100, help="how many in each (default 100)")
-    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
+    parser = parser_of("anatomy_campaign", __doc__)
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER",
+                        help="of guidewire.py anatomy; each has so many runs")
     parser.add_argument("--instrument", action="append", help="in place of drawn wires; may be given several times")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)

@@ -10,7 +10,6 @@ import pytest
 
 from analysis.hub import read_hub
 from analysis.logs import read_log
-from analysis.passages import Wall, inside
 from analysis.surfaces import read_obj
 from experiments.campaigns import material_claims, material_pushes, pushes
 from experiments.campaigns.push_campaign import campaign
