@@ -9,7 +9,7 @@ from analysis.comparisons import WireRun, read_wire
 from analysis.distances import distances
 from analysis.logs import LogError
 from analysis.passages import Wall, count_passages
-from analysis.runs import read_study
+from analysis.runs import busiest, read_study
 from analysis.surfaces import read_obj
 from analysis.tables import Spread
 
@@ -95,7 +95,6 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
     for wire in wires:
         elements = int(wire.run.number("numberRodElements"))
         repeats = study.timed(wire.run.key)
-        loads = [repeat.others_busy for repeat in repeats if repeat.others_busy is not None]
         rows.append(GainRow(
             rule=wire.run.value("elementContact"),
             elements=elements,
@@ -104,7 +103,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
             passages=int(wire.run.measured("passages")),
             counted_again=_count_again(wire) if elements <= count_again else None,
             step_time=Spread.of([repeat.measured("medianStepTime") for repeat in repeats]),
-            others_busy=max(loads, default=None),
+            others_busy=busiest(repeats),
         ))
     rows.sort(key=lambda row: row.elements)
     return GainTable(tuple(rows), next(row for row in rows if row.wire is finest))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -105,6 +105,11 @@ class Run:
         rest = np.zeros((count + 1, 3))
         rest[:, 2] = self.number("guidewireOffset") + self.number("guidewireLength") * np.arange(count + 1) / count
         return rest
+
+
+def busiest(repeats: Iterable[Run]) -> float | None:
+    """What others kept busy beside the repeat that they disturbed most; None where nobody looked."""
+    return max((busy for repeat in repeats if (busy := repeat.others_busy) is not None), default=None)
 
 
 @dataclass(frozen=True)

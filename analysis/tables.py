@@ -11,7 +11,7 @@ import numpy as np
 from analysis.errors import displacement_errors, steady_state_entry, total_error
 from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, RelaxationError, fit_relaxation, relaxation_error
-from analysis.runs import Run, read_study
+from analysis.runs import Run, busiest, read_study
 
 NO_STEADY_STATE = -1  # summary.json's steadyStateStep where the run never held still
 
@@ -150,7 +150,7 @@ def _measure(run: Run, repeats: Sequence[Run], value: float) -> StudyRow:
         total_error=_total_error(run, log),
         step_time=Spread.of([repeat.measured("averageStepTime") for repeat in repeats]),
         computation_time=None if steady is None else Spread.of([_elapsed(repeat, steady) for repeat in repeats]),
-        others_busy=max((busy for busy in (repeat.others_busy for repeat in repeats) if busy is not None), default=None),
+        others_busy=busiest(repeats),
         warning=log.warning,
     )
 

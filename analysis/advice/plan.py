@@ -21,7 +21,7 @@ from analysis.advice import trials
 from analysis.advice.quantity import Quantity
 from analysis.advice.trials import Trial
 from analysis.logs import LogError, read_log
-from analysis.runs import Run, read_repeats
+from analysis.runs import Run, busiest, read_repeats
 from analysis.validation.check import Check
 from studies.table import Case
 
@@ -235,9 +235,8 @@ def _with_times(tried: Tried, repeats: Sequence[Run]) -> Tried:
     totals = [repeat.measured("computationTime") for repeat in repeats]
     total = float(np.median(totals))
     log = float(np.median([repeat.measured("wallTime") for repeat in repeats])) - total
-    busy = [repeat.others_busy for repeat in repeats if repeat.others_busy is not None]
     return replace(tried, total=total, step=1e3 * total / steps, log=1e3 * max(log, 0.0) / steps,
-                   others_busy=max(busy, default=None))
+                   others_busy=busiest(repeats))
 
 
 def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: Wish) -> list[str]:

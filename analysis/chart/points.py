@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from analysis.runs import Run, read_repeats
+from analysis.runs import Run, busiest, read_repeats
 from analysis.validation.check import Check
 from analysis.validation.scenes import Asking
 from studies.table import Case
@@ -215,9 +215,8 @@ def _point(setting: Setting, run: Run, measure: Measure) -> Point:
     repeats = read_repeats(run, setting.case.repeats)
     costs = sorted(_cost(repeat) for repeat in repeats)
     cost = float(np.median(costs))
-    busy = [one.others_busy for one in repeats if one.others_busy is not None]
     return Point(setting, outcome, str(run.measured("reason")), error, cost, costs[0], costs[-1],
-                 cost * run.number("timeStep"), max(busy, default=None))
+                 cost * run.number("timeStep"), busiest(repeats))
 
 
 def _cost(run: Run) -> float:

@@ -98,10 +98,5 @@ def outside_legend(axes: Axes) -> None:
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
 
 
-def slope(x: Sequence[float], y: Sequence[float]) -> float:
-    """Power of x with which y goes, by least squares of the logarithms."""
-    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
-
-
 def _cycle(count: int) -> list[str]:
     return [MARKERS[k % len(MARKERS)] for k in range(count)]

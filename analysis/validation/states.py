@@ -35,6 +35,11 @@ class State:
     orientations: np.ndarray | None
 
     @property
+    def in_plane(self) -> np.ndarray:
+        """Positions as (z, -y), along the wire and down, shape (n+1, 2)."""
+        return self.positions[:, [2, 1]] * np.array([1.0, -1.0])
+
+    @property
     def directors(self) -> np.ndarray:
         """Third directors d3 of the elements, shape (n, 3)."""
         x, y, z, w = self.orientations.T
