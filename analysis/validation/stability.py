@@ -182,9 +182,7 @@ def branches(
             if math.isfinite(one.load):
                 axes.axvline(one.load, color=color, linewidth=0.9, linestyle="--")
         axes.set_yscale("log")
-        axes.set_xlabel(x_label)
-        axes.set_ylabel(y_label)
-        pictures.outside_legend(axes)
+        pictures.label(axes, x_label, y_label)
 
     return draw
 

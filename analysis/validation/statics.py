@@ -212,10 +212,8 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
             axes.plot(*nodes.T, pictures.SOLVER_MARKERS[solver], fillstyle="none", label=solver)
         axes.plot(shape.along, shape.across, color="0.6", linewidth=2.5, label="tip on the plane")
         axes.plot(free.along, free.across, color="0.6", linewidth=1.0, label="without the plane")
-        axes.set_xlabel("z/L")
-        axes.set_ylabel("-y/L")
         axes.invert_yaxis()
-        pictures.outside_legend(axes)
+        pictures.label(axes, "z/L", "-y/L")
 
     told = [f"{number(forces[r.solver], 5)} N ({r.solver}, off by {percent(r.error)})" for r in results[:len(solvers)]]
     caption = (
