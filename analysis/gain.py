@@ -22,22 +22,15 @@ class GainRow:
 
     Attributes
     ----------
-    rule : str
-        Its elementContact.
-    elements : int
-        n.
-    wire : WireRun
-        The run and its motion.
-    mean_distance : float or None
-        To the reference, over spheres and steps, in units; None where the run did not last as long.
-    passages : int
-        As the run counted them.
-    counted_again : int or None
-        From the log; None where that was not done.
-    step_time : Spread or None
-        Median wall time of a step in each timed repeat, in ms.
-    others_busy : float or None
-        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
+    rule : its elementContact.
+    elements : n.
+    wire : the run and its motion.
+    mean_distance : to the reference, over spheres and steps, in units; None where the run did not last as long.
+    passages : as the run counted them.
+    counted_again : from the log; None where that was not done.
+    step_time : median wall time of a step in each timed repeat, in ms.
+    others_busy : processors that other programs kept busy beside the repeat that they disturbed most; None where nobody
+        looked.
     """
 
     rule: str
@@ -72,10 +65,8 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
 
     Parameters
     ----------
-    folder : Path
-        The study's folder.
-    count_again : int
-        Count passages through a mesh from the logs too, for runs of at most so many elements.
+    folder : the study's folder.
+    count_again : count passages through a mesh from the logs too, for runs of at most so many elements.
 
     Raises
     ------

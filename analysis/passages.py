@@ -26,10 +26,8 @@ class Wall:
 
     Attributes
     ----------
-    triangles : ndarray, shape (t, 3, 3)
-        Corners, in units; all seen from the same side in the same sense.
-    fans : ndarray, shape (f, 3, 3)
-        Triangles that close the open rims.
+    triangles : (t, 3, 3), corners, in units; all seen from the same side in the same sense.
+    fans : (f, 3, 3), triangles that close the open rims.
     """
 
     triangles: np.ndarray
@@ -89,10 +87,8 @@ def count_passages(wall: Wall, positions: np.ndarray) -> int:
 
     Parameters
     ----------
-    wall : Wall
-        The vessel.
-    positions : ndarray, shape (k, n + 1, 3)
-        Of all spheres after successive steps, in units.
+    wall : the vessel.
+    positions : (k, n + 1, 3), of all spheres after successive steps, in units.
     """
     lumen = inside(wall, positions)
     points = sample_wire(positions)

@@ -26,19 +26,13 @@ class Run:
 
     Attributes
     ----------
-    folder : Path
-        Where the run stands.
-    parameters : mapping of str to Any
-        All effective values, by key.
-    summary : mapping of str to Any, or None
-        summary.json; None where the run was killed before it could be written.
-    key, repeat : str, int or None
-        From the study's table where the run belongs to one: the run's name, and the number of the timed repeat (None
-        for a run that is not timed).
-    variant, values : str, mapping of str to number, bool or str
-        From the same: name of the variant, empty where there is none, and the values of the axes by key.
-    repeat_folders : tuple of Path
-        Where its timed repeats stand, in their order, where they were asked for.
+    folder : where the run stands.
+    parameters : all effective values, by key.
+    summary : summary.json; None where the run was killed before it could be written.
+    key, repeat : from the study's table where the run belongs to one: the run's name, and the number of the timed
+        repeat (None for a run that is not timed).
+    variant, values : from the same: name of the variant, empty where there is none, and the values of the axes by key.
+    repeat_folders : where its timed repeats stand, in their order, where they were asked for.
     """
 
     folder: Path

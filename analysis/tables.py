@@ -39,28 +39,18 @@ class StudyRow:
 
     Attributes
     ----------
-    value : float
-        Of the parameter that the study varies, in its unit.
-    run : Run
-        The run whose positions were measured.
-    relaxation : Relaxation or None
-        None where the motion has no relaxation time; ``no_relaxation`` then says why.
-    steps : int
-        Steps of the run in all.
-    steady_state_step : int or None
-        None where the run never held still.
-    time_step : float
-        In s.
-    total_error : float or None
-        Delta_x at the last step, eq. 4.4, in units; None where the log does not state all spheres.
-    step_time : Spread or None
-        Average wall time of a step of each timed repeat, in ms.
-    computation_time : Spread or None
-        Wall time up to the steady state of each timed repeat, in s; None also without a steady state.
-    others_busy : float or None
-        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
-    warning : str or None
-        What the log's reader had to say.
+    value : of the parameter that the study varies, in its unit.
+    run : the run whose positions were measured.
+    relaxation : None where the motion has no relaxation time; ``no_relaxation`` then says why.
+    steps : steps of the run in all.
+    steady_state_step : None where the run never held still.
+    time_step : in s.
+    total_error : Delta_x at the last step, eq. 4.4, in units; None where the log does not state all spheres.
+    step_time : average wall time of a step of each timed repeat, in ms.
+    computation_time : wall time up to the steady state of each timed repeat, in s; None also without a steady state.
+    others_busy : processors that other programs kept busy beside the repeat that they disturbed most; None where nobody
+        looked.
+    warning : what the log's reader had to say.
     """
 
     value: float
@@ -110,10 +100,8 @@ def read_table(folder: Path, key: str) -> StudyTable:
 
     Parameters
     ----------
-    folder : Path
-        The study's folder.
-    key : str
-        The parameter that it varies.
+    folder : the study's folder.
+    key : the parameter that it varies.
 
     Raises
     ------

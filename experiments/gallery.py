@@ -46,12 +46,9 @@ class Catalogue:
 
     Attributes
     ----------
-    specs : mapping of str to FigureSpec
-        By their numbers.
-    checked : mapping of str to tuple of Check
-        Of the figures that are drawn from checks, the checks of each.
-    studies : mapping of str to Study
-        That the others are drawn from.
+    specs : by their numbers.
+    checked : of the figures that are drawn from checks, the checks of each.
+    studies : that the others are drawn from.
     """
 
     specs: Mapping[str, FigureSpec]

@@ -35,10 +35,8 @@ class Quantity:
 
     Attributes
     ----------
-    of : str
-        One of `NAMED`, or a number of summary.json, with points where it stands within something.
-    at : str
-        "run" or "end": from start to end, or at the end alone.
+    of : one of `NAMED`, or a number of summary.json, with points where it stands within something.
+    at : "run" or "end": from start to end, or at the end alone.
     """
 
     of: str = POSITION

@@ -28,20 +28,14 @@ class FigureSpec:
 
     Attributes
     ----------
-    id : str
-        Its number, such as "4.5".
-    title : str
-        What it shows, in a few words.
-    studies : tuple of str
-        Names of the studies whose runs it is drawn from.
-    draw : callable
-        From a mapping of study name to study folder to the figure and its caption. Raises analysis.logs.LogError
+    id : its number, such as "4.5".
+    title : what it shows, in a few words.
+    studies : names of the studies whose runs it is drawn from.
+    draw : from a mapping of study name to study folder to the figure and its caption. Raises analysis.logs.LogError
         where a file cannot be read or no run lasts as long as its reference, and analysis.relaxation.RelaxationError
         where nothing relaxes.
-    beside : mapping of str to callable
-        Further files of the picture's folder, by name: each writes, from the same mapping, the file at a path.
-    gates : callable
-        From the same mapping to one line for each number that is beyond its gate.
+    beside : further files of the picture's folder, by name: each writes, from the same mapping, the file at a path.
+    gates : from the same mapping to one line for each number that is beyond its gate.
     """
 
     id: str

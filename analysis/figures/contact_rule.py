@@ -25,16 +25,11 @@ class Rest:
 
     Attributes
     ----------
-    rule : str
-        elementContact.
-    position : float
-        s, from 0 at the first end to 1 at the second.
-    pushed : ndarray, shape (2,)
-        How far the first step moved each end away from the fixed sphere, in units.
-    shrunk : float
-        How much shorter the element is at the end of the run, in units.
-    depth : float
-        r less the distance of the element's axis from the fixed sphere at the end, in units.
+    rule : elementContact.
+    position : s, from 0 at the first end to 1 at the second.
+    pushed : (2,), how far the first step moved each end away from the fixed sphere, in units.
+    shrunk : how much shorter the element is at the end of the run, in units.
+    depth : r less the distance of the element's axis from the fixed sphere at the end, in units.
     """
 
     rule: str

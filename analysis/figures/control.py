@@ -31,13 +31,10 @@ class DriveRow:
 
     Attributes
     ----------
-    key : str
-        Name of the run.
-    wire : WireRun
-        Its motion.
-    first_off, tip_along : ndarray, shape (k,)
-        Distance of the first sphere from the lumen's middle line, and how far the tip has come along that line, in
-        units.
+    key : name of the run.
+    wire : its motion.
+    first_off, tip_along : (k,), distance of the first sphere from the lumen's middle line, and how far the tip has come
+        along that line, in units.
     """
 
     key: str

@@ -36,12 +36,9 @@ def read_default_run(folder: Path, spheres: str = "last", most_entries: int | No
 
     Parameters
     ----------
-    folder : Path
-        The study's folder.
-    spheres : "last" or "all"
-        Spheres whose positions are read.
-    most_entries : int or None
-        Thin the log to about so many entries.
+    folder : the study's folder.
+    spheres : "last" or "all": spheres whose positions are read.
+    most_entries : thin the log to about so many entries.
     """
     study = read_study(folder)
     run = study.required()[0]

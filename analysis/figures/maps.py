@@ -57,12 +57,9 @@ class Cell:
 
     Attributes
     ----------
-    x, y : float or str
-        Where it stands.
-    kind : str
-        Its class.
-    error : float
-        Distance of its tip from the reference's at the end, over the way of that; not a number where it was lost or
+    x, y : where it stands.
+    kind : its class.
+    error : distance of its tip from the reference's at the end, over the way of that; not a number where it was lost or
         has no reference.
     """
 
@@ -79,20 +76,13 @@ class View:
     Attributes
     ----------
     study, title : str
-    x, y : callable
-        Where a run stands.
-    labels : tuple of str
-        Of the axes.
-    reference : callable or None
-        From a run to the key of the one that it is measured against.
-    lines : tuple of (float, str)
-        Upright lines, and what they are.
-    log_x : bool
-        Whether x is drawn on a logarithmic axis.
-    error : callable or None
-        A run's error, in place of the distance from a reference.
-    kind : callable or None
-        Class of a run with this error, in place of `kind_of`.
+    x, y : where a run stands.
+    labels : of the axes.
+    reference : from a run to the key of the one that it is measured against.
+    lines : upright lines, and what they are.
+    log_x : whether x is drawn on a logarithmic axis.
+    error : a run's error, in place of the distance from a reference.
+    kind : class of a run with this error, in place of `kind_of`.
     """
 
     study: str

@@ -31,16 +31,11 @@ class PerturbationView:
 
     Attributes
     ----------
-    figure : str
-        Number of the figure.
-    key : str
-        The parameter.
-    label : str
-        Label of its axis, with the unit.
-    logarithmic : bool
-        Whether its axis is.
-    proportional : bool
-        Whether motions are scaled to the reference's displacement.
+    figure : number of the figure.
+    key : the parameter.
+    label : label of its axis, with the unit.
+    logarithmic : whether its axis is.
+    proportional : whether motions are scaled to the reference's displacement.
     """
 
     figure: str

@@ -32,14 +32,10 @@ class Map:
     ----------
     title : str
     points : sequence of Frontier
-    closed_form : callable
-        Of a frontier: the limit of a wire without ends, with which values are divided.
-    chain : callable
-        Of a frontier: the limit of the whole chain.
-    line : str
-        Key of the axis that has a line for each of its values.
-    name : str
-        What a value of that axis is called, with its unit in brackets.
+    closed_form : of a frontier: the limit of a wire without ends, with which values are divided.
+    chain : of a frontier: the limit of the whole chain.
+    line : key of the axis that has a line for each of its values.
+    name : what a value of that axis is called, with its unit in brackets.
     """
 
     title: str

@@ -24,16 +24,11 @@ class SweepView:
 
     Attributes
     ----------
-    figure : str
-        Number of the figure in the thesis.
-    key : str
-        The parameter.
-    label : str
-        Label of the horizontal axis, with the unit.
-    logarithmic : bool
-        Whether the horizontal axis and the times on the vertical ones are.
-    marked : float or None
-        A value to mark by a dashed line.
+    figure : number of the figure in the thesis.
+    key : the parameter.
+    label : label of the horizontal axis, with the unit.
+    logarithmic : whether the horizontal axis and the times on the vertical ones are.
+    marked : a value to mark by a dashed line.
     """
 
     figure: str

@@ -155,8 +155,7 @@ def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:
 
     Parameters
     ----------
-    along, across : ndarray, shape (n+1,)
-        Along z and against y, m.
+    along, across : (n+1,), along z and against y, m.
     """
     angle = np.arctan2(np.diff(across), np.diff(along))
     return {

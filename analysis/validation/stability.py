@@ -38,14 +38,10 @@ class Limit:
 
     Attributes
     ----------
-    load : float
-        Where the first shape is left; not a number where no such load was seen, or only the interval about it.
-    seen : mapping of float to float
-        From each load to the distance, over L, from the first shape.
-    cost : float
-        Wall time of all runs, s.
-    low, high : float
-        Ends of the interval in which the load lies, fractions of the expected one.
+    load : where the first shape is left; not a number where no such load was seen, or only the interval about it.
+    seen : from each load to the distance, over L, from the first shape.
+    cost : wall time of all runs, s.
+    low, high : ends of the interval in which the load lies, fractions of the expected one.
     """
 
     load: float

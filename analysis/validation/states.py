@@ -19,14 +19,10 @@ class State:
 
     Attributes
     ----------
-    time : float
-        s.
-    positions : ndarray, shape (n+1, 3)
-        m.
-    velocities : ndarray, shape (n+1, 3)
-        m/s.
-    orientations : ndarray, shape (n, 4), or None
-        Unit quaternions x, y, z, w; None where the run did not log them.
+    time : s.
+    positions : (n+1, 3), m.
+    velocities : (n+1, 3), m/s.
+    orientations : (n, 4), unit quaternions x, y, z, w; None where the run did not log them.
     """
 
     time: float

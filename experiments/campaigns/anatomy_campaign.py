@@ -140,8 +140,7 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
     Parameters
     ----------
     scene : the effective parameters of the run.
-    positions : ndarray, shape (k, n + 1, 3)
-        Of all nodes after every step, mm.
+    positions : (k, n + 1, 3), of all nodes after every step, mm.
     """
     if not np.isfinite(positions).all():
         return ["a position is not a finite number"]

@@ -26,10 +26,8 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     Parameters
     ----------
     scene, summary : the run's parameter file and summary.json.
-    positions : ndarray, shape (k, n + 1, 3)
-        Of all nodes at the start and after every step, in units.
-    radii : ndarray, shape (n,)
-        Of the elements, in units.
+    positions : (k, n + 1, 3), of all nodes at the start and after every step, in units.
+    radii : (n,), of the elements, in units.
     walls : the scene's.
     """
     if not np.isfinite(positions).all():
