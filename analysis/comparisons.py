@@ -98,8 +98,7 @@ def read_reference(folder: Path) -> tuple[WireRun, ...]:
 
     Raises
     ------
-    LogError
-        The reference left no log.
+    LogError : the reference left no log.
     """
     study = read_study(folder)
     if not study.untimed or study.missing:
@@ -123,8 +122,7 @@ def read_comparison(folder: Path, reference_folder: Path, key: str, proportional
 
     Raises
     ------
-    LogError
-        A file cannot be read, the study varies more than ``key``, or no run lasts as long as the reference.
+    LogError : a file cannot be read, the study varies more than ``key``, or no run lasts as long as the reference.
     """
     reference, *others = read_reference(reference_folder)
     study = read_study(folder)

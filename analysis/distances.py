@@ -89,8 +89,7 @@ def at_arc_length(positions: np.ndarray, arc_length: np.ndarray, wanted: np.ndar
 
     Raises
     ------
-    DistanceError
-        An arc length beyond the ends.
+    DistanceError : an arc length beyond the ends.
     """
     slack = _SAME * max(abs(arc_length[0]), abs(arc_length[-1]))
     if np.min(wanted) < arc_length[0] - slack or np.max(wanted) > arc_length[-1] + slack:
@@ -112,8 +111,7 @@ def distances(run: Trajectory, reference: Trajectory, match: str = "time") -> Di
 
     Raises
     ------
-    DistanceError
-        The two have no moment in common, or the run has spheres beyond the reference's ends.
+    DistanceError : the two have no moment in common, or the run has spheres beyond the reference's ends.
     """
     if match == "time":
         end = reference.time[-1] + _SAME * max(abs(reference.time[-1]), abs(run.time[-1]))

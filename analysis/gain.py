@@ -70,8 +70,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or the study has no finished run with element contact.
+    LogError : a file cannot be read, or the study has no finished run with element contact.
     """
     study = read_study(folder)
     wires = [read_wire(run) for run in study.untimed]

@@ -45,8 +45,7 @@ def read_hub(path: Path) -> HubLog:
 
     Raises
     ------
-    LogError
-        The log cannot be read, or says nothing of the hub.
+    LogError : the log cannot be read, or says nothing of the hub.
     """
     rows: dict[str, list] = {field.name: [] for field in fields(HubLog)}
     for _, entry in read_entries(path):

@@ -108,8 +108,7 @@ def read_log(
 
     Raises
     ------
-    LogError
-        The file is missing, is not a log, holds no whole step, or lacks a sphere that was asked for.
+    LogError : the file is missing, is not a log, holds no whole step, or lacks a sphere that was asked for.
     """
     if every < 1:
         raise ValueError(f"every = {every}: must be at least 1")
@@ -133,8 +132,7 @@ def read_entries(path: Path) -> Iterator[tuple[int, dict]]:
 
     Raises
     ------
-    LogError
-        The file is missing, is not a log or holds no whole step.
+    LogError : the file is missing, is not a log or holds no whole step.
     """
     source = find_log(path)
     if _is_of_arrays(source):

@@ -81,8 +81,7 @@ def compare(folder: Path, file: Path) -> ComparedForce | ComparedShapes:
 
     Raises
     ------
-    LogError
-        The file or the run cannot be read, the run does not log what was measured, or no time lies within it.
+    LogError : the file or the run cannot be read, the run does not log what was measured, or no time lies within it.
     """
     rows = _read(file)
     if rows.shape[1] == 2:

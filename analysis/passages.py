@@ -39,8 +39,7 @@ class Wall:
 
         Raises
         ------
-        MeshError
-            An edge belongs to two triangles in the same sense, or its rims are no simple loops.
+        MeshError : an edge belongs to two triangles in the same sense, or its rims are no simple loops.
         """
         edges = np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]])
         known = {(int(a), int(b)) for a, b in edges}

@@ -85,8 +85,7 @@ def fit_relaxation(time: np.ndarray, error: np.ndarray) -> Relaxation:
 
     Raises
     ------
-    RelaxationError
-        Fewer than three peaks, values that are not finite, or no fit.
+    RelaxationError : fewer than three peaks, values that are not finite, or no fit.
     """
     if not np.all(np.isfinite(error)):
         raise RelaxationError("the motion is not finite")

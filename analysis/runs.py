@@ -136,8 +136,7 @@ class StudyRuns:
 
         Raises
         ------
-        LogError
-            The study varies something else too, or instead.
+        LogError : the study varies something else too, or instead.
         """
         varied = [*self.axes, *(["variants"] if len({run.variant for run in self.untimed}) > 1 else [])]
         if self.runs and varied != [key]:
@@ -158,8 +157,8 @@ def read_run(
 
     Raises
     ------
-    LogError
-        parameters.json is missing, one of the two files is not a JSON object, or they are of a format newer than FORMAT.
+    LogError : parameters.json is missing, one of the two files is not a JSON object, or they are of a format newer than
+        FORMAT.
     """
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
@@ -184,8 +183,7 @@ def read_runs(folder: Path) -> dict[str, Run]:
 
     Raises
     ------
-    LogError
-        The table, or a small file of a run, cannot be read.
+    LogError : the table, or a small file of a run, cannot be read.
     """
     runs: dict[str, Run] = {}
     repeats: dict[str, dict[int, Path]] = {}

@@ -60,8 +60,7 @@ def read_frontiers(folder: Path) -> list[Frontier]:
 
     Raises
     ------
-    LogError
-        There is no such table, or it has other columns.
+    LogError : there is no such table, or it has other columns.
     """
     found = []
     for row in _read(folder / FRONTIER):

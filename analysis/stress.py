@@ -57,8 +57,7 @@ def read_stress(path: Path, every: int = 1) -> StressLog:
 
     Raises
     ------
-    LogError
-        The log cannot be read, or holds no stress or not all spheres.
+    LogError : the log cannot be read, or holds no stress or not all spheres.
     """
     rows: dict[str, list] = {field.name: [] for field in fields(StressLog)}
     for index, (_, entry) in enumerate(read_entries(path)):

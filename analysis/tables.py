@@ -105,8 +105,8 @@ def read_table(folder: Path, key: str) -> StudyTable:
 
     Raises
     ------
-    LogError
-        The study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it was run.
+    LogError : the study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it
+        was run.
     """
     study = read_study(folder)
     study.required()

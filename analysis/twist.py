@@ -55,8 +55,7 @@ def read_twist(run: Run) -> Twist:
 
     Raises
     ------
-    LogError
-        The log cannot be read or holds no orientations.
+    LogError : the log cannot be read or holds no orientations.
     """
     entries = dict(read_entries(run.folder))
     try:

@@ -143,8 +143,7 @@ def number_of(summary: Mapping[str, Any], name: str) -> float:
 
     Raises
     ------
-    LogError
-        There is none of this name; says which is nearest.
+    LogError : there is none of this name; says which is nearest.
     """
     numbers = _numbers(summary)
     if name not in numbers:

@@ -44,8 +44,7 @@ def read_rests(folder: Path) -> list[Rest]:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or nothing was run.
+    LogError : a file cannot be read, or nothing was run.
     """
     rests = [_measure(read_wire(run)) for run in read_study(folder).required()]
     return sorted(rests, key=lambda rest: (rest.rule, rest.position))

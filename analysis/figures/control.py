@@ -48,8 +48,7 @@ def read_drives(folder: Path) -> list[DriveRow]:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or a run is missing.
+    LogError : a file cannot be read, or a run is missing.
     """
     study = read_study(folder)
     rows = []
@@ -165,8 +164,7 @@ def read_twists(folder: Path) -> list[TwistRow]:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or nothing was run.
+    LogError : a file cannot be read, or nothing was run.
     """
     rows = [
         TwistRow(run.variant, int(run.number("constraintSolverSteps")), read_twist(run))

@@ -132,8 +132,7 @@ def read_map(view: View, folder: Path) -> list[Cell]:
 
     Raises
     ------
-    LogError
-        A run is missing or left no log.
+    LogError : a run is missing or left no log.
     """
     runs = read_runs(folder)
     tips = {} if view.reference is None else {key: _tip(run) for key, run in runs.items()}

@@ -25,8 +25,7 @@ def draw_surroundings(axes: Axes, run: Run) -> None:
 
     Raises
     ------
-    analysis.logs.LogError
-        The vessel is of a kind that is not drawn, or its file cannot be read.
+    analysis.logs.LogError : the vessel is of a kind that is not drawn, or its file cannot be read.
     """
     vessel = run.parameters.get("vessel")
     if vessel and vessel["shape"] == "tube":

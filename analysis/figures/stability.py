@@ -60,8 +60,7 @@ def read_maps(folders: Mapping[str, Path]) -> tuple[list[Map], list[dict[str, st
 
     Raises
     ------
-    LogError
-        A table is missing, or has no frontier where there should be one.
+    LogError : a table is missing, or has no frontier where there should be one.
     """
     found = {name: read_frontiers(folders[name]) for name in STUDIES[:4]}
     for name, points in found.items():
