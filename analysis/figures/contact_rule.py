@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun, read_wire
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, span
 from analysis.gain import RULES
 from analysis.runs import read_study
@@ -91,9 +91,7 @@ def draw_contact_rule(rests: list[Rest]) -> tuple[Figure, str]:
     panels["depth"].set(xlabel="position $s$ of the contact (element lengths)", ylabel="depth at the end (units)")
     panels["depth"].set_ylim(bottom=min(0.0, panels["depth"].dataLim.y0))
     panels["depth"].legend(loc="best")
-    caption = contact_rule_caption(rests)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, contact_rule_caption(rests))
 
 
 _NAMES = {"barycentric": "lever rule", "thesis": RULES["thesis"]}

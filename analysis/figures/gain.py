@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import beside, number, percent, span
 from analysis.gain import RULES, GainRow, GainTable
 
@@ -53,9 +53,7 @@ def draw_gain(name: str, scene: str, table: GainTable) -> tuple[Figure, str]:
         panels[panel].set_xlabel("number of rod elements $n$")
         panels[panel].set_ylim(bottom=0.0)
     panels["d"].legend(loc="upper left", fontsize=7)
-    caption = gain_caption(name, scene, table)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, gain_caption(name, scene, table))
 
 
 def _counts(highest: int):

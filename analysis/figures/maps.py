@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent
 from analysis.logs import LogError, read_log
 from analysis.runs import Run, read_runs
@@ -183,9 +183,7 @@ def draw_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
         letter(axes, name, view.title)
         draw_map(axes, view, found[view.study])
     draw_classes(panels[7])
-    caption = _caption(found)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _caption(found))
 
 
 def draw_classes(axes: Axes, more: Sequence[str] = ()) -> None:

@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent
 from analysis.logs import LogError
 from analysis.stability import (
@@ -151,9 +151,7 @@ def draw_stability(folders: Mapping[str, Path]) -> tuple[Figure, str]:
     letter(panels[4], "e", "direct, long steps")
     _draw_long_steps(panels[4], long_steps)
     panels[5].axis("off")
-    caption = _caption(maps, long_steps)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _caption(maps, long_steps))
 
 
 def _draw_map(axes: Axes, drawn: Map) -> None:
