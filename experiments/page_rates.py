@@ -51,8 +51,8 @@ def main() -> None:
             command = [node, str(ROOT / "experiments" / "page_rates.mjs"), str(modules.parent), browser]
             for views, shown in VIEWS.items():
                 seen = watch(Path(folder) / f"{name}.json", command, views)
-                print(f"{name} (60 elements, {len(mesh.triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a second,"
-                      f" each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
+                print(f"{name} (60 elements, {len(mesh.triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a"
+                      f" second, each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
                       f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
 
 

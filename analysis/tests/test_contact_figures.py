@@ -162,7 +162,8 @@ def test_the_section_of_a_box_is_its_outline(tmp_path: Path) -> None:
 
 def test_the_section_of_a_plane_is_a_line_and_a_mesh_that_is_gone_is_told() -> None:
     axes = Figure().add_subplot()
-    draw_surroundings(axes, Run(Path(), {"vessel": {"shape": "plane", "point": [7, 10, 5], "normal": [0, 4, -3]}}, None))
+    plane = {"shape": "plane", "point": [7, 10, 5], "normal": [0, 4, -3]}
+    draw_surroundings(axes, Run(Path(), {"vessel": plane}, None))
     (ends,) = axes.collections[0].get_segments()
     np.testing.assert_allclose((ends - [5, 10]) @ [-3, 4], 0.0, atol=1e-9)
     assert np.linalg.norm(ends[1] - ends[0]) == pytest.approx(2000.0)

@@ -175,7 +175,8 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
         claims.append("the wire is outside where it leaves its sheath")
     start = float((positions[0, -1] - exit_at) @ along)  # of the wire out of the sheath, mm
     return [*claims, *_depth(vessel, scene, summary, positions, body, bool(crossing.any())),
-            *_drive_claims(scene, summary, positions), *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]))]
+            *_drive_claims(scene, summary, positions),
+            *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]))]
 
 
 def _depth(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, body: np.ndarray,
