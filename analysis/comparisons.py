@@ -44,24 +44,15 @@ class ComparedRun:
 
     Attributes
     ----------
-    value : float
-        Of the parameter that the study varies, in its unit.
-    run : Run
-        Its run.
-    arc_length : ndarray, shape (s,)
-        Of its spheres, in units.
-    end_positions : ndarray, shape (s, 3)
-        At the reference's end, in units.
-    end_distance : ndarray, shape (s,)
-        To the reference at its end, in units.
-    mean_distance : float
-        Over spheres and entries up to the reference's end, at the same in-game time, in units.
-    step_distance : float
-        Over spheres and the steps that all runs have, at the same step number, in units.
-    other_distances : tuple of float
-        As ``mean_distance``, to the other runs of the reference's study.
-    swing : float
-        Highest minus lowest y of the last sphere over the same steps, in units.
+    value : of the parameter that the study varies, in its unit.
+    run : its run.
+    arc_length : (s,), of its spheres, in units.
+    end_positions : (s, 3), at the reference's end, in units.
+    end_distance : (s,), to the reference at its end, in units.
+    mean_distance : over spheres and entries up to the reference's end, at the same in-game time, in units.
+    step_distance : over spheres and the steps that all runs have, at the same step number, in units.
+    other_distances : as ``mean_distance``, to the other runs of the reference's study.
+    swing : highest minus lowest y of the last sphere over the same steps, in units.
     """
 
     value: float
@@ -81,18 +72,12 @@ class ComparisonTable:
 
     Attributes
     ----------
-    study, key : str
-        What was varied.
-    rows : tuple of ComparedRun
-        Runs that last as long as the reference.
-    reference : WireRun
-        What they are compared with.
-    others : tuple of WireRun
-        The other runs of the reference's study.
-    common_steps : int
-        Step up to which runs are compared step by step.
-    missing : tuple of str
-        Names of the runs that left nothing to read or ended before the reference, with the reason.
+    study, key : what was varied.
+    rows : runs that last as long as the reference.
+    reference : what they are compared with.
+    others : the other runs of the reference's study.
+    common_steps : step up to which runs are compared step by step.
+    missing : names of the runs that left nothing to read or ended before the reference, with the reason.
     """
 
     study: str
@@ -113,8 +98,7 @@ def read_reference(folder: Path) -> tuple[WireRun, ...]:
 
     Raises
     ------
-    LogError
-        The reference left no log.
+    LogError : the reference left no log.
     """
     study = read_study(folder)
     if not study.untimed or study.missing:
@@ -132,17 +116,13 @@ def read_comparison(folder: Path, reference_folder: Path, key: str, proportional
 
     Parameters
     ----------
-    folder, reference_folder : Path
-        Folders of the two studies.
-    key : str
-        The parameter that the study varies.
-    proportional : bool
-        Scale every motion to the reference's displacement first.
+    folder, reference_folder : folders of the two studies.
+    key : the parameter that the study varies.
+    proportional : scale every motion to the reference's displacement first.
 
     Raises
     ------
-    LogError
-        A file cannot be read, the study varies more than ``key``, or no run lasts as long as the reference.
+    LogError : a file cannot be read, the study varies more than ``key``, or no run lasts as long as the reference.
     """
     reference, *others = read_reference(reference_folder)
     study = read_study(folder)

@@ -27,14 +27,10 @@ class Trajectory:
 
     Attributes
     ----------
-    steps : ndarray of int64, shape (k,)
-        Ascending.
-    time : ndarray of float64, shape (k,)
-        In-game time in s, ascending.
-    arc_length : ndarray of float64, shape (s,)
-        Of each sphere, from the first one along the undeformed wire, in units, ascending.
-    positions : ndarray of float64, shape (k, s, 3)
-        In units.
+    steps : (k,) of int, ascending.
+    time : (k,), in-game time in s, ascending.
+    arc_length : (s,), of each sphere, from the first one along the undeformed wire, in units, ascending.
+    positions : (k, s, 3), in units.
     """
 
     steps: np.ndarray
@@ -49,14 +45,10 @@ class Distances:
 
     Attributes
     ----------
-    steps : ndarray of int64, shape (k,)
-        Steps of the run.
-    time : ndarray of float64, shape (k,)
-        In-game time of the run, in s.
-    arc_length : ndarray of float64, shape (s,)
-        Of the run's spheres, in units.
-    values : ndarray of float64, shape (k, s)
-        In units.
+    steps : (k,) of int, steps of the run.
+    time : (k,), in-game time of the run, in s.
+    arc_length : (s,), of the run's spheres, in units.
+    values : (k, s), in units.
     """
 
     steps: np.ndarray
@@ -86,12 +78,9 @@ def at_arc_length(positions: np.ndarray, arc_length: np.ndarray, wanted: np.ndar
 
     Parameters
     ----------
-    positions : ndarray, shape (..., s, 3)
-        In units.
-    arc_length : ndarray, shape (s,)
-        Of these spheres, ascending, in units.
-    wanted : ndarray, shape (q,)
-        In units, within the wire.
+    positions : (..., s, 3), in units.
+    arc_length : (s,), of these spheres, ascending, in units.
+    wanted : (q,), in units, within the wire.
 
     Returns
     -------
@@ -100,8 +89,7 @@ def at_arc_length(positions: np.ndarray, arc_length: np.ndarray, wanted: np.ndar
 
     Raises
     ------
-    DistanceError
-        An arc length beyond the ends.
+    DistanceError : an arc length beyond the ends.
     """
     slack = _SAME * max(abs(arc_length[0]), abs(arc_length[-1]))
     if np.min(wanted) < arc_length[0] - slack or np.max(wanted) > arc_length[-1] + slack:
@@ -117,16 +105,13 @@ def distances(run: Trajectory, reference: Trajectory, match: str = "time") -> Di
 
     Parameters
     ----------
-    run, reference : Trajectory
-        The runs to compare.
-    match : "time" or "step"
-        Compare at the same in-game time (the reference is interpolated linearly between its steps) or at the same
-        step number.
+    run, reference : the runs to compare.
+    match : "time" or "step": compare at the same in-game time (the reference is interpolated linearly between its
+        steps) or at the same step number.
 
     Raises
     ------
-    DistanceError
-        The two have no moment in common, or the run has spheres beyond the reference's ends.
+    DistanceError : the two have no moment in common, or the run has spheres beyond the reference's ends.
     """
     if match == "time":
         end = reference.time[-1] + _SAME * max(abs(reference.time[-1]), abs(run.time[-1]))

@@ -10,12 +10,9 @@ def displacement_errors(positions: np.ndarray, rest: np.ndarray, displacement: n
 
     Parameters
     ----------
-    positions : ndarray, shape (..., s, 3)
-        In units.
-    rest : ndarray, shape (s, 3)
-        Positions before the first sphere was displaced, in units.
-    displacement : ndarray, shape (3,)
-        In units.
+    positions : (..., s, 3), in units.
+    rest : (s, 3), positions before the first sphere was displaced, in units.
+    displacement : (3,), in units.
 
     Returns
     -------
@@ -43,12 +40,9 @@ def steady_state_entry(prediction_error: np.ndarray, threshold: float, hold: int
 
     Parameters
     ----------
-    prediction_error : ndarray, shape (k,)
-        Delta_p of every step, in units. A thinned log cannot be judged in this way.
-    threshold : float
-        epsilon, in units.
-    hold : int
-        Number of successive entries.
+    prediction_error : (k,), Delta_p of every step, in units. A thinned log cannot be judged in this way.
+    threshold : epsilon, in units.
+    hold : number of successive entries.
 
     Returns
     -------

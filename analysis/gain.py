@@ -5,13 +5,11 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
-import numpy as np
-
 from analysis.comparisons import WireRun, read_wire
 from analysis.distances import distances
 from analysis.logs import LogError
 from analysis.passages import Wall, count_passages
-from analysis.runs import read_study
+from analysis.runs import busiest, read_study
 from analysis.surfaces import read_obj
 from analysis.tables import Spread
 
@@ -24,22 +22,15 @@ class GainRow:
 
     Attributes
     ----------
-    rule : str
-        Its elementContact.
-    elements : int
-        n.
-    wire : WireRun
-        The run and its motion.
-    mean_distance : float or None
-        To the reference, over spheres and steps, in units; None where the run did not last as long.
-    passages : int
-        As the run counted them.
-    counted_again : int or None
-        By winding numbers; None where that was not done.
-    step_time : Spread or None
-        Median wall time of a step in each timed repeat, in ms.
-    others_busy : float or None
-        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
+    rule : its elementContact.
+    elements : n.
+    wire : the run and its motion.
+    mean_distance : to the reference, over spheres and steps, in units; None where the run did not last as long.
+    passages : as the run counted them.
+    counted_again : from the log; None where that was not done.
+    step_time : median wall time of a step in each timed repeat, in ms.
+    others_busy : processors that other programs kept busy beside the repeat that they disturbed most; None where nobody
+        looked.
     """
 
     rule: str
@@ -74,15 +65,12 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
 
     Parameters
     ----------
-    folder : Path
-        The study's folder.
-    count_again : int
-        Count passages through a mesh by winding numbers too, for runs of at most so many elements.
+    folder : the study's folder.
+    count_again : count passages through a mesh from the logs too, for runs of at most so many elements.
 
     Raises
     ------
-    LogError
-        A file cannot be read, or the study has no finished run with element contact.
+    LogError : a file cannot be read, or the study has no finished run with element contact.
     """
     study = read_study(folder)
     wires = [read_wire(run) for run in study.untimed]
@@ -97,7 +85,6 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
     for wire in wires:
         elements = int(wire.run.number("numberRodElements"))
         repeats = study.timed(wire.run.key)
-        loads = [repeat.others_busy for repeat in repeats if repeat.others_busy is not None]
         rows.append(GainRow(
             rule=wire.run.value("elementContact"),
             elements=elements,
@@ -106,7 +93,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
             passages=int(wire.run.measured("passages")),
             counted_again=_count_again(wire) if elements <= count_again else None,
             step_time=Spread.of([repeat.measured("medianStepTime") for repeat in repeats]),
-            others_busy=max(loads, default=None),
+            others_busy=busiest(repeats),
         ))
     rows.sort(key=lambda row: row.elements)
     return GainTable(tuple(rows), next(row for row in rows if row.wire is finest))

@@ -17,18 +17,12 @@ class HubLog:
 
     Attributes
     ----------
-    time : ndarray, shape (k,)
-        In s.
-    insertion, turn : ndarray, shape (k,)
-        Way of the hub along its axis, m, and turn about it, rad, since the start.
-    force, torque : ndarray, shape (k,)
-        Of the hub on the wire, N and N m; a push is positive.
-    twist : ndarray, shape (k,)
-        Of the wire from hub to tip, rad.
-    largest_curvature : ndarray, shape (k,)
-        Of any joint, 1/m.
-    tip, tip_direction : ndarray, shape (k, 3)
-        In units; a unit vector.
+    time : (k,), in s.
+    insertion, turn : (k,), way of the hub along its axis, m, and turn about it, rad, since the start.
+    force, torque : (k,), of the hub on the wire, N and N m; a push is positive.
+    twist : (k,), of the wire from hub to tip, rad.
+    largest_curvature : (k,), of any joint, 1/m.
+    tip, tip_direction : (k, 3), in units; a unit vector.
     """
 
     time: np.ndarray
@@ -51,8 +45,7 @@ def read_hub(path: Path) -> HubLog:
 
     Raises
     ------
-    LogError
-        The log cannot be read, or says nothing of the hub.
+    LogError : the log cannot be read, or says nothing of the hub.
     """
     rows: dict[str, list] = {field.name: [] for field in fields(HubLog)}
     for _, entry in read_entries(path):
@@ -79,8 +72,7 @@ def snap_turns(turn: np.ndarray, torque: np.ndarray) -> tuple[np.ndarray, np.nda
 
     Parameters
     ----------
-    turn, torque : ndarray, shape (k,)
-        In rad and in any unit.
+    turn, torque : (k,), in rad and in any unit.
 
     Returns
     -------

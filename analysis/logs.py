@@ -36,31 +36,20 @@ class PositionLog:
 
     Attributes
     ----------
-    source : Path
-        The file read.
-    steps : ndarray of int64, shape (k,)
-        Step numbers; entry 0 is the start, after the first sphere's displacement (with direct between walls before it).
-    time, elapsed : ndarray of float64, shape (k,)
-        In-game time and real time since the start of the run, both in seconds.
-    prediction_error : ndarray of float64, shape (k,)
-        Delta_p of the last sphere, in units.
-    spheres : ndarray of int64, shape (s,)
-        Indices of the spheres kept, ascending.
-    positions : ndarray of float64, shape (k, s, 3)
-        In units.
-    velocities : ndarray of float64, shape (k, s, 3), or None
-        In units/s; None unless asked for.
-    final_step : int
-        The last whole step in the file, also where thinning skips it.
-    final_spheres : ndarray of int64, shape (f,)
-        Indices of all spheres that the last whole step states, whatever ``spheres`` asked for.
-    final_positions : ndarray of float64, shape (f, 3)
-        Their positions, in units.
-    catheters : tuple of ndarray of float64, shape (k, m+1, 3)
-        Positions of the nodes of each catheter over the wire, outermost first, in units; none unless all spheres were
-        asked for.
-    warning : str or None
-        One line where the log ends before the run did; what was read then goes up to the last whole step.
+    source : the file read.
+    steps : (k,) of int, step numbers; entry 0 is the start, after the first sphere's displacement (with direct between
+        walls before it).
+    time, elapsed : (k,), in-game time and real time since the start of the run, both in seconds.
+    prediction_error : (k,), Delta_p of the last sphere, in units.
+    spheres : (s,) of int, indices of the spheres kept, ascending.
+    positions : (k, s, 3), in units.
+    velocities : (k, s, 3), in units/s; None unless asked for.
+    final_step : the last whole step in the file, also where thinning skips it.
+    final_spheres : (f,) of int, indices of all spheres that the last whole step states, whatever ``spheres`` asked for.
+    final_positions : (f, 3), their positions, in units.
+    catheters : (k, m+1, 3) each, positions of the nodes of each catheter over the wire, outermost first, in units; none
+        unless all spheres were asked for.
+    warning : one line where the log ends before the run did; what was read then goes up to the last whole step.
     """
 
     source: Path
@@ -112,19 +101,14 @@ def read_log(
 
     Parameters
     ----------
-    path : Path
-        The log or the run folder.
-    spheres : "last", "all" or a sequence of int
-        Which spheres' positions to keep.
-    every : int
-        Keep the entries whose step number is a multiple of this.
-    velocities : bool
-        Keep the velocities of these spheres too.
+    path : the log or the run folder.
+    spheres : "last", "all" or a sequence of int: which spheres' positions to keep.
+    every : keep the entries whose step number is a multiple of this.
+    velocities : keep the velocities of these spheres too.
 
     Raises
     ------
-    LogError
-        The file is missing, is not a log, holds no whole step, or lacks a sphere that was asked for.
+    LogError : the file is missing, is not a log, holds no whole step, or lacks a sphere that was asked for.
     """
     if every < 1:
         raise ValueError(f"every = {every}: must be at least 1")
@@ -148,8 +132,7 @@ def read_entries(path: Path) -> Iterator[tuple[int, dict]]:
 
     Raises
     ------
-    LogError
-        The file is missing, is not a log or holds no whole step.
+    LogError : the file is missing, is not a log or holds no whole step.
     """
     source = find_log(path)
     if _is_of_arrays(source):

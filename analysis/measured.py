@@ -26,10 +26,8 @@ class ComparedForce:
 
     Attributes
     ----------
-    time, measured, run : ndarray, shape (k,)
-        s, N, N; the run's at the measured times.
-    left_out : int
-        Measured values before the run's start or after its end.
+    time, measured, run : (k,), s, N, N; the run's at the measured times.
+    left_out : measured values before the run's start or after its end.
     """
 
     time: np.ndarray
@@ -57,16 +55,11 @@ class ComparedShapes:
 
     Attributes
     ----------
-    time : ndarray, shape (k,)
-        Of each shape, s.
-    measured : tuple of ndarray, shape (p, 3)
-        Points of each.
-    run : ndarray, shape (k, n + 1, 3)
-        The run's nodes at these times.
-    distances : tuple of ndarray, shape (p,)
-        Of each point from the line through the nodes at its time.
-    left_out : int
-        Shapes before the run's start or after its end.
+    time : (k,), of each shape, s.
+    measured : (p, 3) each, their points.
+    run : (k, n + 1, 3), the run's nodes at these times.
+    distances : (p,) each, of each point from the line through the nodes at its time.
+    left_out : shapes before the run's start or after its end.
     """
 
     time: np.ndarray
@@ -88,8 +81,7 @@ def compare(folder: Path, file: Path) -> ComparedForce | ComparedShapes:
 
     Raises
     ------
-    LogError
-        The file or the run cannot be read, the run does not log what was measured, or no time lies within it.
+    LogError : the file or the run cannot be read, the run does not log what was measured, or no time lies within it.
     """
     rows = _read(file)
     if rows.shape[1] == 2:

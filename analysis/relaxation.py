@@ -26,16 +26,11 @@ class Relaxation:
 
     Attributes
     ----------
-    amplitude, amplitude_error : float
-        zeta0 and its standard error from the fit, in units.
-    time, time_error : float
-        tau and its standard error from the fit, in s.
-    period : float
-        Mean period of the oscillation, in s.
-    peak_entries : ndarray of int64, shape (p,)
-        Indices of the peaks in the series given.
-    peak_times, peak_heights : ndarray of float64, shape (p,)
-        In s and units.
+    amplitude, amplitude_error : zeta0 and its standard error from the fit, in units.
+    time, time_error : tau and its standard error from the fit, in s.
+    period : mean period of the oscillation, in s.
+    peak_entries : (p,) of int, indices of the peaks in the series given.
+    peak_times, peak_heights : (p,), in s and units.
     """
 
     amplitude: float
@@ -62,12 +57,9 @@ def relaxation_error(positions: np.ndarray, rest: np.ndarray, displacement: np.n
 
     Parameters
     ----------
-    positions : ndarray, shape (k, 3)
-        One sphere over time, in units.
-    rest : ndarray, shape (3,)
-        Its position before the first sphere was displaced, in units.
-    displacement : ndarray, shape (3,)
-        In units.
+    positions : (k, 3), one sphere over time, in units.
+    rest : (3,), its position before the first sphere was displaced, in units.
+    displacement : (3,), in units.
 
     Returns
     -------
@@ -88,15 +80,12 @@ def fit_relaxation(time: np.ndarray, error: np.ndarray) -> Relaxation:
 
     Parameters
     ----------
-    time : ndarray, shape (k,)
-        In s, ascending.
-    error : ndarray, shape (k,)
-        Distance from the new rest, in units, not negative.
+    time : (k,), in s, ascending.
+    error : (k,), distance from the new rest, in units, not negative.
 
     Raises
     ------
-    RelaxationError
-        Fewer than three peaks, values that are not finite, or no fit.
+    RelaxationError : fewer than three peaks, values that are not finite, or no fit.
     """
     if not np.all(np.isfinite(error)):
         raise RelaxationError("the motion is not finite")

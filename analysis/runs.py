@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
@@ -26,19 +26,13 @@ class Run:
 
     Attributes
     ----------
-    folder : Path
-        Where the run stands.
-    parameters : mapping of str to Any
-        All effective values, by key.
-    summary : mapping of str to Any, or None
-        summary.json; None where the run was killed before it could be written.
-    key, repeat : str, int or None
-        From the study's table where the run belongs to one: the run's name, and the number of the timed repeat (None
-        for a run that is not timed).
-    variant, values : str, mapping of str to number, bool or str
-        From the same: name of the variant, empty where there is none, and the values of the axes by key.
-    repeat_folders : tuple of Path
-        Where its timed repeats stand, in their order, where they were asked for.
+    folder : where the run stands.
+    parameters : all effective values, by key.
+    summary : summary.json; None where the run was killed before it could be written.
+    key, repeat : from the study's table where the run belongs to one: the run's name, and the number of the timed
+        repeat (None for a run that is not timed).
+    variant, values : from the same: name of the variant, empty where there is none, and the values of the axes by key.
+    repeat_folders : where its timed repeats stand, in their order, where they were asked for.
     """
 
     folder: Path
@@ -107,6 +101,11 @@ class Run:
         return rest
 
 
+def busiest(repeats: Iterable[Run]) -> float | None:
+    """What others kept busy beside the repeat that they disturbed most; None where nobody looked."""
+    return max((busy for repeat in repeats if (busy := repeat.others_busy) is not None), default=None)
+
+
 @dataclass(frozen=True)
 class StudyRuns:
     """The runs of one study, in the order of its table, without those that left no log."""
@@ -137,8 +136,7 @@ class StudyRuns:
 
         Raises
         ------
-        LogError
-            The study varies something else too, or instead.
+        LogError : the study varies something else too, or instead.
         """
         varied = [*self.axes, *(["variants"] if len({run.variant for run in self.untimed}) > 1 else [])]
         if self.runs and varied != [key]:
@@ -159,8 +157,8 @@ def read_run(
 
     Raises
     ------
-    LogError
-        parameters.json is missing, one of the two files is not a JSON object, or they are of a format newer than FORMAT.
+    LogError : parameters.json is missing, one of the two files is not a JSON object, or they are of a format newer than
+        FORMAT.
     """
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
@@ -185,8 +183,7 @@ def read_runs(folder: Path) -> dict[str, Run]:
 
     Raises
     ------
-    LogError
-        The table, or a small file of a run, cannot be read.
+    LogError : the table, or a small file of a run, cannot be read.
     """
     runs: dict[str, Run] = {}
     repeats: dict[str, dict[int, Path]] = {}

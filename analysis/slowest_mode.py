@@ -33,13 +33,10 @@ class SlowestMode:
 
     Attributes
     ----------
-    relaxation_time, period : float
-        tau and T, in s.
-    steady_state_time : float
-        When the envelope of the prediction error falls below the threshold, in s; 0 where it never was above, infinite
-        without a threshold.
-    effective_gain : float
-        2 gamma, the fraction of a link's stretch that an iteration takes out, dimensionless.
+    relaxation_time, period : tau and T, in s.
+    steady_state_time : when the envelope of the prediction error falls below the threshold, in s; 0 where it never was
+        above, infinite without a threshold.
+    effective_gain : 2 gamma, the fraction of a link's stretch that an iteration takes out, dimensionless.
     """
 
     relaxation_time: float

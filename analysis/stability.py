@@ -38,12 +38,9 @@ class Frontier:
     Attributes
     ----------
     variant : str
-    values : mapping of str to float
-        Of the grid's axes, by key.
-    low, high : float
-        Neighbouring values of the parameter, one of which holds; not numbers where there is no frontier.
-    fails : str
-        Outcome of the run that does not hold.
+    values : of the grid's axes, by key.
+    low, high : neighbouring values of the parameter, one of which holds; not numbers where there is no frontier.
+    fails : outcome of the run that does not hold.
     """
 
     variant: str
@@ -63,8 +60,7 @@ def read_frontiers(folder: Path) -> list[Frontier]:
 
     Raises
     ------
-    LogError
-        There is no such table, or it has other columns.
+    LogError : there is no such table, or it has other columns.
     """
     found = []
     for row in _read(folder / FRONTIER):
@@ -138,10 +134,8 @@ def lost_turns(elements: int, sweeps: int, part: float, turns: np.ndarray, steps
     Parameters
     ----------
     elements, sweeps : int
-    part : float
-        Of a small angle that a joint takes from each of its elements, bend gain over l.
-    turns : ndarray, shape (k,)
-        Rad a step.
+    part : of a small angle that a joint takes from each of its elements, bend gain over l.
+    turns : (k,), rad a step.
     steps : int
 
     Returns

@@ -16,22 +16,14 @@ class StressLog:
 
     Attributes
     ----------
-    time : ndarray, shape (k,)
-        In s.
-    positions : ndarray, shape (k, n+1, 3)
-        In units.
-    curvature : ndarray, shape (k, n+1, 3)
-        Curvature about d1 and d2 and twist at each joint, rad/m.
-    couple : ndarray, shape (k, n+1, 3)
-        At each joint, N m, along the world's axes.
-    strain : ndarray, shape (k, n, 3)
-        Shear along d1 and d2 and stretch of each element.
-    force : ndarray, shape (k, n, 3)
-        In each element, N, along the world's axes.
-    angular_velocity : ndarray, shape (k, n, 3)
-        Of each element along its own axes, rad/s.
-    energy : ndarray, shape (k, 3)
-        Kinetic, elastic and potential, J.
+    time : (k,), in s.
+    positions : (k, n+1, 3), in units.
+    curvature : (k, n+1, 3), curvature about d1 and d2 and twist at each joint, rad/m.
+    couple : (k, n+1, 3), at each joint, N m, along the world's axes.
+    strain : (k, n, 3), shear along d1 and d2 and stretch of each element.
+    force : (k, n, 3), in each element, N, along the world's axes.
+    angular_velocity : (k, n, 3), of each element along its own axes, rad/s.
+    energy : (k, 3), kinetic, elastic and potential, J.
     """
 
     time: np.ndarray
@@ -65,8 +57,7 @@ def read_stress(path: Path, every: int = 1) -> StressLog:
 
     Raises
     ------
-    LogError
-        The log cannot be read, or holds no stress or not all spheres.
+    LogError : the log cannot be read, or holds no stress or not all spheres.
     """
     rows: dict[str, list] = {field.name: [] for field in fields(StressLog)}
     for index, (_, entry) in enumerate(read_entries(path)):

@@ -6,19 +6,12 @@ The wire's curve is the one that the Unity scene draws: a cubic through all sphe
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
 
 import numpy as np
 
-
-MESHES = Path(__file__).resolve().parent.parent / "params" / "meshes"
-
-
-class SurfaceError(Exception):
-    """A wall that cannot be drawn. The message is one line."""
+from analysis.logs import LogError
 
 
 @dataclass(frozen=True)
@@ -92,7 +85,7 @@ def tube(positions: np.ndarray, radius: float, per_element: int = 4, sides: int 
         normal /= np.linalg.norm(normal)
         around = np.outer(np.cos(turn), normal) + np.outer(np.sin(turn), np.cross(tangent, normal))
         vertices[ring] = centre + radii[ring] * around
-    return Surface(vertices.reshape(-1, 3), _strips(len(centres), sides, outward=True), np.repeat(values, sides))
+    return Surface(vertices.reshape(-1, 3), _strips(len(centres), sides), np.repeat(values, sides))
 
 
 def refine(surface: Surface, longest: float) -> Surface:
@@ -115,53 +108,11 @@ def refine(surface: Surface, longest: float) -> Surface:
     return Surface(vertices, triangles.reshape(-1, 3), np.zeros(len(vertices)))
 
 
-def wall(parameters: Mapping[str, Any], middle: np.ndarray, reach: float) -> Surface | None:
-    """The vessel that a run's parameters name, facing the lumen; None where there is none.
-
-    Parameters
-    ----------
-    parameters : a run's effective values; a mesh's file stands there as the run's own folder saw it.
-    middle : ndarray (3,), units: middle of the patch that is drawn of a plane.
-    reach : units: half the side of that patch.
-    """
-    vessel = parameters.get("vessel")
-    if not vessel:
-        return None
-    placed = any(parameters.get(key) not in (None, rest) for key, rest in
-                 (("position", [0, 0, 0]), ("rotation", [0, 0, 0]), ("scale", [1, 1, 1])))
-    if placed:
-        raise SurfaceError("a vessel that is moved, turned or scaled is not drawn")
-    if vessel["shape"] == "mesh":
-        return read_obj(_find(Path(vessel["file"])))
-    if vessel["shape"] == "plane":
-        return plane(np.asarray(vessel.get("point", (0, 0, 0)), float), np.asarray(vessel["normal"], float), middle,
-                     reach)
-    raise SurfaceError(f"a vessel of shape {vessel['shape']} is not drawn")
-
-
-def _find(file: Path) -> Path:
-    """A mesh where its name says, seen from here, or by its bare name among the repository's."""
-    own = MESHES / file.name
-    return own if not file.is_file() and own.is_file() else file
-
-
-def plane(point: np.ndarray, normal: np.ndarray, middle: np.ndarray, reach: float) -> Surface:
-    """A square patch of a plane, facing its normal, ruled into a grid so that its slant is seen."""
-    normal = normal / np.linalg.norm(normal)
-    u = np.cross(normal, [1.0, 0.0, 0.0] if abs(normal[0]) < 0.9 else [0.0, 1.0, 0.0])
-    u /= np.linalg.norm(u)
-    v = np.cross(normal, u)
-    foot = middle - ((middle - point) @ normal) * normal
-    steps = np.linspace(-reach, reach, 13)
-    vertices = foot + steps[:, None, None] * u + steps[None, :, None] * v
-    count = len(steps)
-    a = (np.arange(count - 1)[:, None] * count + np.arange(count - 1)).ravel()
-    triangles = np.concatenate([np.stack([a, a + count, a + count + 1], 1), np.stack([a, a + count + 1, a + 1], 1)])
-    return Surface(vertices.reshape(-1, 3), triangles, np.zeros(count * count))
-
-
 def read_obj(path: Path) -> Surface:
-    """The triangles of an OBJ file, turned so that they face inwards (their signed volume is negative)."""
+    """The triangles of an OBJ file, turned so that they face inwards (their signed volume is negative).
+
+    Raises LogError where it cannot be read.
+    """
     vertices, triangles = [], []
     try:
         for line in path.read_text(encoding="utf-8").splitlines():
@@ -172,7 +123,7 @@ def read_obj(path: Path) -> Surface:
                 corners = [int(word.split("/")[0]) - 1 for word in words[1:]]
                 triangles += [[corners[0], corners[k], corners[k + 1]] for k in range(1, len(corners) - 1)]
     except (OSError, ValueError) as error:
-        raise SurfaceError(f"{path}: cannot be read: {error}") from error
+        raise LogError(f"{path}: cannot be read: {error}") from error
     points, faces = np.array(vertices), np.array(triangles)
     a, b, c = (points[faces[:, k]] - points.mean(axis=0) for k in range(3))
     if np.einsum("ij,ij->", a, np.cross(b, c)) > 0.0:
@@ -180,8 +131,7 @@ def read_obj(path: Path) -> Surface:
     return Surface(points, faces, np.zeros(len(points)))
 
 
-def _strips(rings: int, sides: int, outward: bool) -> np.ndarray:
+def _strips(rings: int, sides: int) -> np.ndarray:
     a = np.arange((rings - 1) * sides)
     b = np.where(a % sides == sides - 1, a + 1 - sides, a + 1)
-    triangles = np.concatenate([np.stack([a, b, a + sides], 1), np.stack([b, b + sides, a + sides], 1)])
-    return triangles if outward else triangles[:, ::-1]
+    return np.concatenate([np.stack([a, b, a + sides], 1), np.stack([b, b + sides, a + sides], 1)])

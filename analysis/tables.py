@@ -11,7 +11,7 @@ import numpy as np
 from analysis.errors import displacement_errors, steady_state_entry, total_error
 from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, RelaxationError, fit_relaxation, relaxation_error
-from analysis.runs import Run, read_study
+from analysis.runs import Run, busiest, read_study
 
 NO_STEADY_STATE = -1  # summary.json's steadyStateStep where the run never held still
 
@@ -39,28 +39,18 @@ class StudyRow:
 
     Attributes
     ----------
-    value : float
-        Of the parameter that the study varies, in its unit.
-    run : Run
-        The run whose positions were measured.
-    relaxation : Relaxation or None
-        None where the motion has no relaxation time; ``no_relaxation`` then says why.
-    steps : int
-        Steps of the run in all.
-    steady_state_step : int or None
-        None where the run never held still.
-    time_step : float
-        In s.
-    total_error : float or None
-        Delta_x at the last step, eq. 4.4, in units; None where the log does not state all spheres.
-    step_time : Spread or None
-        Average wall time of a step of each timed repeat, in ms.
-    computation_time : Spread or None
-        Wall time up to the steady state of each timed repeat, in s; None also without a steady state.
-    others_busy : float or None
-        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
-    warning : str or None
-        What the log's reader had to say.
+    value : of the parameter that the study varies, in its unit.
+    run : the run whose positions were measured.
+    relaxation : None where the motion has no relaxation time; ``no_relaxation`` then says why.
+    steps : steps of the run in all.
+    steady_state_step : None where the run never held still.
+    time_step : in s.
+    total_error : Delta_x at the last step, eq. 4.4, in units; None where the log does not state all spheres.
+    step_time : average wall time of a step of each timed repeat, in ms.
+    computation_time : wall time up to the steady state of each timed repeat, in s; None also without a steady state.
+    others_busy : processors that other programs kept busy beside the repeat that they disturbed most; None where nobody
+        looked.
+    warning : what the log's reader had to say.
     """
 
     value: float
@@ -110,15 +100,13 @@ def read_table(folder: Path, key: str) -> StudyTable:
 
     Parameters
     ----------
-    folder : Path
-        The study's folder.
-    key : str
-        The parameter that it varies.
+    folder : the study's folder.
+    key : the parameter that it varies.
 
     Raises
     ------
-    LogError
-        The study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it was run.
+    LogError : the study, or a file of one of its runs, cannot be read, it varies more than ``key``, or nothing of it
+        was run.
     """
     study = read_study(folder)
     study.required()
@@ -150,7 +138,7 @@ def _measure(run: Run, repeats: Sequence[Run], value: float) -> StudyRow:
         total_error=_total_error(run, log),
         step_time=Spread.of([repeat.measured("averageStepTime") for repeat in repeats]),
         computation_time=None if steady is None else Spread.of([_elapsed(repeat, steady) for repeat in repeats]),
-        others_busy=max((busy for busy in (repeat.others_busy for repeat in repeats) if busy is not None), default=None),
+        others_busy=busiest(repeats),
         warning=log.warning,
     )
 

@@ -17,12 +17,9 @@ class Twist:
     Attributes
     ----------
     steps : ndarray of int64
-    base : ndarray
-        Turn of element 0 about its own axis since the start, as the drive asked, in radians.
-    tip : ndarray
-        The same of the last element: the base's and what each joint is twisted, in radians.
-    bend : ndarray
-        Sum of the joints' bending angles, in radians.
+    base : turn of element 0 about its own axis since the start, as the drive asked, in radians.
+    tip : the same of the last element: the base's and what each joint is twisted, in radians.
+    bend : sum of the joints' bending angles, in radians.
     """
 
     steps: np.ndarray
@@ -36,8 +33,7 @@ def joint_angles(orientations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
     Parameters
     ----------
-    orientations : ndarray, shape (..., n, 4)
-        Unit quaternions x, y, z, w; the element lies along the third axis of its frame.
+    orientations : (..., n, 4), unit quaternions x, y, z, w; the element lies along the third axis of its frame.
 
     Returns
     -------
@@ -59,8 +55,7 @@ def read_twist(run: Run) -> Twist:
 
     Raises
     ------
-    LogError
-        The log cannot be read or holds no orientations.
+    LogError : the log cannot be read or holds no orientations.
     """
     entries = dict(read_entries(run.folder))
     try:

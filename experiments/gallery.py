@@ -29,20 +29,14 @@ from analysis.validation.report import (
 )
 from experiments.whole_files import whole_file, write_whole
 from studies.bisection import FRONTIER
-from experiments.whole_files import whole_file, write_whole
 from studies.builtin import STUDIES
-from experiments.whole_files import whole_file, write_whole
 from studies.keys import RESULTS
-from experiments.whole_files import whole_file, write_whole
 from studies.quick import shortened
-from experiments.whole_files import whole_file, write_whole
 from studies.table import Study
 
 INDEX = "index.md"
 VALIDATION = "validation"
 CHART = "chart"
-
-
 _Beside = Callable[[Mapping[str, Path], Path], None]  # writes one file from the runs of a figure's studies
 
 
@@ -52,12 +46,9 @@ class Catalogue:
 
     Attributes
     ----------
-    specs : mapping of str to FigureSpec
-        By their numbers.
-    checked : mapping of str to tuple of Check
-        Of the figures that are drawn from checks, the checks of each.
-    studies : mapping of str to Study
-        That the others are drawn from.
+    specs : by their numbers.
+    checked : of the figures that are drawn from checks, the checks of each.
+    studies : that the others are drawn from.
     """
 
     specs: Mapping[str, FigureSpec]

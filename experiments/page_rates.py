@@ -18,23 +18,17 @@ from pathlib import Path
 import numpy as np
 
 from analysis.surfaces import read_obj
+from anatomy.centreline import cut_edges
+from anatomy.mesh import Edges, Mesh
+from experiments.campaigns.vessel import write_obj
 from experiments.prepare import ROOT
 from viewer import parts
 
 SCENES = ("insertion", "insertion-accurate")
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 SECONDS = 10
+_DIGITS = 9  # of the mesh's coordinates
 VIEWS = {"both": "X-ray and 3D", "xray": "X-ray", "space": "3D"}
-
-
-def refined(vertices: np.ndarray, triangles: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Vertices (v, 3) and triangles (4 t, 3) of a mesh whose edges are halved."""
-    edges = np.sort(np.concatenate([triangles[:, [0, 1]], triangles[:, [1, 2]], triangles[:, [2, 0]]]), axis=1)
-    pairs, at = np.unique(edges, axis=0, return_inverse=True)
-    ab, bc, ca = len(vertices) + at.reshape(3, -1)
-    a, b, c = triangles.T
-    finer = [np.stack(corners, axis=1) for corners in ((a, ab, ca), (ab, b, bc), (ca, bc, c), (ab, bc, ca))]
-    return np.concatenate([vertices, vertices[pairs].mean(axis=1)]), np.concatenate(finer)
 
 
 def main() -> None:
@@ -45,11 +39,11 @@ def main() -> None:
     if browser is None or node is None:
         sys.exit("page_rates: needs a browser and node: as root 'apt-get install chromium nodejs'")
     mesh = read_obj(ROOT / "params" / "meshes" / "arch.obj")
-    vertices, triangles = refined(mesh.vertices, mesh.triangles)
+    mesh = Mesh(mesh.vertices, mesh.triangles)
+    edges = Edges.of(mesh)
+    mesh = cut_edges(mesh, edges, np.ones(len(edges.ends), bool))
     with tempfile.TemporaryDirectory() as folder:
-        with open(Path(folder) / "arch.obj", "w", encoding="utf-8") as file:
-            file.writelines(f"v {x!r} {y!r} {z!r}\n" for x, y, z in vertices.tolist())
-            file.writelines(f"f {a} {b} {c}\n" for a, b, c in (triangles + 1).tolist())
+        write_obj(Path(folder) / "arch.obj", mesh.vertices, mesh.triangles, _DIGITS)
         for name in SCENES:
             scene = json.loads((ROOT / "params" / f"{name}.json").read_text(encoding="utf-8"))
             scene |= {"numberRodElements": 60, "vessel": scene["vessel"] | {"file": "arch.obj"}}
@@ -57,8 +51,8 @@ def main() -> None:
             command = [node, str(ROOT / "experiments" / "page_rates.mjs"), str(modules.parent), browser]
             for views, shown in VIEWS.items():
                 seen = watch(Path(folder) / f"{name}.json", command, views)
-                print(f"{name} (60 elements, {len(triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a second,"
-                      f" each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
+                print(f"{name} (60 elements, {len(mesh.triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a"
+                      f" second, each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
                       f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
 
 

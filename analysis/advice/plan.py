@@ -21,7 +21,7 @@ from analysis.advice import trials
 from analysis.advice.quantity import Quantity
 from analysis.advice.trials import Trial
 from analysis.logs import LogError, read_log
-from analysis.runs import Run, read_repeats
+from analysis.runs import Run, busiest, read_repeats
 from analysis.validation.check import Check
 from studies.table import Case
 
@@ -40,23 +40,15 @@ class Tried:
     Attributes
     ----------
     trial : Trial
-    error : float
-        Not a number where the run was lost or passed a wall.
-    moved : float
-        Distance of its answer from that of the file as it is, measured as an error is.
+    error : not a number where the run was lost or passed a wall.
+    moved : distance of its answer from that of the file as it is, measured as an error is.
     outcome : str
-    work : float
-        As `trials.work` counts it, over the whole run.
-    step : float or None
-        Wall time of a step in ms, median of the timed repeats; None where it was not timed.
-    total : float or None
-        Wall time of all steps, s, the same.
-    log : float or None
-        Wall time that the log took, ms a step, the same.
-    parameters : mapping of str to Any
-        All effective values.
-    others_busy : float or None
-        Processors that other programs kept busy beside the repeat that they disturbed most.
+    work : as `trials.work` counts it, over the whole run.
+    step : wall time of a step in ms, median of the timed repeats; None where it was not timed.
+    total : wall time of all steps, s, the same.
+    log : wall time that the log took, ms a step, the same.
+    parameters : all effective values.
+    others_busy : processors that other programs kept busy beside the repeat that they disturbed most.
     """
 
     trial: Trial
@@ -77,17 +69,13 @@ class Advice:
 
     Attributes
     ----------
-    scene : Tried
-        The file as it is.
+    scene : the file as it is.
     reference : Tried
-    reference_error : float
-        Of coarser runs of the reference's kind, the worst: what the reference is known to, or worse.
-    parts, searched : sequence of Tried
-        Parts left out, and all candidates.
-    taken : Tried or None
-        The cheapest that meets what was asked; None where none does, or where the reference has not converged to it.
-    results : tuple
-        No lines with gates.
+    reference_error : of coarser runs of the reference's kind, the worst: what the reference is known to, or worse.
+    parts, searched : parts left out, and all candidates.
+    taken : the cheapest that meets what was asked; None where none does, or where the reference has not converged to
+        it.
+    results : no lines with gates.
     """
 
     scene: Tried
@@ -235,9 +223,8 @@ def _with_times(tried: Tried, repeats: Sequence[Run]) -> Tried:
     totals = [repeat.measured("computationTime") for repeat in repeats]
     total = float(np.median(totals))
     log = float(np.median([repeat.measured("wallTime") for repeat in repeats])) - total
-    busy = [repeat.others_busy for repeat in repeats if repeat.others_busy is not None]
     return replace(tried, total=total, step=1e3 * total / steps, log=1e3 * max(log, 0.0) / steps,
-                   others_busy=max(busy, default=None))
+                   others_busy=busiest(repeats))
 
 
 def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: Wish) -> list[str]:

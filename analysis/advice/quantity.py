@@ -35,10 +35,8 @@ class Quantity:
 
     Attributes
     ----------
-    of : str
-        One of `NAMED`, or a number of summary.json, with points where it stands within something.
-    at : str
-        "run" or "end": from start to end, or at the end alone.
+    of : one of `NAMED`, or a number of summary.json, with points where it stands within something.
+    at : "run" or "end": from start to end, or at the end alone.
     """
 
     of: str = POSITION
@@ -145,8 +143,7 @@ def number_of(summary: Mapping[str, Any], name: str) -> float:
 
     Raises
     ------
-    LogError
-        There is none of this name; says which is nearest.
+    LogError : there is none of this name; says which is nearest.
     """
     numbers = _numbers(summary)
     if name not in numbers:

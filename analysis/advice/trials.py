@@ -34,10 +34,8 @@ class Trial:
 
     Attributes
     ----------
-    name : str
-        What is changed, for people.
-    changed : mapping of str to Any
-        Values laid over the scene's.
+    name : what is changed, for people.
+    changed : values laid over the scene's.
     """
 
     name: str

@@ -16,7 +16,7 @@ from analysis.chart.points import (
     FRAME, METHODS, TICK, Charted, Cost, milliseconds, repeats_in_words, seconds,
 )
 from analysis.chart.published import PUBLISHED
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import beside, number
 from analysis.validation.pictures import SOLVER_MARKERS
 
@@ -37,7 +37,7 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
     """Error against wall time per simulated second."""
     lines = ((1.0, "real time"),)
     figure = _panels(found, seconds, _COST, lines)
-    caption = (
+    return captioned(figure, (
         "Figure chart. Error against cost of every method. Cost: wall time of the steps per "
         f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
@@ -47,9 +47,7 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
         f"upper edge: settings that gave no result, at their cost. {_lost(found)}{_references(found)} pbd has no "
         f"material: {_gains(found)} On the bar its stretch stiffness is that of the springs; in the arch neither "
         f"stiffness nor mass affects the shape. {_absent(found)}"
-    )
-    add_caption(figure, caption)
-    return figure, caption
+    ))
 
 
 @styled
@@ -59,14 +57,12 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
     figure = _panels(found, milliseconds, _STEP, lines)
     for axes, charted in zip(figure.axes, found):
         _draw_published(axes, charted)
-    caption = (
+    return captioned(figure, (
         "Figure chart, error against latency: wall time of one time step, of the same runs. A display of 90 Hz has "
         f"{number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step below the "
         "line keeps up with its loop; whether the simulation then runs in real time is seen in the chart of "
         f"cost.{_published(found)}"
-    )
-    add_caption(figure, caption)
-    return figure, caption
+    ))
 
 
 @styled

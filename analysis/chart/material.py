@@ -46,30 +46,29 @@ def _limits(counts: Sequence[int], more: Mapping[str, Any] | None = None) -> sce
     return dict(zip(counts, stable.values()))
 
 
-def _explicit(step: float, stable: float) -> tuple[dict[str, Any], float]:
-    """Keys and substep."""
-    keys = scenes.explicit_steps(step, stable)
-    return keys, step / keys["substeps"]
+Scene = Callable[[int, float, Mapping[str, Any]], dict[str, Any]]  # of n, time step and the solver's keys
 
 
-def _xpbd(substeps: int, sweeps: int) -> dict[str, Any]:
-    return {"substeps": substeps, "constraintSolverSteps": sweeps}
+def _direct(scene: Scene, values: Sequence[tuple[str, int, float]]) -> list[Setting]:
+    """A scene with the direct method, by scheme, n and time step."""
+    return [Setting("direct", *settings.direct(scheme, n, dt),
+                    case(f"{scheme}-{n}-{dt}", "direct", scene(n, dt, {"integrator": scheme})))
+            for scheme, n, dt in values]
 
 
-def _small_steps(
-    scene: Callable[[int, float, Mapping[str, Any]], dict[str, Any]], step: float, stable: Mapping[int, float],
-    sweeps: Sequence[tuple[int, int, int]],
-) -> list[Setting]:
-    """A scene (of n, time step and the solver's keys) with the methods of small steps: explicit at each n that
+def _small_steps(scene: Scene, step: float, stable: Mapping[int, float],
+                 sweeps: Sequence[tuple[int, int, int]]) -> list[Setting]:
+    """A scene with the methods of small steps: explicit at each n that
     `stable` has a substep for, xpbd with each (n, substeps, iterations)."""
     made = []
     for n, limit in stable.items():
-        small, substep = _explicit(step, limit)
-        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
+        small = scenes.explicit_steps(step, limit)
+        made.append(Setting("explicit", *settings.small_steps(n, step / small["substeps"]), case(
             f"explicit-{n}", "explicit", scene(n, step, {"solver": "explicit", **small}))))
     return made + [
         Setting("xpbd", *settings.small_steps(n, step / k, m), case(
-            f"xpbd-{n}-{k}-{m}", "xpbd", scene(n, step, {"solver": "xpbd", **_xpbd(k, m)})))
+            f"xpbd-{n}-{k}-{m}", "xpbd", scene(n, step, {
+                "solver": "xpbd", "substeps": k, "constraintSolverSteps": m})))
         for n, k, m in sweeps
     ]
 
@@ -83,23 +82,19 @@ def _at_rest() -> scenes.Asking[Asked]:
             "gravity": [0.0, -settings.GRAVITY, 0.0]}))
         for n in (5, 10, 30)
     ]
-    for n, step in ((8, 2e-2), (8, 4e-3), (15, 4e-3), (30, 4e-3), (60, 2e-3)):
-        keys = {**settings.settled({"integrator": "implicitEuler"}, step, _RATE, REST_TIME), "numberRodElements": n}
-        made.append(Setting("direct", *settings.direct("implicitEuler", n, step),
-                            case(f"direct-{n}-{step}", "direct", keys)))
-    for n in _COUNTS:
-        small, substep = _explicit(2e-4, stable[n])
-        keys = {**settings.settled({"solver": "explicit", **small}, 2e-4, _RATE, REST_TIME), "numberRodElements": n}
-        made.append(Setting("explicit", *settings.small_steps(n, substep), case(f"explicit-{n}", "explicit", keys)))
-    for n, k, m in ((8, 180, 1), (15, 320, 1), (30, 400, 1), (30, 600, 1), (30, 1000, 1), (30, 300, 3)):
-        keys = {**settings.settled({"solver": "xpbd", **_xpbd(k, m)}, 1e-3, _RATE, REST_TIME), "numberRodElements": n}
-        made.append(Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(f"xpbd-{n}-{k}-{m}", "xpbd", keys)))
+
+    def hanging(n: int, step: float, method: Mapping[str, Any]) -> dict[str, Any]:
+        return {**settings.settled(method, step, _RATE, REST_TIME), "numberRodElements": n}
+
     made += [
-        Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", settings.settled(
-            {**settings.PBD, **changed, "bendStiffness": gain}, {**settings.TUNED, **changed}["timeStep"], _RATE,
-            REST_TIME)))
-        for k, changed in enumerate(settings.PBD_CHANGES)
+        Setting("direct", *settings.direct("implicitEuler", n, step), case(
+            f"direct-{n}-{step}", "direct", hanging(n, step, {"integrator": "implicitEuler"})))
+        for n, step in ((8, 2e-2), (8, 4e-3), (15, 4e-3), (30, 4e-3), (60, 2e-3))
     ]
+    made += _small_steps(hanging, 2e-4, stable, ()) + _small_steps(hanging, 1e-3, {}, (
+        (8, 180, 1), (15, 320, 1), (30, 400, 1), (30, 600, 1), (30, 1000, 1), (30, 300, 3)))
+    made += settings.changed_pbd(gain, settings.PBD_CHANGES, lambda method: settings.settled(
+        method, method["timeStep"], _RATE, REST_TIME))
     wanted = own_sag()
 
     def measure(_: Mapping[str, Run]) -> tuple[Measure, str]:
@@ -111,24 +106,20 @@ def _at_rest() -> scenes.Asking[Asked]:
 def _let_go() -> scenes.Asking[Asked]:
     gain = yield from base_gain()
     stable = yield from _limits((10, 20, 30))
-    made = [
-        Setting("direct", *settings.direct(scheme, n, dt),
-                case(f"{scheme}-{n}-{dt}", "direct", release(n, dt, {"integrator": scheme})))
-        for scheme, n, dt in (
-            ("implicitEuler", 12, 1e-3), ("implicitEuler", 12, 1e-4), ("bdf2", 12, 5e-4), ("bdf2", 12, 2.5e-4),
-            ("trbdf2", 10, 2e-3), ("trbdf2", 12, 5e-4), ("esdirk3", 5, 8e-3), ("esdirk3", 8, 4e-3),
-            ("esdirk3", 10, 4e-3), ("esdirk3", 10, 2e-3), ("esdirk3", 12, 1e-3), ("esdirk4", 10, 4e-3),
-            ("esdirk4", 12, 2e-3), ("esdirk4", 16, 1e-3), ("esdirk4", 30, 5e-4),
-        )
-    ]
+    made = _direct(release, (
+        ("implicitEuler", 12, 1e-3), ("implicitEuler", 12, 1e-4), ("bdf2", 12, 5e-4), ("bdf2", 12, 2.5e-4),
+        ("trbdf2", 10, 2e-3), ("trbdf2", 12, 5e-4), ("esdirk3", 5, 8e-3), ("esdirk3", 8, 4e-3),
+        ("esdirk3", 10, 4e-3), ("esdirk3", 10, 2e-3), ("esdirk3", 12, 1e-3), ("esdirk4", 10, 4e-3),
+        ("esdirk4", 12, 2e-3), ("esdirk4", 16, 1e-3), ("esdirk4", 30, 5e-4)))
     made += _small_steps(release, 2e-4, stable, (
         (10, 45, 1), (20, 80, 1), (30, 80, 1), (30, 120, 1), (30, 200, 1), (30, 60, 3), (30, 20, 30)))
-    for k, changed in enumerate(settings.PBD_CHANGES):
-        method = {**settings.PBD, **changed, "bendStiffness": gain}
-        shape = elastica.tip_loaded(RELEASE_LOAD, np.linspace(0.0, 1.0, method["numberRodElements"] + 1))
-        made.append(Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", {
-            **method, "maxSimulationSteps": round(RELEASE_TIME / method["timeStep"]), "logSpheres": "last",
-        }, scenes.plane_start(BASE.length * shape.along, BASE.length * shape.across))))
+
+    def bent(n: int) -> dict[str, Any]:
+        shape = elastica.tip_loaded(RELEASE_LOAD, np.linspace(0.0, 1.0, n + 1))
+        return scenes.plane_start(BASE.length * shape.along, BASE.length * shape.across)
+
+    made += settings.changed_pbd(gain, settings.PBD_CHANGES, lambda method: {
+        **method, "maxSimulationSteps": round(RELEASE_TIME / method["timeStep"]), "logSpheres": "last"}, bent)
 
     def measure(_: Mapping[str, Run]) -> tuple[Measure, str]:
         return release_error, ("modes of the slope, geometrically exact; 14 and 10 of them are "
@@ -162,21 +153,15 @@ def _pendulum() -> scenes.Asking[Asked]:
         return {"numberRodElements": n, "proximalEnd": "held", "gravity": [0.0, -settings.GRAVITY, 0.0],
                 "timeStep": step, "maxSimulationSteps": round(_SWING_TIME / step), "logSpheres": "last", **more}
 
-    made = [
-        Setting("direct", *settings.direct(scheme, n, dt),
-                case(f"{scheme}-{n}-{dt}", "direct", motion(n, dt, {"integrator": scheme})))
-        for scheme, n, dt in (
-            ("implicitEuler", 4, 1e-3), ("implicitEuler", 8, 1e-4), ("bdf2", 4, 4e-3), ("bdf2", 8, 1e-3),
-            ("trbdf2", 4, 1e-2), ("trbdf2", 8, 2e-3), ("esdirk3", 2, 2e-2), ("esdirk3", 4, 1e-2), ("esdirk3", 8, 4e-3),
-            ("esdirk4", 2, 4e-2), ("esdirk4", 4, 2e-2), ("esdirk4", 8, 4e-3), ("esdirk4", 16, 2e-3),
-        )
-    ]
+    made = _direct(motion, (
+        ("implicitEuler", 4, 1e-3), ("implicitEuler", 8, 1e-4), ("bdf2", 4, 4e-3), ("bdf2", 8, 1e-3),
+        ("trbdf2", 4, 1e-2), ("trbdf2", 8, 2e-3), ("esdirk3", 2, 2e-2), ("esdirk3", 4, 1e-2), ("esdirk3", 8, 4e-3),
+        ("esdirk4", 2, 4e-2), ("esdirk4", 4, 2e-2), ("esdirk4", 8, 4e-3), ("esdirk4", 16, 2e-3)))
     made += _small_steps(motion, 1e-3, stable, ((4, 100, 1), (4, 400, 1), (10, 225, 1), (20, 400, 1), (10, 100, 3)))
     weight = [0.0, -settings.GRAVITY / scenes.UNIT, 0.0]
-    for k, changed in enumerate((*settings.PBD_CHANGES, {"constraintSolverSteps": 50, "numberRodElements": 8})):
-        method = {**settings.PBD, **changed, "bendStiffness": gain}
-        made.append(Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", motion(
-            method["numberRodElements"], method["timeStep"], {**method, "gravity": weight}))))
+    changes = (*settings.PBD_CHANGES, {"constraintSolverSteps": 50, "numberRodElements": 8})
+    made += settings.changed_pbd(gain, changes, lambda method: motion(
+        method["numberRodElements"], method["timeStep"], {**method, "gravity": weight}))
 
     def measure(_: Mapping[str, Run]) -> tuple[Measure, str]:
         return _swing_error, ("cosines of the slope, geometrically exact; 5 and 4 of them are "
@@ -265,7 +250,7 @@ def twist_asked(gain: float, stable: Mapping[int, float]) -> Asked:
     """Settings of the twist problem with pbd's gain and the explicit method's stable substeps by n."""
     omega = 2.0 * math.pi * _TWIST_FREQUENCY
 
-    def turned(method: Mapping[str, Any], step: float, n: int) -> dict[str, Any]:
+    def turned(n: int, step: float, method: Mapping[str, Any]) -> dict[str, Any]:
         return {
             "numberRodElements": n, "distalEnd": "clamped", "distalRotation": _TURN, "timeStep": step,
             **scenes.damping(method.get("solver", "direct"), 2.0 * omega, step),
@@ -275,23 +260,14 @@ def twist_asked(gain: float, stable: Mapping[int, float]) -> Asked:
 
     made = [
         Setting("direct", *settings.direct("implicitEuler", n, dt), case(
-            f"direct-{n}-{dt}", "direct", turned({"integrator": "implicitEuler"}, dt, n)))
+            f"direct-{n}-{dt}", "direct", turned(n, dt, {"integrator": "implicitEuler"})))
         for n, dt in ((8, 1e-4), (8, 2e-5), (15, 2e-5), (30, 2e-5))
     ]
-    for n in _COUNTS:
-        small, substep = _explicit(4e-6, stable[n])
-        made.append(Setting("explicit", *settings.small_steps(n, substep), case(
-            f"explicit-{n}", "explicit", turned({"solver": "explicit", **small}, 4e-6, n))))
-    made += [
-        Setting("xpbd", *settings.small_steps(n, 4e-6 / k, m), case(
-            f"xpbd-{n}-{k}-{m}", "xpbd", turned({"solver": "xpbd", **_xpbd(k, m)}, 4e-6, n)))
-        for n, k, m in ((8, 1, 1), (15, 1, 1), (30, 1, 1), (30, 2, 1), (30, 4, 1), (30, 1, 3), (30, 1, 10))
-    ]
-    for k, changed in enumerate(settings.PBD_CHANGES):
-        method = {**settings.PBD, **changed, "bendStiffness": gain, "damping": 0.0}
-        method["maxSimulationSteps"] = round(_PBD_TWIST_TIME / method["timeStep"])
-        made.append(Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", turned(
-            method, method["timeStep"], method["numberRodElements"]))))
+    made += _small_steps(turned, 4e-6, stable, (
+        (8, 1, 1), (15, 1, 1), (30, 1, 1), (30, 2, 1), (30, 4, 1), (30, 1, 3), (30, 1, 10)))
+    made += settings.changed_pbd(gain, settings.PBD_CHANGES, lambda method: turned(
+        method["numberRodElements"], method["timeStep"], {
+            **method, "damping": 0.0, "maxSimulationSteps": round(_PBD_TWIST_TIME / method["timeStep"])}))
     clamps = number(100.0 * pbd_twist_error(settings.TUNED["numberRodElements"]), 2)
     reference = (f"the linear profile; pbd holds the frames of the outer elements, which alone is {clamps} % off at "
                  "n = 30")

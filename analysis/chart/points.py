@@ -9,7 +9,7 @@ from functools import partial
 
 import numpy as np
 
-from analysis.runs import Run, read_repeats
+from analysis.runs import Run, busiest, read_repeats
 from analysis.validation.check import Check
 from analysis.validation.scenes import Asking
 from studies.table import Case
@@ -29,14 +29,10 @@ class Setting:
 
     Attributes
     ----------
-    method : str
-        One of METHODS.
-    words : str
-        What it is set to, as tables say it.
-    label : str
-        The same in a few characters, as pictures say it.
-    case : Case
-        The run, with its timed repeats.
+    method : one of METHODS.
+    words : what it is set to, as tables say it.
+    label : the same in a few characters, as pictures say it.
+    case : the run, with its timed repeats.
     """
 
     method: str
@@ -52,18 +48,13 @@ class Point:
     Attributes
     ----------
     setting : Setting
-    outcome : str
-        "finished" or "converged", or one of LOST.
-    reason : str
-        As the run says it.
-    error : float
-        As the problem measures it; not a number where the run was lost.
-    cost, least, most : float
-        Wall time in s per simulated second: median, smallest and largest of the timed repeats.
-    step : float
-        Wall time of a time step, s, of the median.
-    others_busy : float or None
-        Processors that other programs kept busy beside the repeat that they disturbed most; None where nobody looked.
+    outcome : "finished" or "converged", or one of LOST.
+    reason : as the run says it.
+    error : as the problem measures it; not a number where the run was lost.
+    cost, least, most : wall time in s per simulated second: median, smallest and largest of the timed repeats.
+    step : wall time of a time step, s, of the median.
+    others_busy : processors that other programs kept busy beside the repeat that they disturbed most; None where nobody
+        looked.
     """
 
     setting: Setting
@@ -108,12 +99,9 @@ class Asked:
     Attributes
     ----------
     settings : sequence of Setting
-    measure : callable
-        From the runs of `references` to the error of a run, and a sentence on what the reference is worth.
-    references : sequence of Case
-        Finer runs that are the reference, or show that it has converged.
-    gain : float or None
-        Of pbd's bend-twist constraint, where it was tuned.
+    measure : from the runs of `references` to the error of a run, and a sentence on what the reference is worth.
+    references : finer runs that are the reference, or show that it has converged.
+    gain : of pbd's bend-twist constraint, where it was tuned.
     """
 
     settings: Sequence[Setting]
@@ -128,16 +116,11 @@ class Problem:
 
     Attributes
     ----------
-    name : str
-        Folder of its runs.
-    title : str
-        A few words.
-    error : str
-        What its error is, and of what it is a part.
-    ask : callable
-        Makes the generator that finds what it needs to know and returns what it asks for.
-    absent : mapping of str to str
-        Methods that cannot solve it, and why.
+    name : folder of its runs.
+    title : a few words.
+    error : what its error is, and of what it is a part.
+    ask : makes the generator that finds what it needs to know and returns what it asks for.
+    absent : methods that cannot solve it, and why.
     """
 
     name: str
@@ -215,9 +198,8 @@ def _point(setting: Setting, run: Run, measure: Measure) -> Point:
     repeats = read_repeats(run, setting.case.repeats)
     costs = sorted(_cost(repeat) for repeat in repeats)
     cost = float(np.median(costs))
-    busy = [one.others_busy for one in repeats if one.others_busy is not None]
     return Point(setting, outcome, str(run.measured("reason")), error, cost, costs[0], costs[-1],
-                 cost * run.number("timeStep"), max(busy, default=None))
+                 cost * run.number("timeStep"), busiest(repeats))
 
 
 def _cost(run: Run) -> float:

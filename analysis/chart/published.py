@@ -11,16 +11,11 @@ class Published:
 
     Attributes
     ----------
-    problem : str
-        Name of the problem that is nearest to what it was measured on.
-    label : str
-        What computed it, in a few characters.
-    steps : tuple of float
-        Shortest and longest wall time between two answers to a loop, s.
-    source : str
-        Authors, year, title and number.
-    says : str
-        What was computed, and what is not said.
+    problem : name of the problem that is nearest to what it was measured on.
+    label : what computed it, in a few characters.
+    steps : shortest and longest wall time between two answers to a loop, s.
+    source : authors, year, title and number.
+    says : what was computed, and what is not said.
     """
 
     problem: str

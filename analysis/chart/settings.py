@@ -3,11 +3,12 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Callable, Iterable, Mapping
 from typing import Any
 
 import numpy as np
 
+from analysis.chart.points import Setting, case
 from analysis.figures.wording import number
 from analysis.runs import Run
 from analysis.validation import scenes
@@ -51,6 +52,18 @@ def pbd(changed: Mapping[str, Any]) -> tuple[str, str]:
     method = {**TUNED, **changed}
     m, n, step = method["constraintSolverSteps"], method["numberRodElements"], time_text(method["timeStep"])
     return f"m = {m}, n = {n}, dt = {step}", f"m{m} n{n} {step}"
+
+
+def changed_pbd(gain: float, changes: Iterable[Mapping[str, Any]], keys: Callable[[dict[str, Any]], dict[str, Any]],
+                start: Callable[[int], dict[str, Any]] = lambda _: {}) -> list[Setting]:
+    """The settings of a tuned gain with each of these changes: what makes a scene's keys from the method's, and where
+    the wire starts, by n."""
+    made = []
+    for k, changed in enumerate(changes):
+        method = {**PBD, **changed, "bendStiffness": gain}
+        made.append(Setting("pbd", *pbd(changed), case(f"pbd-{k}", "pbd", keys(method),
+                                                       start(method["numberRodElements"]) or None)))
+    return made
 
 
 def settled(method: Mapping[str, Any], step: float, rate: float, duration: float) -> dict[str, Any]:

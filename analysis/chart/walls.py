@@ -25,10 +25,7 @@ _REST_TIME = 15.0 / _FIRST  # s
 _RATE = 2.0 * _FIRST  # 1/s, critical
 _LOAD = PLANE_WIRE.line_density * settings.GRAVITY * PLANE_WIRE.length**3 / PLANE_WIRE.bending
 _ARC = np.linspace(0.0, 1.0, 601)  # s/L, at which shapes are compared
-_PBD_CHANGES: tuple[dict[str, Any], ...] = (
-    {}, {"constraintSolverSteps": 125}, {"constraintSolverSteps": 250}, {"constraintSolverSteps": 1000},
-    {"numberRodElements": 15}, {"timeStep": 5e-4}, {"constraintSolverSteps": 50, "timeStep": 1e-2},
-)
+_PBD_CHANGES = [changed for changed in settings.PBD_CHANGES if changed.get("constraintSolverSteps") != 2000]
 _XPBD = ((8, 250, 1), (8, 100, 3), (15, 400, 1), (15, 150, 3), (30, 800, 1), (30, 1600, 1))  # n, substeps of 1 ms, m
 
 
@@ -38,17 +35,16 @@ def _gain() -> scenes.Asking[float]:
     return (yield from settings.tuned_gain(PLANE_WIRE, _RATE, _REST_TIME, sag))
 
 
-def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any, list[Setting]]:
-    """What makes keys of the thin wire that falls on a wall: of direct from scheme, n, dt and contactDistance, of pbd
-    from what changes and its gain; and the settings of xpbd."""
+def _thin(wall: Mapping[str, Any], duration: float, gain: float) -> tuple[Any, list[Setting]]:
+    """Of a thin wire that falls on a wall: what makes the keys of direct from scheme, n, dt and contactDistance; and
+    the settings of xpbd and of pbd with its gain."""
 
     def direct(scheme: str, n: int, step: float, gap: float | None) -> dict[str, Any]:
         method = {"integrator": scheme, "numberRodElements": n, **_contact(gap)}
         return {**scenes.wire_parameters(PLANE_WIRE), **settings.settled(method, step, _RATE, duration), **wall}
 
-    def pbd(changed: Mapping[str, Any], gain: float) -> dict[str, Any]:
-        method = {**settings.PBD, **changed, "bendStiffness": gain, "collisionStiffness": 0.1,
-                  "sphereRadius": PLANE_WIRE.radius / scenes.UNIT}
+    def pbd(method: dict[str, Any]) -> dict[str, Any]:
+        method |= {"collisionStiffness": 0.1, "sphereRadius": PLANE_WIRE.radius / scenes.UNIT}
         return {**settings.settled(method, method["timeStep"], _RATE, duration), **wall}
 
     def xpbd(n: int, substeps: int, sweeps: int) -> dict[str, Any]:
@@ -57,24 +53,22 @@ def _thin(wall: Mapping[str, Any], duration: float) -> tuple[Any, Any, list[Sett
 
     compliant = [Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(f"xpbd-{n}-{k}-{m}", "xpbd", xpbd(n, k, m)))
                  for n, k, m in _XPBD]
-    return direct, pbd, compliant
+    return direct, compliant + settings.changed_pbd(gain, _PBD_CHANGES, pbd)
 
 
 def _plane() -> scenes.Asking[Asked]:
     gain = yield from _gain()
     height = -(PLANE_DROP + PLANE_WIRE.radius) / scenes.UNIT  # the axis comes to rest a radius above it
     wall = {"vessel": {"shape": "plane", "point": [0.0, height, 0.0], "normal": [0.0, 1.0, 0.0]}}
-    direct, pbd, compliant = _thin(wall, _REST_TIME)
+    direct, others = _thin(wall, _REST_TIME, gain)
     made = _direct(direct, [("implicitEuler", *values) for values in (
         (8, 2e-2, None), (8, 5e-3, None), (15, 2e-2, None), (15, 5e-3, None), (15, 5e-3, 3e-6), (30, 2e-2, None),
         (30, 5e-3, 3e-6), (30, 2e-3, 3e-6))])
-    made += compliant
-    made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
-             for k, changed in enumerate(_PBD_CHANGES)]
+    made += others
     shape, _ = elastica.heavy_on_plane(_LOAD, PLANE_DROP / PLANE_WIRE.length, _ARC)
 
     def error(run: Run) -> float:
-        nodes = last_state(run).positions[:, [2, 1]] * np.array([1.0, -1.0])
+        nodes = last_state(run).in_plane
         arc = np.linspace(0.0, 1.0, len(nodes))
         exact = PLANE_WIRE.length * np.stack([np.interp(arc, _ARC, x) for x in (shape.along, shape.across)], axis=1)
         return float(np.max(np.linalg.norm(nodes - exact, axis=1))) / PLANE_DROP
@@ -112,7 +106,7 @@ def _fall() -> scenes.Asking[Asked]:
     height = -(_BAR_RADIUS + PLANE_WIRE.radius / scenes.UNIT + _BAR_BELOW)
     wall = {"obstacles": [{"shape": "capsule", "from": [-50.0, height, middle], "to": [50.0, height, middle],
                            "radius": _BAR_RADIUS}], "logSpheres": "last", "logEvery": 1}
-    direct, pbd, compliant = _thin(wall, _FALL_TIME)
+    direct, others = _thin(wall, _FALL_TIME, gain)
     made = _direct(direct, (
         ("implicitEuler", 8, 1e-2, None), ("implicitEuler", 8, 2e-3, None), ("implicitEuler", 16, 1e-2, None),
         ("implicitEuler", 16, 2e-3, None), ("implicitEuler", 16, 1e-3, None), ("implicitEuler", 16, 5e-4, 3e-6),
@@ -120,9 +114,7 @@ def _fall() -> scenes.Asking[Asked]:
         ("bdf2", 16, 5e-3, None), ("bdf2", 16, 2e-3, None), ("bdf2", 30, 1e-3, 3e-6), ("bdf2", 30, 2e-4, 3e-6),
         ("trbdf2", 16, 5e-3, None), ("trbdf2", 30, 1e-3, 3e-6), ("esdirk3", 16, 5e-3, None),
         ("esdirk3", 30, 1e-3, 3e-6)))
-    made += compliant
-    made += [Setting("pbd", *settings.pbd(changed), case(f"pbd-{k}", "pbd", pbd(changed, gain)))
-             for k, changed in enumerate(_PBD_CHANGES)]
+    made += others
     fine = Case("fine", direct("trbdf2", 80, 5e-6, 3e-6))  # a bounce lasts some 10 µs: steps that resolve it
     coarse = Case("coarse", direct("trbdf2", 40, 1e-5, 3e-6))
 

@@ -10,7 +10,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from analysis.figures.wording import beside, number, percent, relative_spread, span
+from analysis.figures.wording import beside, exponent, number, percent, relative_spread, span
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import StudyTable
 
@@ -72,7 +72,7 @@ def _rod_elements(table: StudyTable) -> list[str]:
     fine = n >= 30
     if np.count_nonzero(fine) > 2:
         sentences.append(
-            f"From n = 30 on τ grows with the power {number(_exponent(n[fine], tau[fine]), 2)} of n: an "
+            f"From n = 30 on τ grows with the power {number(exponent(n[fine], tau[fine]), 2)} of n: an "
             f"iteration passes a displacement on by diffusion, in steps of one element."
         )
     if best > 0 and _rises(n, gains):
@@ -194,11 +194,6 @@ def _rises(x: np.ndarray, y: np.ndarray) -> bool:
     order = np.argsort(x)
     change = np.diff(y[order])
     return bool(y[order[-1]] > y[order[0]] and np.count_nonzero(change > 0) >= 0.75 * change.size)
-
-
-def _exponent(x: np.ndarray, y: np.ndarray) -> float:
-    """p of the power law y ~ x^p, by least squares of the logarithms."""
-    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def _straight(table: StudyTable, subject: str, per: str) -> str:

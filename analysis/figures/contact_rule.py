@@ -9,7 +9,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun, read_wire
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, span
 from analysis.gain import RULES
 from analysis.runs import read_study
@@ -25,16 +25,11 @@ class Rest:
 
     Attributes
     ----------
-    rule : str
-        elementContact.
-    position : float
-        s, from 0 at the first end to 1 at the second.
-    pushed : ndarray, shape (2,)
-        How far the first step moved each end away from the fixed sphere, in units.
-    shrunk : float
-        How much shorter the element is at the end of the run, in units.
-    depth : float
-        r less the distance of the element's axis from the fixed sphere at the end, in units.
+    rule : elementContact.
+    position : s, from 0 at the first end to 1 at the second.
+    pushed : (2,), how far the first step moved each end away from the fixed sphere, in units.
+    shrunk : how much shorter the element is at the end of the run, in units.
+    depth : r less the distance of the element's axis from the fixed sphere at the end, in units.
     """
 
     rule: str
@@ -49,8 +44,7 @@ def read_rests(folder: Path) -> list[Rest]:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or nothing was run.
+    LogError : a file cannot be read, or nothing was run.
     """
     rests = [_measure(read_wire(run)) for run in read_study(folder).required()]
     return sorted(rests, key=lambda rest: (rest.rule, rest.position))
@@ -97,9 +91,7 @@ def draw_contact_rule(rests: list[Rest]) -> tuple[Figure, str]:
     panels["depth"].set(xlabel="position $s$ of the contact (element lengths)", ylabel="depth at the end (units)")
     panels["depth"].set_ylim(bottom=min(0.0, panels["depth"].dataLim.y0))
     panels["depth"].legend(loc="best")
-    caption = contact_rule_caption(rests)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, contact_rule_caption(rests))
 
 
 _NAMES = {"barycentric": "lever rule", "thesis": RULES["thesis"]}

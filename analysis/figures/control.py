@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun, read_wire
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent, span
 from analysis.logs import LogError
 from analysis.runs import read_study
@@ -31,13 +31,10 @@ class DriveRow:
 
     Attributes
     ----------
-    key : str
-        Name of the run.
-    wire : WireRun
-        Its motion.
-    first_off, tip_along : ndarray, shape (k,)
-        Distance of the first sphere from the lumen's middle line, and how far the tip has come along that line, in
-        units.
+    key : name of the run.
+    wire : its motion.
+    first_off, tip_along : (k,), distance of the first sphere from the lumen's middle line, and how far the tip has come
+        along that line, in units.
     """
 
     key: str
@@ -51,8 +48,7 @@ def read_drives(folder: Path) -> list[DriveRow]:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or a run is missing.
+    LogError : a file cannot be read, or a run is missing.
     """
     study = read_study(folder)
     rows = []
@@ -104,9 +100,7 @@ def draw_drives(rows: list[DriveRow]) -> tuple[Figure, str]:
     panels["f"].set(xlabel="number of steps", ylabel="displacement (units)")
     for name in "ef":
         panels[name].legend(loc="upper left", fontsize=7)
-    caption = drives_caption(by_key)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, drives_caption(by_key))
 
 
 def _draw_wire(axes: Axes, wire: WireRun, colour: str) -> None:
@@ -168,8 +162,7 @@ def read_twists(folder: Path) -> list[TwistRow]:
 
     Raises
     ------
-    LogError
-        A file cannot be read, or nothing was run.
+    LogError : a file cannot be read, or nothing was run.
     """
     rows = [
         TwistRow(run.variant, int(run.number("constraintSolverSteps")), read_twist(run))
@@ -199,9 +192,7 @@ def draw_twist(rows: list[TwistRow]) -> tuple[Figure, str]:
     panels["lag"].set(xlabel="base angle (rad)", ylabel="difference (rad)")
     panels["lag"].set_ylim(top=2.2 * panels["lag"].dataLim.y1)
     panels["lag"].legend(loc="upper right", fontsize=7, ncols=2)
-    caption = twist_caption(rows)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, twist_caption(rows))
 
 
 def twist_caption(rows: list[TwistRow]) -> str:

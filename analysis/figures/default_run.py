@@ -10,7 +10,7 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from analysis.errors import displacement_errors, mean_error, total_error
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent
 from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, relaxation_error
@@ -36,12 +36,9 @@ def read_default_run(folder: Path, spheres: str = "last", most_entries: int | No
 
     Parameters
     ----------
-    folder : Path
-        The study's folder.
-    spheres : "last" or "all"
-        Spheres whose positions are read.
-    most_entries : int or None
-        Thin the log to about so many entries.
+    folder : the study's folder.
+    spheres : "last" or "all": spheres whose positions are read.
+    most_entries : thin the log to about so many entries.
     """
     study = read_study(folder)
     run = study.required()[0]
@@ -88,9 +85,7 @@ def draw_time_evolution(table: RunTable) -> tuple[Figure, str]:
     prediction.set(xlabel="in-game time $t$ (s)", ylabel=r"prediction error $\Delta_p$ (units)")
     prediction.legend(loc="lower left")
 
-    caption = _time_evolution_caption(table, clock, step, z, expected)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _time_evolution_caption(table, clock, step, z, expected))
 
 
 def _time_evolution_caption(
@@ -144,15 +139,13 @@ def draw_heat_map(table: RunTable) -> tuple[Figure, str]:
     axes.set(xlabel="in-game time $t$ (s)", ylabel="sphere index $i$")
     figure.colorbar(mesh, ax=axes, label="displacement from the old rest (units)")
     first, last = (_arrival(log.time, column, 0.5 * size) for column in (moved[:, 1], moved[:, -1]))
-    caption = (
+    return captioned(figure, (
         f"Figure 4.2. Displacement of all {log.spheres.size} spheres over time in the default run; white is the new "
         f"rest, {size:g} units from the old one. The spheres swing together, the more the farther from the held first "
         f"sphere: sphere 1 is displaced by up to {number(_farthest(moved[:, 1]))} units, the last one by up to "
         f"{number(_farthest(moved[:, -1]))}. The motion takes its time along the wire: half the displacement is at "
         f"sphere 1 by t = {number(first, 2)} s, at the last one by t = {number(last, 2)} s."
-    )
-    add_caption(figure, caption)
-    return figure, caption
+    ))
 
 
 def _arrival(time: np.ndarray, moved: np.ndarray, level: float) -> float:
@@ -183,9 +176,7 @@ def draw_relaxation(table: RunTable) -> tuple[Figure, str]:
     linear.legend(loc="upper right")
     logarithmic.set_yscale("log")
     logarithmic.set_ylim(0.2 * fit.peak_heights.min(), 2.0 * max(fit.amplitude, fit.peak_heights.max()))
-    caption = _relaxation_caption(run, fit)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _relaxation_caption(run, fit))
 
 
 def _relaxation_caption(run: Run, fit: Relaxation) -> str:
@@ -218,9 +209,7 @@ def draw_final_error(table: RunTable) -> tuple[Figure, str]:
     axes.set(xlabel="sphere index $i$", ylabel=r"displacement error $\Delta_{x,i}$ (units)")
     axes.set_ylim(bottom=0.0)
     axes.legend(loc="upper left")
-    caption = _final_error_caption(run, log, errors, int(peak))
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _final_error_caption(run, log, errors, int(peak)))
 
 
 def _final_error_caption(run: Run, log: PositionLog, errors: np.ndarray, peak: int) -> str:

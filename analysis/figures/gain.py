@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import beside, number, percent, span
 from analysis.gain import RULES, GainRow, GainTable
 
@@ -53,9 +53,7 @@ def draw_gain(name: str, scene: str, table: GainTable) -> tuple[Figure, str]:
         panels[panel].set_xlabel("number of rod elements $n$")
         panels[panel].set_ylim(bottom=0.0)
     panels["d"].legend(loc="upper left", fontsize=7)
-    caption = gain_caption(name, scene, table)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, gain_caption(name, scene, table))
 
 
 def _counts(highest: int):
@@ -154,17 +152,17 @@ def _passed(subject: str, rows: list[GainRow], radius: float) -> str:
 
 
 def _again(table: GainTable) -> str:
-    """Whether the count by winding numbers agrees."""
+    """Whether the count from the logs agrees."""
     rows = [row for row in table.rows if row.counted_again is not None]
     if not rows:
         return ""
     wrong = [row for row in rows if row.counted_again != row.passages]
     if not wrong:
-        return f"Counted again from {len(rows)} of the logs by winding numbers, the passages are the same."
+        return f"Counted again from {len(rows)} of the logs by ray parity, the passages are the same."
     told = "; ".join(
         f"{row.counted_again} instead of {row.passages} with {RULES[row.rule]} at n = {row.elements}" for row in wrong
     )
-    return f"Counted again from {len(rows)} of the logs by winding numbers, the passages are {told}."
+    return f"Counted again from {len(rows)} of the logs by ray parity, the passages are {told}."
 
 
 def _flat(table: GainTable) -> str:

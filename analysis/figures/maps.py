@@ -11,7 +11,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent
 from analysis.logs import LogError, read_log
 from analysis.runs import Run, read_runs
@@ -57,12 +57,9 @@ class Cell:
 
     Attributes
     ----------
-    x, y : float or str
-        Where it stands.
-    kind : str
-        Its class.
-    error : float
-        Distance of its tip from the reference's at the end, over the way of that; not a number where it was lost or
+    x, y : where it stands.
+    kind : its class.
+    error : distance of its tip from the reference's at the end, over the way of that; not a number where it was lost or
         has no reference.
     """
 
@@ -79,20 +76,13 @@ class View:
     Attributes
     ----------
     study, title : str
-    x, y : callable
-        Where a run stands.
-    labels : tuple of str
-        Of the axes.
-    reference : callable or None
-        From a run to the key of the one that it is measured against.
-    lines : tuple of (float, str)
-        Upright lines, and what they are.
-    log_x : bool
-        Whether x is drawn on a logarithmic axis.
-    error : callable or None
-        A run's error, in place of the distance from a reference.
-    kind : callable or None
-        Class of a run with this error, in place of `kind_of`.
+    x, y : where a run stands.
+    labels : of the axes.
+    reference : from a run to the key of the one that it is measured against.
+    lines : upright lines, and what they are.
+    log_x : whether x is drawn on a logarithmic axis.
+    error : a run's error, in place of the distance from a reference.
+    kind : class of a run with this error, in place of `kind_of`.
     """
 
     study: str
@@ -142,8 +132,7 @@ def read_map(view: View, folder: Path) -> list[Cell]:
 
     Raises
     ------
-    LogError
-        A run is missing or left no log.
+    LogError : a run is missing or left no log.
     """
     runs = read_runs(folder)
     tips = {} if view.reference is None else {key: _tip(run) for key, run in runs.items()}
@@ -194,9 +183,7 @@ def draw_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
         letter(axes, name, view.title)
         draw_map(axes, view, found[view.study])
     draw_classes(panels[7])
-    caption = _caption(found)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _caption(found))
 
 
 def draw_classes(axes: Axes, more: Sequence[str] = ()) -> None:

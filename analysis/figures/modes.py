@@ -18,12 +18,9 @@ def draw_modes(frequencies: Sequence[float], positions: np.ndarray, shapes: np.n
 
     Parameters
     ----------
-    frequencies : sequence of float, length m
-        Hz.
-    positions : ndarray, shape (n+1, 3)
-        The rest shape, units.
-    shapes : ndarray, shape (m, n+1, 3)
-        Shift of each sphere, the largest of length 1.
+    frequencies : m of them, Hz.
+    positions : (n+1, 3), the rest shape, units.
+    shapes : (m, n+1, 3), shift of each sphere, the largest of length 1.
     """
     columns = min(3, len(frequencies))
     rows = -(-len(frequencies) // columns)

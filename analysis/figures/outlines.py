@@ -2,16 +2,22 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
 import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Polygon
 
+from analysis.logs import LogError
 from analysis.runs import Run
-from analysis.surfaces import Surface, wall
+from analysis.surfaces import Surface, read_obj
 
 _COLOUR = "0.55"
-_PLANE = 1000.0  # half the side of the patch of a plane, units: beyond every picture
+_PLANE = 1000.0  # half the length of a plane's line, units: beyond every picture
+_MESHES = Path(__file__).resolve().parents[2] / "params" / "meshes"
 
 
 def draw_surroundings(axes: Axes, run: Run) -> None:
@@ -19,20 +25,37 @@ def draw_surroundings(axes: Axes, run: Run) -> None:
 
     Raises
     ------
-    analysis.surfaces.SurfaceError
-        The vessel is of a kind that is not drawn.
+    analysis.logs.LogError : the vessel is of a kind that is not drawn, or its file cannot be read.
     """
     vessel = run.parameters.get("vessel")
     if vessel and vessel["shape"] == "tube":
         for side in tube_sides(np.array(vessel["knots"], float), vessel["radius"]):
             axes.plot(side[:, 2], side[:, 1], color=_COLOUR, linewidth=1.2)
-    elif (surface := wall(run.parameters, np.zeros(3), _PLANE)) is not None:
-        axes.add_collection(LineCollection(section(surface), colors=_COLOUR, linewidths=1.2), autolim=False)
+    elif vessel:
+        axes.add_collection(LineCollection(_cut(run.parameters, vessel), colors=_COLOUR, linewidths=1.2), autolim=False)
     for obstacle in run.parameters.get("obstacles") or []:
         if obstacle["shape"] == "box":
             (_, y, z), (_, across, along) = obstacle["centre"], obstacle["halfSize"]
             corners = [(z + i * along, y + j * across) for i, j in ((-1, -1), (1, -1), (1, 1), (-1, 1))]
             axes.add_patch(Polygon(corners, facecolor="0.88", edgecolor=_COLOUR, zorder=1))
+
+
+def _cut(parameters: Mapping[str, Any], vessel: Mapping[str, Any]) -> np.ndarray:
+    """Segments as of `section` of a vessel that is a plane or a mesh; a mesh's file stands there as the run's own
+    folder saw it, and is else sought by its bare name among the repository's."""
+    if any(parameters.get(key) not in (None, rest) for key, rest in
+           (("position", [0, 0, 0]), ("rotation", [0, 0, 0]), ("scale", [1, 1, 1]))):
+        raise LogError("a vessel that is moved, turned or scaled is not drawn")
+    if vessel["shape"] == "mesh":
+        file, own = Path(vessel["file"]), _MESHES / Path(vessel["file"]).name
+        return section(read_obj(own if not file.is_file() and own.is_file() else file))
+    if vessel["shape"] != "plane":
+        raise LogError(f"a vessel of shape {vessel['shape']} is not drawn")
+    normal = np.asarray(vessel["normal"], float)
+    (_, y, z), offset = normal, normal @ np.asarray(vessel.get("point", (0, 0, 0)), float)
+    reach = _PLANE / np.hypot(z, y) * np.array([y, -z])
+    foot = offset / (z * z + y * y) * np.array([z, y])
+    return np.array([[foot - reach, foot + reach]])
 
 
 def section(surface: Surface) -> np.ndarray:

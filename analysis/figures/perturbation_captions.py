@@ -65,7 +65,7 @@ def _rotation(reference: WireRun) -> str:
     )
 
 
-def perturbation_caption(figure: str, table: ComparisonTable, proportional: bool = False) -> str:
+def perturbation_caption(figure: str, table: ComparisonTable) -> str:
     """Caption of one of Figures 4.11 to 4.18."""
     scene = _SCENES[figure].format(push=table.reference.run.number("displacement"))
     symbol = _SYMBOLS[table.key]
@@ -199,7 +199,7 @@ def _transversal_steps(table: ComparisonTable) -> list[str]:
 
 
 def _transversal_time_step(table: ComparisonTable) -> list[str]:
-    x, mean = table.column("value"), table.column("mean_distance")
+    mean = table.column("mean_distance")
     factor = mean.max() / mean.min()
     verdict = (
         f"The thesis calls it almost constant; it varies by a factor of {number(factor, 2)}, and smaller steps "

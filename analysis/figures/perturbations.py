@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import ComparedRun, ComparisonTable, WireRun
 from analysis.figures.perturbation_captions import perturbation_caption, reference_caption
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 
 _MOST_WIRES = 10  # drawn in one panel: more could not be told apart
 _COLOURS = "viridis"
@@ -31,16 +31,11 @@ class PerturbationView:
 
     Attributes
     ----------
-    figure : str
-        Number of the figure.
-    key : str
-        The parameter.
-    label : str
-        Label of its axis, with the unit.
-    logarithmic : bool
-        Whether its axis is.
-    proportional : bool
-        Whether motions are scaled to the reference's displacement.
+    figure : number of the figure.
+    key : the parameter.
+    label : label of its axis, with the unit.
+    logarithmic : whether its axis is.
+    proportional : whether motions are scaled to the reference's displacement.
     """
 
     figure: str
@@ -84,9 +79,7 @@ def draw_reference(runs: tuple[WireRun, ...]) -> tuple[Figure, str]:
     panels["legend"].axis("off")
     handles, labels = panels["y"].get_legend_handles_labels()
     panels["legend"].legend(handles[::-1], labels[::-1], loc="center left")
-    caption = reference_caption(runs)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, reference_caption(runs))
 
 
 def _curves(reference: WireRun, others: Sequence[WireRun]) -> list[tuple[WireRun, float, dict]]:
@@ -154,9 +147,7 @@ def draw_perturbation(view: PerturbationView, table: ComparisonTable) -> tuple[F
     for name in "cd":
         panels[name].set_ylim(0.0, top)
     _legend_above(panels["c"])
-    caption = perturbation_caption(view.figure, table, view.proportional)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, perturbation_caption(view.figure, table))
 
 
 def _legend_above(axes: Axes) -> None:

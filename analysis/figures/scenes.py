@@ -9,7 +9,7 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number
 from analysis.gain import GainTable
 
@@ -28,7 +28,7 @@ def draw_scenes(wall: GainTable, vessel: GainTable) -> tuple[Figure, str]:
     for axes, name, title, wire, last in zip(panels, "ab", ("push against a wall", "insertion"), wires, lasts):
         letter(axes, name, title)
         _draw(axes, wire, last)
-    caption = (
+    return captioned(figure, (
         f"Figure scenes. A wire of {wires[0].run.number('numberRodElements'):g} rod elements, cut by the plane x = 0. "
         f"(a) Its first sphere is pushed by {wires[0].run.number('displacement'):g} units and held; the tip slides up "
         "the wall. (b) It is pushed along its first element by "
@@ -36,9 +36,7 @@ def draw_scenes(wall: GainTable, vessel: GainTable) -> tuple[Figure, str]:
         "the wire's surface reaches into the wall in these runs is "
         f"{number(wires[0].run.measured('maxPenetration'), 2)} and "
         f"{number(wires[1].run.measured('maxPenetration'), 2)} units of r = {wires[0].run.number('sphereRadius'):g}."
-    )
-    add_caption(figure, caption)
-    return figure, caption
+    ))
 
 
 def _wire(table: GainTable) -> WireRun:

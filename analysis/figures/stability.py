@@ -10,7 +10,7 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent
 from analysis.logs import LogError
 from analysis.stability import (
@@ -32,14 +32,10 @@ class Map:
     ----------
     title : str
     points : sequence of Frontier
-    closed_form : callable
-        Of a frontier: the limit of a wire without ends, with which values are divided.
-    chain : callable
-        Of a frontier: the limit of the whole chain.
-    line : str
-        Key of the axis that has a line for each of its values.
-    name : str
-        What a value of that axis is called, with its unit in brackets.
+    closed_form : of a frontier: the limit of a wire without ends, with which values are divided.
+    chain : of a frontier: the limit of the whole chain.
+    line : key of the axis that has a line for each of its values.
+    name : what a value of that axis is called, with its unit in brackets.
     """
 
     title: str
@@ -64,8 +60,7 @@ def read_maps(folders: Mapping[str, Path]) -> tuple[list[Map], list[dict[str, st
 
     Raises
     ------
-    LogError
-        A table is missing, or has no frontier where there should be one.
+    LogError : a table is missing, or has no frontier where there should be one.
     """
     found = {name: read_frontiers(folders[name]) for name in STUDIES[:4]}
     for name, points in found.items():
@@ -156,9 +151,7 @@ def draw_stability(folders: Mapping[str, Path]) -> tuple[Figure, str]:
     letter(panels[4], "e", "direct, long steps")
     _draw_long_steps(panels[4], long_steps)
     panels[5].axis("off")
-    caption = _caption(maps, long_steps)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _caption(maps, long_steps))
 
 
 def _draw_map(axes: Axes, drawn: Map) -> None:

@@ -79,6 +79,12 @@ def add_caption(figure: Figure, caption: str) -> None:
     )
 
 
+def captioned(figure: Figure, caption: str) -> tuple[Figure, str]:
+    """A figure with its caption under it, and the caption."""
+    add_caption(figure, caption)
+    return figure, caption
+
+
 def _wrap(figure: Figure, text: str, font: FontProperties, width: float) -> list[str]:
     """Breaks a text between words so that no line is wider than ``width`` pixels; "n = 60" stays together."""
     renderer = figure.canvas.get_renderer()

@@ -11,7 +11,7 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from analysis.figures.captions import sweep_caption
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import Spread, StudyRow, StudyTable
 
@@ -24,16 +24,11 @@ class SweepView:
 
     Attributes
     ----------
-    figure : str
-        Number of the figure in the thesis.
-    key : str
-        The parameter.
-    label : str
-        Label of the horizontal axis, with the unit.
-    logarithmic : bool
-        Whether the horizontal axis and the times on the vertical ones are.
-    marked : float or None
-        A value to mark by a dashed line.
+    figure : number of the figure in the thesis.
+    key : the parameter.
+    label : label of the horizontal axis, with the unit.
+    logarithmic : whether the horizontal axis and the times on the vertical ones are.
+    marked : a value to mark by a dashed line.
     """
 
     figure: str
@@ -89,9 +84,7 @@ def draw_sweep(view: SweepView, table: StudyTable) -> tuple[Figure, str]:
     for name in "abcde":
         _dress(panels[name], view, on_log=name in "ac")
     _draw_legend(panels["legend"], panels)
-    caption = sweep_caption(view.figure, table)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, sweep_caption(view.figure, table))
 
 
 def _draw_spread(axes: Axes, table: StudyTable, choose: Callable[[StudyRow], Spread | None]) -> None:

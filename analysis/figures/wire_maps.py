@@ -16,7 +16,7 @@ from analysis.figures.maps import (
     BENT, INACCURATE, JOINT_LIMIT, LARGEST_JOINT, LOST_TURN, Cell, View, draw_classes, draw_map, kind_of, kinds_of,
     read_map,
 )
-from analysis.figures.style import add_caption, letter, new_figure, styled
+from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number, percent
 from analysis.logs import read_log
 from analysis.runs import Run
@@ -134,9 +134,7 @@ def draw_wire_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
     letter(panels[6], "g", "pbd: stretch stiffness with damping (n = 10)")
     _draw_damped(panels[6], damped)
     draw_classes(panels[7], (BENT, LOST_TURN))
-    caption = _caption(found, damped)
-    add_caption(figure, caption)
-    return figure, caption
+    return captioned(figure, _caption(found, damped))
 
 
 def _draw_limits(panels: Sequence[Axes]) -> None:

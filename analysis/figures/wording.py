@@ -35,6 +35,11 @@ def percent(fraction: float, digits: int = 2) -> str:
     return f"{number(100.0 * fraction, digits)} %"
 
 
+def exponent(x: Sequence[float] | np.ndarray, y: Sequence[float] | np.ndarray) -> float:
+    """p of the power law y ~ x^p, by least squares of the logarithms."""
+    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
+
+
 def relative_spread(values: Sequence[float] | np.ndarray) -> float:
     """(largest - smallest)/median of the finite values; not a number where there is none."""
     finite = np.asarray(values)[np.isfinite(values)]

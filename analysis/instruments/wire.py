@@ -17,14 +17,10 @@ class Wire:
 
     Attributes
     ----------
-    parameters : mapping of str to Any
-        Effective parameters of a run with it, in millimetres (metresPerUnit 0.001).
-    ends : (k + 1,)
-        Where its pieces end, m from the proximal end.
-    bending, torsional : (k,)
-        EI and GJ of each piece, N m^2.
-    curvature : (k,)
-        Rest curvature of each piece about d1, 1/m.
+    parameters : effective parameters of a run with it, in millimetres (metresPerUnit 0.001).
+    ends : (k + 1,), where its pieces end, m from the proximal end.
+    bending, torsional : (k,), EI and GJ of each piece, N m^2.
+    curvature : (k,), rest curvature of each piece about d1, 1/m.
     """
 
     parameters: Mapping[str, Any]

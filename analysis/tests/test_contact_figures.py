@@ -12,8 +12,10 @@ from matplotlib.figure import Figure
 from analysis.figures.contact_rule import Rest, contact_rule_caption, read_rests
 from analysis.figures.control import along_line, draw_drives, drives_caption, read_drives, read_twists
 from analysis.figures.gain import draw_gain, gain_caption
-from analysis.figures.outlines import section, tube_sides
+from analysis.figures.outlines import draw_surroundings, section, tube_sides
 from analysis.gain import GainTable, read_gain
+from analysis.logs import LogError
+from analysis.runs import Run
 from analysis.surfaces import read_obj
 from analysis.tests.conftest import BOX, LUMEN, NAMED_WAVES, box_passages, write_box
 from analysis.tests.waves import Wave
@@ -156,6 +158,17 @@ def test_the_section_of_a_box_is_its_outline(tmp_path: Path) -> None:
     low, high = BOX[0, [2, 1]], BOX[1, [2, 1]]
     assert np.all(np.isclose(ends, low) | np.isclose(ends, high), axis=1).sum() >= 8
     np.testing.assert_allclose([ends.min(axis=0), ends.max(axis=0)], [low, high])
+
+
+def test_the_section_of_a_plane_is_a_line_and_a_mesh_that_is_gone_is_told() -> None:
+    axes = Figure().add_subplot()
+    plane = {"shape": "plane", "point": [7, 10, 5], "normal": [0, 4, -3]}
+    draw_surroundings(axes, Run(Path(), {"vessel": plane}, None))
+    (ends,) = axes.collections[0].get_segments()
+    np.testing.assert_allclose((ends - [5, 10]) @ [-3, 4], 0.0, atol=1e-9)
+    assert np.linalg.norm(ends[1] - ends[0]) == pytest.approx(2000.0)
+    with pytest.raises(LogError, match="gone.obj: cannot be read"):
+        draw_surroundings(axes, Run(Path(), {"vessel": {"shape": "mesh", "file": "gone.obj"}}, None))
 
 
 def test_sides_of_a_tube_keep_their_distance() -> None:

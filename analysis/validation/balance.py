@@ -90,9 +90,7 @@ def _energy() -> Plan:
             )
         axes.set_yscale("log")
         axes.set_ylim(1e-4, 3.0)
-        axes.set_xlabel("periods (1)")
-        axes.set_ylabel("energy of the mode (of the start)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "periods (1)", "energy of the mode (of the start)")
 
     caption = (
         f"Free, undamped motion in the first mode, amplitude 1e-2 L, over {_PERIODS} periods, {_STEPS} steps a period; "
@@ -149,9 +147,7 @@ def _force_balance(tight: bool) -> Plan:
             axes.plot(time, 1e3 * asked, color=f"C{k}", linewidth=0.8)
             axes.plot(time, 1e3 * stated, pictures.MARKERS[k], color=f"C{k}", fillstyle="none", markersize=3.0,
                       label=name)
-        axes.set_xlabel("time (ms)")
-        axes.set_ylabel("force along y (mN)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "time (ms)", "force along y (mN)")
 
     how = "each stage solved to rounding" if tight else "each stage solved to the default solverTolerance"
     caption = (

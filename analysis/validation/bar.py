@@ -15,12 +15,9 @@ class BarChain:
 
     Attributes
     ----------
-    elements : int
-        n.
-    mass, spring : float
-        m, kg, and k, N/m.
-    displacement : float
-        Of mass 0, m, from t = 0 on.
+    elements : n.
+    mass, spring : m, kg, and k, N/m.
+    displacement : of mass 0, m, from t = 0 on.
     """
 
     elements: int

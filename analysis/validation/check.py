@@ -18,7 +18,7 @@ import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
-from typing import Any, Generic, TypeVar
+from typing import Generic, TypeVar
 
 from matplotlib.figure import Figure
 
@@ -35,22 +35,14 @@ class Result:
 
     Attributes
     ----------
-    what : str
-        What was measured, with the scene's numbers.
-    solver : str
-        Which solver, with what distinguishes it.
-    value, reference : float
-        In ``unit``; the reference is not a number where there is none.
-    error : float
-        As the check defines it.
-    gate : float or None
-        Largest error allowed; None where the number is only shown.
-    cost : float or None
-        Wall time in s, or in s per simulated second where there is a motion.
-    error_in : str
-        What the error is a part of, or its unit.
-    reason : str
-        Why there is no figure; empty where there is one.
+    what : what was measured, with the scene's numbers.
+    solver : which solver, with what distinguishes it.
+    value, reference : in ``unit``; the reference is not a number where there is none.
+    error : as the check defines it.
+    gate : largest error allowed; None where the number is only shown.
+    cost : wall time in s, or in s per simulated second where there is a motion.
+    error_in : what the error is a part of, or its unit.
+    reason : why there is no figure; empty where there is one.
     """
 
     what: str
@@ -99,20 +91,13 @@ class Check(Generic[Found]):
 
     Attributes
     ----------
-    name : str
-        Folder of its runs and name of its picture.
-    section, title : str
-        For the report.
-    plan : callable
-        Makes the generator described above.
-    scene : str
-        Parameter file that its cases are laid over.
-    results : tuple of str
-        Outcomes that count as a result: a solver that gives up with a reason is one too.
-    logs : bool
-        Whether its runs leave logs.
-    seconds : float
-        How long a run may take.
+    name : folder of its runs and name of its picture.
+    section, title : for the report.
+    plan : makes the generator described above.
+    scene : parameter file that its cases are laid over.
+    results : outcomes that count as a result: a solver that gives up with a reason is one too.
+    logs : whether its runs leave logs.
+    seconds : how long a run may take.
     """
 
     name: str

@@ -138,8 +138,7 @@ def fit_frequency(time: np.ndarray, motion: np.ndarray, guess: float) -> float:
 
     Parameters
     ----------
-    time, motion : ndarray, shape (k,)
-        s, and any unit.
+    time, motion : (k,), s, and any unit.
     guess : Hz, right to a few percent.
     """
     window = np.sin(np.pi * (time - time[0]) / (time[-1] - time[0])) ** 2

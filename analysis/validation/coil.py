@@ -76,9 +76,7 @@ def _plan() -> Plan:
         for pitch, (way, force) in curves.items():
             axes.plot(1e3 * way, force, label=f"tau/kappa = {pitch:g}")
         axes.axhline(1.0, color="0.3", linestyle=":", label="closed form")
-        axes.set_xlabel("displacement of the hub (mm)")
-        axes.set_ylabel("force of the hub over EI kappa²/2 (1)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "displacement of the hub (mm)", "force of the hub over EI kappa²/2 (1)")
 
     return Finding(tuple(results), draw, (
         f"A straight wire of {2e3 * _WIRE.radius:g} mm is pushed from a straight tube into a helical one, without "

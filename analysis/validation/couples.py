@@ -8,7 +8,7 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analysis.figures.wording import percent
+from analysis.figures.wording import exponent, percent
 from analysis.runs import Run
 from analysis.validation import elastica, pictures, scenes
 from analysis.validation.check import Check, Finding, Plan, Result, not_run
@@ -23,11 +23,6 @@ ARC_GATE = 1e-3  # of L
 EXACT = 1e-9  # rad; what a search to 1e-9 may leave
 _NO_COUPLES = "xpbd has no couples (the run would end with that message)"
 _POINTS = np.linspace(0.0, 1.0, 301)
-
-
-def _plane(run: Run, wire: Wire) -> np.ndarray:
-    """Nodes as (z, -y)/L, shape (n+1, 2)."""
-    return last_state(run).positions[:, [2, 1]] * np.array([1.0, -1.0]) / wire.length
 
 
 def _methods(runs: Sequence[Run]) -> str:
@@ -74,7 +69,7 @@ def _end_moment() -> Plan:
         run = runs[case.key]
         state = last_state(run)
         n = len(state.directors)
-        nodes = _plane(run, BASE)
+        nodes = state.in_plane / BASE.length
         arc = elastica.arc(angle, np.linspace(0.0, 1.0, n + 1))
         exact = np.stack([arc.along, arc.across], axis=1)
         tip = float(np.linalg.norm(nodes[-1] - exact[-1]))
@@ -121,7 +116,7 @@ def _darboux_couple() -> Plan:
 
     def line(name: str, solver: str, case: Case) -> Result:
         run = runs[case.key]
-        nodes = _plane(run, BASE)
+        nodes = last_state(run).in_plane / BASE.length
         tip = np.array(elastica.arc(_ANGLES[name], np.array([0.0, 1.0])).tip)
         n = len(nodes) - 1
         return Result(f"couple M L/EI = {name}, Darboux law, n = {n}: tip across", solver, nodes[-1, 1], tip[1],
@@ -130,7 +125,7 @@ def _darboux_couple() -> Plan:
 
     for name in _ANGLES:
         lines = [line(name, "direct", cases[name, n]) for n in counts]
-        order = -pictures.slope(counts[1:], [r.error for r in lines[1:]])
+        order = -exponent(counts[1:], [r.error for r in lines[1:]])
         results += [*lines, line(name, "explicit, r = 5 mm", explicit[name])]
         results.append(Result(f"couple M L/EI = {name}, Darboux law: order in n", "direct", order, 2.0,
                               abs(order - 2.0), 0.1, "", None, "absolute"))

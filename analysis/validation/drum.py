@@ -105,9 +105,7 @@ def _plan() -> Plan:
                 axes.plot(grid, exact, color=f"C{color}", alpha=0.4, linewidth=2.5)
                 axes.plot(_COEFFICIENTS, [found[mu, young, way] for mu in _COEFFICIENTS], "ov"[side], fillstyle="none",
                           color=f"C{color}", label=f"E = {number(1e-6 * young, 3)} MPa, {('drawn', 'let back')[side]}")
-        axes.set_xlabel("coefficient of friction (1)")
-        axes.set_ylabel("force of the held end (N)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "coefficient of friction (1)", "force of the held end (N)")
 
     return Finding(tuple(results), draw, (
         f"A rope over half a drum, pulled by {_PULL:g} N at its other end, is drawn over it and let back: the force at "

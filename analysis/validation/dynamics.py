@@ -221,9 +221,7 @@ def _bar() -> Plan:
         for name in ("direct, esdirk4, 0.25 µs", "direct, implicitEuler, 0.25 µs"):
             t, moved = motions[name]
             axes.plot(1e3 * t, 1e3 * moved, linewidth=0.8, label=name)
-        axes.set_xlabel("time (ms)")
-        axes.set_ylabel("displacement of the free end (mm)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "time (ms)", "displacement of the free end (mm)")
 
     caption = (
         "The base of a bar, 30 springs and equal masses, is displaced by 1 mm at once: motion of the free end over 2 "

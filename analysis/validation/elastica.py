@@ -24,12 +24,9 @@ class PlaneShape:
 
     Attributes
     ----------
-    arc : ndarray, shape (k,)
-        s/L, ascending from 0 to 1.
-    along, across : ndarray, shape (k,)
-        Coordinates over L along the clamp's axis and in the direction in which the load acts.
-    angle : ndarray, shape (k,)
-        Of the tangent against the clamp's axis, rad.
+    arc : (k,), s/L, ascending from 0 to 1.
+    along, across : (k,), coordinates over L along the clamp's axis and in the direction in which the load acts.
+    angle : (k,), of the tangent against the clamp's axis, rad.
     """
 
     arc: np.ndarray

@@ -54,9 +54,7 @@ def _incline() -> Plan:
         axes = figure.add_subplot()
         for slope, (time, speed) in curves.items():
             axes.plot(time, 1e3 * speed, label=f"{slope:g}")
-        axes.set_xlabel("time (s)")
-        axes.set_ylabel("speed (mm/s)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "time (s)", "speed (mm/s)")
 
     return Finding(tuple(results), draw, (
         f"A short wire on an inclined plane, friction {_MU:g}, for tangents of its angle below and above that. Below, "
@@ -93,10 +91,8 @@ def _turned() -> Plan:
         axes = figure.add_subplot()
         axes.plot(_TURNING, expected, "-", color="0.6", linewidth=2.5, label="by the direction of slip")
         axes.plot(_TURNING, measured, "o", fillstyle="none", label="direct")
-        axes.set_xlabel("circumferential over axial speed of the surface (1)")
-        axes.set_ylabel("force of the hub (N)")
         axes.set_ylim(bottom=0.0)
-        pictures.outside_legend(axes)
+        pictures.label(axes, "circumferential over axial speed of the surface (1)", "force of the hub (N)")
 
     return Finding(tuple(results), draw, (
         f"A wire is pushed through a level tube (friction {_MU:g}) and rotated: friction opposes the slip of its "
@@ -140,9 +136,7 @@ def _capstan() -> Plan:
             axes.plot([mu * math.radians(angle) for mu in _COEFFICIENTS],
                       [force[mu, angle] / force[0.0, angle] for mu in _COEFFICIENTS], marker, fillstyle="none",
                       label=f"direct, {angle:g}°")
-        axes.set_xlabel("mu phi (1)")
-        axes.set_ylabel("force at the base over at the tip (1)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "mu phi (1)", "force at the base over at the tip (1)")
 
     return Finding(tuple(results), draw, (
         "A limp wire is pulled back through a bend against a force at its tip: the force grows by exp(mu phi) (the "

@@ -38,7 +38,7 @@ def _aspect(n: int, loads: tuple[float, ...]) -> Plan:
     results, curves, drawn = [], [], {}
     for load, case in cases.items():
         exact = elastica.heavy(load, _POINTS)
-        nodes = last_state(runs[case.key]).positions[:, [2, 1]] * np.array([1.0, -1.0]) / BASE.length
+        nodes = last_state(runs[case.key]).in_plane / BASE.length
         ratio, wanted = float(nodes[-1, 1] / nodes[-1, 0]), exact.tip[1] / exact.tip[0]
         what = f"cantilever hanging under w L³/EI = {load:g}, n = {n}: height over width"
         results.append(Result(what, "direct", ratio, wanted, abs(ratio / wanted - 1.0), 2e-3, "",

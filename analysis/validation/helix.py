@@ -59,9 +59,8 @@ def _helix() -> Plan:
         for marker, (name, (place, angle)) in zip(pictures.MARKERS, drawn.items()):
             axes.plot(place, angle, marker, fillstyle="none", markersize=3.5, label=name)
         axes.set_xlim(-30.0, 30.0)
-        axes.set_xlabel("distance along the rod from the middle of the helix (units)")
-        axes.set_ylabel("angle against the axis (°)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "distance along the rod from the middle of the helix (units)",
+                       "angle against the axis (°)")
 
     caption = (
         "A rod between clamps, brought closer by 3 of 100 and wound up by 27 turns, in parts of half a radian, each "

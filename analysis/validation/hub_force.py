@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number, percent, span
+from analysis.figures.wording import percent, span
 from analysis.hub import HubLog, read_hub
 from analysis.validation import pictures, scenes, tubes
 from analysis.validation.check import Check, Finding, Plan, Result

@@ -259,9 +259,7 @@ def _gains() -> Plan:
             middle = {"m": 500, "n": 30, "dt": 0.01}[name]
             axes.plot(np.array(values) / middle, places[name], marker + "-", fillstyle="none", label=name)
         axes.set_xscale("log", base=2)
-        axes.set_xlabel("m, n or dt over its default (1)")
-        axes.set_ylabel("tip across after 0.5 s (units)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "m, n or dt over its default (1)", "tip across after 0.5 s (units)")
 
     caption = (
         "With pbd there is no such independence: the tip of the thesis's transversal run after 0.5 s for other m, n "

@@ -30,9 +30,7 @@ def shapes(
         for marker, (name, points) in zip(_cycle(len(measured)), measured.items()):
             axes.plot(*points.T, marker, markersize=3.5, fillstyle="none", label=name)
         axes.set_aspect("equal", adjustable="datalim")
-        axes.set_xlabel(labels[0])
-        axes.set_ylabel(labels[1])
-        outside_legend(axes)
+        label(axes, labels[0], labels[1])
 
     return draw
 
@@ -75,9 +73,7 @@ def orders(
         if 0 < len(at) <= _TICKS:
             axes.set_xticks(sorted(at), [f"{x:g}" for x in sorted(at)])
             axes.minorticks_off()
-        axes.set_xlabel(x_label)
-        axes.set_ylabel(y_label)
-        outside_legend(axes)
+        label(axes, x_label, y_label)
 
     return draw
 
@@ -88,19 +84,14 @@ def marks(
     """Adds points (x, y) by name, labels and a legend beside the axes."""
     for marker, (name, (x, y)) in zip(_cycle(len(series)), series.items()):
         axes.plot(x, y, marker, fillstyle="none", label=name)
+    label(axes, x_label, y_label)
+
+
+def label(axes: Axes, x_label: str, y_label: str) -> None:
+    """What the axes show, and a legend beside them, where it hides nothing."""
     axes.set_xlabel(x_label)
     axes.set_ylabel(y_label)
-    outside_legend(axes)
-
-
-def outside_legend(axes: Axes) -> None:
-    """A legend beside the axes, where it hides nothing."""
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
-
-
-def slope(x: Sequence[float], y: Sequence[float]) -> float:
-    """Power of x with which y goes, by least squares of the logarithms."""
-    return float(np.polyfit(np.log(x), np.log(y), 1)[0])
 
 
 def _cycle(count: int) -> list[str]:

@@ -35,12 +35,9 @@ class PlaneRest:
 
     Attributes
     ----------
-    curvature : float
-        k0 L, at rest, in the plane.
-    direction : float
-        g, of the weight from the clamp's axis, rad.
-    lateral, torsion : float
-        B2/B1 and C/B1.
+    curvature : k0 L, at rest, in the plane.
+    direction : g, of the weight from the clamp's axis, rad.
+    lateral, torsion : B2/B1 and C/B1.
     """
 
     curvature: float

@@ -97,9 +97,7 @@ def _between(thrusts: Sequence[float]) -> Plan:
         axes.plot(grid, [push(t * math.pi**2) for t in grid], color="0.6", linewidth=2.5, label="linear beam")
         axes.plot(list(found), list(found.values()), "o", fillstyle="none", label="direct")
         axes.axvline(16.0, color="0.3", linestyle=":", label="a point becomes a line")
-        axes.set_xlabel("thrust (pi² EI/L²)")
-        axes.set_ylabel("force of the plane (EI c/L³)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "thrust (pi² EI/L²)", "force of the plane (EI c/L³)")
 
     return Finding(tuple(results), draw, (
         "A column between two planes, clamped on the line halfway, touches one of them: the force of the plane against "

@@ -24,10 +24,8 @@ class Release:
 
     Attributes
     ----------
-    time : ndarray, shape (k,)
-        In s.
-    along, across : ndarray, shape (k,)
-        The tip's coordinates, m; across is positive where the load pulled.
+    time : (k,), in s.
+    along, across : (k,), the tip's coordinates, m; across is positive where the load pulled.
     """
 
     time: np.ndarray

@@ -11,7 +11,7 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from analysis.figures.style import add_caption, new_figure, styled
+from analysis.figures.style import add_caption, captioned, new_figure, styled
 from analysis.figures.wording import number
 from analysis.logs import LogError
 from analysis.validation import (
@@ -179,13 +179,11 @@ def draw_overview(report: Report) -> tuple[Figure, str]:
     axes.legend(loc="lower left", ncols=2)
     wrong = [(check, [r for r in finding.results if r.passed is False]) for check, finding in report.findings.items()]
     told = "; ".join(f"{check.title}: {_worst(lines)}" for check, lines in wrong if lines)
-    caption = (
+    return captioned(figure, (
         f"Error over limit of every line of the validation that has one. {_counted(report)}. "
         + (f"Failed: {told}. " if told else "")
         + (f"Not made: {', '.join(check.title for check in report.missing)}." if report.missing else "")
-    )
-    add_caption(figure, caption)
-    return figure, caption
+    ))
 
 
 def _worst(lines: Sequence[Result]) -> str:

@@ -12,7 +12,7 @@ from analysis.runs import Run
 from analysis.validation import beam
 from analysis.validation.spatial import Bend
 from analysis.validation.states import solver_report
-from analysis.validation.wire import BASE, Wire
+from analysis.validation.wire import Wire
 from studies.table import Case
 
 UNIT = 1e-3  # m; one unit of length of the files
@@ -155,8 +155,7 @@ def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:
 
     Parameters
     ----------
-    along, across : ndarray, shape (n+1,)
-        Along z and against y, m.
+    along, across : (n+1,), along z and against y, m.
     """
     angle = np.arctan2(np.diff(across), np.diff(along))
     return {

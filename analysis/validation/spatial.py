@@ -21,12 +21,9 @@ class CurvedRod:
 
     Attributes
     ----------
-    length : float
-        L.
-    curvature : float
-        At rest, about d1; the rod leaves the origin along z and bends towards -y.
-    bending, torsion, stretching, shearing : float
-        EI, GJ, EA, GA.
+    length : L.
+    curvature : at rest, about d1; the rod leaves the origin along z and bends towards -y.
+    bending, torsion, stretching, shearing : EI, GJ, EA, GA.
     """
 
     length: float

@@ -38,14 +38,10 @@ class Limit:
 
     Attributes
     ----------
-    load : float
-        Where the first shape is left; not a number where no such load was seen, or only the interval about it.
-    seen : mapping of float to float
-        From each load to the distance, over L, from the first shape.
-    cost : float
-        Wall time of all runs, s.
-    low, high : float
-        Ends of the interval in which the load lies, fractions of the expected one.
+    load : where the first shape is left; not a number where no such load was seen, or only the interval about it.
+    seen : from each load to the distance, over L, from the first shape.
+    cost : wall time of all runs, s.
+    low, high : ends of the interval in which the load lies, fractions of the expected one.
     """
 
     load: float
@@ -182,9 +178,7 @@ def branches(
             if math.isfinite(one.load):
                 axes.axvline(one.load, color=color, linewidth=0.9, linestyle="--")
         axes.set_yscale("log")
-        axes.set_xlabel(x_label)
-        axes.set_ylabel(y_label)
-        pictures.outside_legend(axes)
+        pictures.label(axes, x_label, y_label)
 
     return draw
 

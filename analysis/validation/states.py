@@ -19,20 +19,21 @@ class State:
 
     Attributes
     ----------
-    time : float
-        s.
-    positions : ndarray, shape (n+1, 3)
-        m.
-    velocities : ndarray, shape (n+1, 3)
-        m/s.
-    orientations : ndarray, shape (n, 4), or None
-        Unit quaternions x, y, z, w; None where the run did not log them.
+    time : s.
+    positions : (n+1, 3), m.
+    velocities : (n+1, 3), m/s.
+    orientations : (n, 4), unit quaternions x, y, z, w; None where the run did not log them.
     """
 
     time: float
     positions: np.ndarray
     velocities: np.ndarray
     orientations: np.ndarray | None
+
+    @property
+    def in_plane(self) -> np.ndarray:
+        """Positions as (z, -y), along the wire and down, shape (n+1, 2)."""
+        return self.positions[:, [2, 1]] * np.array([1.0, -1.0])
 
     @property
     def directors(self) -> np.ndarray:

@@ -11,7 +11,6 @@ from typing import Any
 import numpy as np
 
 from analysis.figures.wording import number, percent
-from analysis.runs import Run
 from analysis.validation import elastica, pictures, scenes, spatial, twisted
 from analysis.validation.check import TUNED, Check, Finding, Plan, Result, not_run
 from analysis.validation.states import last_state, solver_report, wall_time
@@ -40,11 +39,6 @@ def _solver_cases(
     return cases
 
 
-def _plane(run: Run, wire: Wire) -> np.ndarray:
-    """Nodes as (z, -y)/L, shape (n+1, 2)."""
-    return last_state(run).positions[:, [2, 1]] * np.array([1.0, -1.0]) / wire.length
-
-
 def _dead_load(
     title: str, wire: Wire, loads: Mapping[str, Any], reference: elastica.PlaneShape, solvers: Sequence[str]
 ) -> Plan:
@@ -55,7 +49,7 @@ def _dead_load(
     results, drawn = [], {}
     for case in cases:
         run = runs[case.key]
-        nodes = _plane(run, wire)
+        nodes = last_state(run).in_plane / wire.length
         step = (len(exact) - 1) // (len(nodes) - 1)
         error = float(np.max(np.linalg.norm(nodes - exact[::step], axis=1)))
         results.append(Result(
@@ -193,12 +187,11 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
     }
     runs = yield [Case(solver, {**scene, "numberRodElements": _PLANE_ELEMENTS[solver], **own[solver]})
                   for solver in solvers]
-    run = runs["direct"]
     load = wire.line_density * _GRAVITY * wire.length**3 / wire.bending
     shape, force = elastica.heavy_on_plane(load, PLANE_DROP / wire.length, _POINTS)
     free = elastica.heavy(load, _POINTS)
     newtons = force * wire.bending / wire.length**2
-    drawn = {solver: _plane(runs[solver], wire) for solver in solvers}
+    drawn = {solver: last_state(runs[solver]).in_plane / wire.length for solver in solvers}
     what = (f"cantilever, r = {1e3 * wire.radius:g} mm, on a frictionless plane {1e3 * PLANE_DROP:g} mm below: force "
             "at the tip")
     reasons = {
@@ -219,10 +212,8 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
             axes.plot(*nodes.T, pictures.SOLVER_MARKERS[solver], fillstyle="none", label=solver)
         axes.plot(shape.along, shape.across, color="0.6", linewidth=2.5, label="tip on the plane")
         axes.plot(free.along, free.across, color="0.6", linewidth=1.0, label="without the plane")
-        axes.set_xlabel("z/L")
-        axes.set_ylabel("-y/L")
         axes.invert_yaxis()
-        pictures.outside_legend(axes)
+        pictures.label(axes, "z/L", "-y/L")
 
     told = [f"{number(forces[r.solver], 5)} N ({r.solver}, off by {percent(r.error)})" for r in results[:len(solvers)]]
     caption = (

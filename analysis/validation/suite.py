@@ -327,9 +327,7 @@ def _plan() -> Plan:
                               fillstyle="full" if solver == "direct" else "none")
         axes.set_xscale("log")
         axes.set_yscale("log")
-        axes.set_xlabel("wall time (s; of others: another machine)")
-        axes.set_ylabel("error (1; capstan: slide in m)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "wall time (s; of others: another machine)", "error (1; capstan: slide in m)")
 
     return Finding(tuple(results), draw, (
         "Experiments of cosseratbench with its metrics and references: ours (full; steps and search alone) beside its "

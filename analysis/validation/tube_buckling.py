@@ -173,9 +173,7 @@ def _loading(fraction: float) -> Plan:
             axes.plot(load[part], above[part], style, linewidth=2.5, alpha=0.4, label=f"height/2, {name}")
         for f, name in ((2.0, "2"), (EVEN_HELIX, "2.83")):
             axes.axvline(f, color="0.3", linewidth=0.9, linestyle=":", label=name)
-        axes.set_xlabel("thrust (sqrt(EI w/c))")
-        axes.set_ylabel("largest distance of a node (c)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "thrust (sqrt(EI w/c))", "largest distance of a node (c)")
 
     return Finding(tuple(results), draw, caption)
 
@@ -247,9 +245,7 @@ def _held(loads: Sequence[float]) -> Plan:
         axes = figure.add_subplot()
         for f, (time, turns) in curves.items():
             axes.plot(time, turns, "-" if f in holding else "--", label=f"{f:g}")
-        axes.set_xlabel("time (s)")
-        axes.set_ylabel("turns about the tube's axis")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "time (s)", "turns about the tube's axis")
 
     return Finding(tuple(results), draw, caption)
 

@@ -111,8 +111,7 @@ def _errors(names: Sequence[str], errors: Mapping[tuple[str, str], float]) -> Ca
                       pictures.MARKERS[k % 8], color=f"C{k}", fillstyle="none", label=scheme)
         axes.set_yticks(range(len(names)), names, fontsize=6)
         axes.set_xscale("log")
-        axes.set_xlabel("error (1)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "error (1)", "")
 
     return draw
 

@@ -62,10 +62,8 @@ class LocalisedHelix:
 
     Attributes
     ----------
-    load : float
-        m, dimensionless.
-    tension, moment : float
-        T and M, in units of B/length^2 and B/length with the units of B and the lengths given.
+    load : m, dimensionless.
+    tension, moment : T and M, in units of B/length^2 and B/length with the units of B and the lengths given.
     """
 
     load: float

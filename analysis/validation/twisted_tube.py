@@ -202,9 +202,7 @@ def _plan() -> Plan:
         grid = np.linspace(twisted.clamped_moment() + 1e-3, splits(), 200)
         axes.plot(grid, [middle(moment)[2] for moment in grid], color="0.6", linewidth=2.5, label="linear rod")
         axes.plot(list(found), list(found.values()), "o", fillstyle="none", label="direct")
-        axes.set_xlabel("couple M L/EI (1)")
-        axes.set_ylabel("force of the wall (EI c/L³)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "couple M L/EI (1)", "force of the wall (EI c/L³)")
 
     return Finding(tuple(results), draw, (
         "A rod between clamps on the axis of a tube, one of which turns and slides, touches the wall in its middle: "

@@ -49,9 +49,7 @@ def _stenosis() -> Plan:
         axes = figure.add_subplot()
         for name, (way, force) in curves.items():
             axes.plot(way[way > 16.0], 100.0 * force[way > 16.0], label=f"off axis by {name}")
-        axes.set_xlabel("displacement of the tip (mm)")
-        axes.set_ylabel("force of the hub (% of the buckling load)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "displacement of the tip (mm)", "force of the hub (% of the buckling load)")
 
     worst = max(results, key=lambda r: r.error)
     return Finding(tuple(results), draw, (
@@ -77,9 +75,7 @@ def _carried() -> Plan:
         axes = figure.add_subplot()
         axes.plot(log.time, height.min(axis=1), label="lowest node")
         axes.plot(log.time, height.max(axis=1), "--", label="highest node")
-        axes.set_xlabel("time (s)")
-        axes.set_ylabel("y (units)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "time (s)", "y (units)")
 
     error = float(np.linalg.norm(force - [0.0, weight, 0.0])) / weight
     return Finding((Result("wire that lies in a level tube: force of the tube", "direct", float(force[1]), weight,
@@ -132,9 +128,7 @@ def _containment(speeds: Sequence[float]) -> Plan:
         for name, (way, gap) in curves.items():
             axes.plot(way, gap, label=name)
         axes.set_yscale("log")
-        axes.set_xlabel("displacement of the hub (mm)")
-        axes.set_ylabel("least gap between wire and wall (mm)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "displacement of the hub (mm)", "least gap between wire and wall (mm)")
 
     count = sum(int(r.value) for r in results[::2])
     return Finding(tuple(results), draw, (

@@ -124,9 +124,7 @@ def _whip(settings: Sequence[tuple[float, int]]) -> Plan:
         for clearance, log in logs.items():
             axes.plot(np.degrees(log.turn), np.degrees(log.turn + log.twist), linewidth=1.0,
                       label=f"direct, {clearance:g} mm")
-        axes.set_xlabel("angle of the hub (°)")
-        axes.set_ylabel("angle of the tip (°)")
-        pictures.outside_legend(axes)
+        pictures.label(axes, "angle of the hub (°)", "angle of the tip (°)")
 
     return Finding(tuple(results), draw, caption)
 

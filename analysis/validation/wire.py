@@ -12,14 +12,10 @@ class Wire:
 
     Attributes
     ----------
-    length, radius : float
-        L and r, m.
-    youngs_modulus, shear_modulus : float
-        E and G, Pa.
-    density : float
-        rho, kg/m^3.
-    shear_factor : float
-        What of GA resists shear.
+    length, radius : L and r, m.
+    youngs_modulus, shear_modulus : E and G, Pa.
+    density : rho, kg/m^3.
+    shear_factor : what of GA resists shear.
     """
 
     length: float = 0.3

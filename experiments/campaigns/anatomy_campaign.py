@@ -8,16 +8,15 @@ the wire is that instrument. A start that the program refuses is skipped and doe
 
 from __future__ import annotations
 
-import argparse
 import itertools
 import json
 import shutil
 import sys
 import tempfile
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -29,9 +28,9 @@ from analysis.passages import SAMPLES, Wall, sample_wire
 from analysis.surfaces import read_obj
 from experiments import building
 from experiments.campaigns import material_pushes
-from experiments.campaigns.push_campaign import CODES
+from experiments.campaigns.push_campaign import CODES, parser_of
 from experiments.campaigns.push_claims import contradictions
-from experiments.campaigns.wall_search import MeshSearch
+from analysis.wall_search import MeshSearch
 from experiments.runner import Request, Runner
 
 DIAMETERS = (0.36, 0.89)  # mm
@@ -42,6 +41,7 @@ _WIRE = ("wireRadius", "youngsModulus", "shearModulus", "density", "wireSections
          "numberRodElements")
 _SAME = 1e-9  # of the radius
 _ELASTIC = 1e-5  # of the wire's length, by which its proximal node may be behind the hub
+_SAME_LENGTH = 1e-3  # mm
 _DEPTH_EVERY = 5  # entries of the log of which the depth is searched
 _REFUSED = 2  # exit code
 
@@ -140,8 +140,7 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
     Parameters
     ----------
     scene : the effective parameters of the run.
-    positions : ndarray, shape (k, n + 1, 3)
-        Of all nodes after every step, mm.
+    positions : (k, n + 1, 3), of all nodes after every step, mm.
     """
     if not np.isfinite(positions).all():
         return ["a position is not a finite number"]
@@ -174,8 +173,10 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
     after = np.minimum(SAMPLES * (first + 1), lumen.shape[1] - 1)
     if not (lumen[np.arange(len(lumen)), after] | (first > n)).all():
         claims.append("the wire is outside where it leaves its sheath")
+    start = float((positions[0, -1] - exit_at) @ along)  # of the wire out of the sheath, mm
     return [*claims, *_depth(vessel, scene, summary, positions, body, bool(crossing.any())),
-            *_drive_claims(scene, summary, positions)]
+            *_drive_claims(scene, summary, positions),
+            *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]))]
 
 
 def _depth(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, body: np.ndarray,
@@ -229,16 +230,27 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
     return claims
 
 
+def _body_claims(scene: dict[str, Any], hub: dict[str, Any], start: float, outside: int) -> list[str]:
+    """What the summary says is in the body: the length out of the sheath at the start, mm, and what the hub pushed in
+    since, less what the wire is shortened by under its push; the nodes counted outside of the sheath at the end."""
+    area = np.pi * (scene["wireRadius"]**2 - scene["innerRadius"]**2)
+    stiffness = scene["axialStiffness"] or scene["youngsModulus"] * area  # EA, N
+    slack = _SAME_LENGTH + scene["guidewireLength"] * abs(hub["force"]) / stiffness
+    claims = []
+    if abs(1e3 * (hub["lengthInBody"] - hub["insertion"]) - start) > slack:
+        claims.append(f"{hub['lengthInBody']} m in the body, pushed in by {hub['insertion']} m after {start} mm")
+    if hub["spheresInBody"] != outside:
+        claims.append(f"{hub['spheresInBody']} spheres in the body, counted {outside}")
+    return claims
+
+
 def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: str | None = None) -> Walk:
     """Draw, run and judge; its files stay in the folder where it breaks a claim."""
     path = draw(vessel, seed, folder, instrument)
     out = folder / f"run-{path.stem}"
-    watchdog = threading.Timer(RUN_LIMIT, runner.interrupt)
-    watchdog.start()
     start = time.monotonic()
-    answer = runner.run(Request(path.stem, path, out))
+    answer = runner.run(Request(path.stem, path, out), RUN_LIMIT)
     seconds = time.monotonic() - start
-    watchdog.cancel()
     name = vessel.folder.name
     if answer.exit_code == _REFUSED:
         walk = Walk(name, seed, [], "refused", str(answer.message))
@@ -260,24 +272,15 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: st
 def campaign(command: Sequence[str], vessel: Vessel, seeds: Iterable[int], folder: Path,
              instrument: str | None = None) -> Iterator[Walk]:
     """The runs of these seeds in one vessel, one after another in one process."""
-    runner = Runner(command)
-    try:
+    with closing(Runner(command)) as runner:
         for seed in seeds:
-            walk = make(runner, vessel, seed, folder, instrument)
-            if walk.seconds >= RUN_LIMIT:
-                runner.close()
-                runner = Runner(command)
-            yield walk
-    finally:
-        runner.close()
+            yield make(runner, vessel, seed, folder, instrument)
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(
-        prog="python3 -m experiments.campaigns.anatomy_campaign", description=__doc__.split("\n")[0])
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="of guidewire.py anatomy")
-    parser.add_argument("--runs", type=int, default=100, help="how many in each (default 100)")
-    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
+    parser = parser_of("anatomy_campaign", __doc__)
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER",
+                        help="of guidewire.py anatomy; each has so many runs")
     parser.add_argument("--instrument", action="append", help="in place of drawn wires; may be given several times")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)

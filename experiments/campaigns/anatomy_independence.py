@@ -8,7 +8,6 @@ finish in the same branches; others are counted. Runs whose tip moves by more th
 
 from __future__ import annotations
 
-import argparse
 import json
 import sys
 import tempfile
@@ -24,6 +23,7 @@ from anatomy.centreline import cut_edges
 from anatomy.mesh import Edges, Mesh
 from experiments import building
 from experiments.campaigns.anatomy_campaign import DIAMETERS
+from experiments.campaigns.push_campaign import parser_of
 from experiments.campaigns.vessel import write_obj
 from experiments.runner import Request, Runner
 
@@ -85,11 +85,9 @@ def _tip(runner: Runner, scene: dict[str, Any], folder: Path) -> tuple[np.ndarra
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(
-        prog="python3 -m experiments.campaigns.anatomy_independence", description=__doc__.split("\n")[0])
-    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER", help="of guidewire.py anatomy")
-    parser.add_argument("--runs", type=int, default=10, help="how many in each (default 10)")
-    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
+    parser = parser_of("anatomy_independence", __doc__, runs=10)
+    parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER",
+                        help="of guidewire.py anatomy; each has so many runs")
     given = parser.parse_args(arguments)
     runner = Runner(building.build(building.RUNNER, print))
     moved: dict[str, dict[str, list[float]]] = {name: {} for name in LIMITS}

@@ -9,7 +9,7 @@ import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
 from experiments.campaigns.push_claims import contradictions
-from experiments.campaigns.wall_search import Walls
+from analysis.wall_search import Walls
 
 SAME = 1e-9  # of the wire's radius
 OF_WAY = 1e-6  # of the way asked for: node 0 is on a stiff spring
@@ -26,10 +26,8 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     Parameters
     ----------
     scene, summary : the run's parameter file and summary.json.
-    positions : ndarray, shape (k, n + 1, 3)
-        Of all nodes at the start and after every step, in units.
-    radii : ndarray, shape (n,)
-        Of the elements, in units.
+    positions : (k, n + 1, 3), of all nodes at the start and after every step, in units.
+    radii : (n,), of the elements, in units.
     walls : the scene's.
     """
     if not np.isfinite(positions).all():

@@ -14,10 +14,10 @@ import json
 import shutil
 import sys
 import tempfile
-import threading
 import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
+from contextlib import closing
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -28,7 +28,7 @@ from analysis.logs import read_log
 from analysis.surfaces import read_obj
 from experiments import building
 from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
-from experiments.campaigns.wall_search import Walls, crosses_itself, triangles_of
+from analysis.wall_search import Walls, crosses_itself, triangles_of
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
@@ -81,15 +81,11 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
     if method != "pbd" and starts_in_a_wall(scene, walls):
         return None
     out = folder / f"run-{seed}"
-    watchdog = threading.Timer(RUN_LIMIT, runner.interrupt)
-    watchdog.start()
     start = time.monotonic()
-    answer = runner.run(Request(str(seed), path, out))
+    answer = runner.run(Request(str(seed), path, out), RUN_LIMIT)
     seconds = time.monotonic() - start
-    watchdog.cancel()
     if CODES.get(answer.outcome) != answer.exit_code:
-        slow = f"took more than {RUN_LIMIT} s: " if seconds >= RUN_LIMIT else ""
-        return Push(seed, kind, [f"{slow}{answer.outcome}: {answer.message}"], seconds, answer.outcome)
+        return Push(seed, kind, [f"{answer.outcome}: {answer.message}"], seconds, answer.outcome)
     summary = json.loads((out / "summary.json").read_text())
     positions = read_log(out, spheres="all").positions
     if method == "pbd":
@@ -119,30 +115,30 @@ def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
 
 def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd") -> Iterator[Push]:
     """The pushes of these seeds, one after another in one process; files of those that break nothing are removed."""
-    runner = Runner(command)
-    try:
+    with closing(Runner(command)) as runner:
         for seed in seeds:
             push = make(runner, seed, method, folder)
-            if push and push.seconds >= RUN_LIMIT:
-                runner.close()
-                runner = Runner(command)
             shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
             if not push or not push.claims:
                 for path in folder.glob(f"push-{seed}.*"):
                     path.unlink()
             if push:
                 yield push
-    finally:
-        runner.close()
+
+
+def parser_of(name: str, description: str, runs: int = 100) -> argparse.ArgumentParser:
+    """The arguments that campaigns share: how many runs, and the first seed."""
+    parser = argparse.ArgumentParser(prog=f"python3 -m experiments.campaigns.{name}",
+                                     description=description.split("\n", 1)[0])
+    parser.add_argument("--runs", type=int, default=runs, help=f"how many (default {runs})")
+    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
+    return parser
 
 
 def main(arguments: Sequence[str]) -> int:
-    parser = argparse.ArgumentParser(
-        prog="python3 -m experiments.campaigns.push_campaign", description=__doc__.split("\n")[0])
+    parser = parser_of("push_campaign", __doc__)
     parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
                         help="of the runs (default pbd)")
-    parser.add_argument("--runs", type=int, default=100, help="how many (default 100)")
-    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
     broken = 0

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from experiments.campaigns.wall_search import ClosedForm, MeshSearch, Walls
+from analysis.wall_search import ClosedForm, MeshSearch, Walls
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
@@ -25,8 +25,7 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     Parameters
     ----------
     scene, summary : the run's parameter file and summary.json.
-    positions : ndarray, shape (k, n + 1, 3)
-        Of all spheres after every step from 0 on, in units.
+    positions : (k, n + 1, 3), of all spheres after every step from 0 on, in units.
     """
     rubs = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
     return [*contradictions(summary), *_passages(scene["elementContact"], summary, positions, walls),

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.campaigns.wall_search import rotation_of
+from analysis.wall_search import rotation_of
 
 CONTACT_RULES = ("barycentric", "none", "thesis")
 ROOM = 1.07  # least width of a lumen on the way, over the wire's radius

@@ -35,12 +35,9 @@ class ChainEnergy:
     Attributes
     ----------
     wire : Wire
-    positions : ndarray, shape (n+1, 3)
-        m.
-    orientations : ndarray, shape (n, 4)
-        Unit quaternions x, y, z, w. The clamp's frame is that of the axes.
-    force, moment : ndarray, shape (3,)
-        N along fixed axes, N m along the tip's own.
+    positions : (n+1, 3), m.
+    orientations : (n, 4), unit quaternions x, y, z, w. The clamp's frame is that of the axes.
+    force, moment : (3,), N along fixed axes, N m along the tip's own.
     """
 
     wire: Wire

@@ -83,6 +83,10 @@ def test_a_wire_beside_the_wall_and_a_hub_that_lies_are_claimed(runner_command, 
     assert any("the hub went" in claim for claim in judge(artery, scene, summary | {"hub": hub}, positions))
     assert any("reliable" in claim for claim in judge(
         artery, scene, summary | {"reliable": not summary["reliable"]}, positions))
+    for wrong, said in (({"lengthInBody": summary["hub"]["lengthInBody"] + 1e-3}, "m in the body"),
+                        ({"spheresInBody": summary["hub"]["spheresInBody"] + 1}, "spheres in the body")):
+        claims = judge(artery, scene, summary | {"hub": summary["hub"] | wrong}, positions)
+        assert len(claims) == 1 and said in claims[0]
 
 
 def _mask(path, side, ends, radius):

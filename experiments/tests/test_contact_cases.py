@@ -11,7 +11,7 @@ import pytest
 from analysis.logs import read_log
 from analysis.passages import Wall, count_passages, inside
 from experiments.campaigns.push_claims import crossings, drive_claims, penetration_claims
-from experiments.campaigns.wall_search import Walls, triangles_of
+from analysis.wall_search import Walls, triangles_of
 from experiments.runner import Request
 
 CASES = Path(__file__).with_name("contact_cases")

@@ -10,12 +10,11 @@ import pytest
 
 from analysis.hub import read_hub
 from analysis.logs import read_log
-from analysis.passages import Wall, inside
 from analysis.surfaces import read_obj
 from experiments.campaigns import material_claims, material_pushes, pushes
 from experiments.campaigns.push_campaign import campaign
 from experiments.campaigns.push_claims import judge
-from experiments.campaigns.wall_search import MeshSearch, Walls, closed_form, crosses_itself
+from analysis.wall_search import MeshSearch, Walls, closed_form, crosses_itself
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 # In the fraction six kinds with one rule each, and each rule with two of them.

@@ -8,7 +8,6 @@ import signal
 import threading
 import time
 from dataclasses import dataclass
-from functools import partial
 
 import pytest
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any, Callable
+from typing import Any
 
 import pytest
 
@@ -171,14 +171,3 @@ def sample(tmp_path: Path) -> Sample:
     project = Sample(tmp_path)
     assert project.broken() == set()
     return project
-
-
-@pytest.fixture
-def breakage(sample: Sample) -> Callable[..., None]:
-    """Edit one place of the sample and require that exactly this rule names exactly this file."""
-
-    def break_it(path: str, old: str, new: str, rule: str, named: str | None = None) -> None:
-        sample.edit(path, old, new)
-        assert sample.broken() == {(named or path, rule)}
-
-    return break_it

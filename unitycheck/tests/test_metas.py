@@ -39,21 +39,6 @@ def test_hidden_names_need_none(sample) -> None:
     assert sample.broken() == set()
 
 
-def test_guid_of_wrong_form(breakage) -> None:
-    guid = metas.stable_guid(NUMBER)
-    breakage(f"{NUMBER}.meta", guid, guid[:-1] + "G", "guid-form")
-
-
-def test_guid_changed(breakage) -> None:
-    guid = metas.stable_guid(NUMBER)
-    breakage(f"{NUMBER}.meta", guid, guid[1:] + guid[0], "guid-changed")
-
-
-def test_guid_twice(sample) -> None:
-    sample.edit(f"{NUMBER}.meta", metas.stable_guid(NUMBER), metas.stable_guid("Assets/Guidewire/Core"))
-    assert (f"{NUMBER}.meta", "guid-twice") in sample.broken()
-
-
 def test_rename_with_its_meta_is_allowed_when_listed(sample) -> None:
     renamed = NUMBER.replace("Number", "Figure")
     (sample.root / NUMBER).rename(sample.root / renamed)
@@ -63,18 +48,6 @@ def test_rename_with_its_meta_is_allowed_when_listed(sample) -> None:
     assert sample.broken() == set()
 
 
-def test_importer(breakage) -> None:
-    breakage("Assets/Guidewire/Wire.mat.meta", "NativeFormatImporter", "DefaultImporter", "meta-importer")
-
-
 def test_script_without_importer_block_as_unity_6_writes_it(sample) -> None:
     sample.write(f"{NUMBER}.meta", f"fileFormatVersion: 2\nguid: {metas.stable_guid(NUMBER)}\n")
     assert sample.broken() == set()
-
-
-def test_folder_flag(breakage) -> None:
-    breakage("Assets/Guidewire/Core.meta", "folderAsset: yes\n", "", "meta-importer")
-
-
-def test_form(breakage) -> None:
-    breakage(f"{NUMBER}.meta", "fileFormatVersion: 2", "fileFormatVersion: 3", "meta-form")

@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-import pytest
-
 from unitycheck import sources
 from unitycheck.project import Project
 
@@ -47,36 +45,8 @@ def test_types_of_stored_fields(sample) -> None:
     assert (found["D"].values, found["F"].names, found["F"].range) == ({1, 4}, ("f",), (0.01, 2.0))
 
 
-def test_class_called_otherwise(sample) -> None:
-    sample.edit(SPINNER, "class Spinner", "class Spiner")
-    assert (SPINNER, "script-name") in sample.broken()
-
-
-@pytest.mark.parametrize("form", ["internal sealed class", "public abstract class"])
-def test_class_that_cannot_be_attached(sample, form: str) -> None:
-    sample.edit(SPINNER, "public sealed class", form)
-    assert sample.broken() == {(SPINNER, "script-form")}
-
-
 def test_behaviour_in_editor_assembly(sample) -> None:
     sample.add("Assets/Guidewire/Editor/Tool.cs",
                "using UnityEngine;\n\nnamespace A\n{\n    public class Tool : MonoBehaviour\n"
                "    {\n    }\n}\n")
     assert sample.broken() == {("Assets/Guidewire/Editor/Tool.cs", "script-form")}
-
-
-@pytest.mark.parametrize("wrong", ["Updte", "update", "StartIO", "OnGui"])
-def test_message_that_unity_never_sends(sample, wrong: str) -> None:
-    sample.edit(SPINNER, "private void Update()", f"private void {wrong}()")
-    assert sample.broken() == {(SPINNER, "script-message")}
-
-
-def test_static_message(breakage) -> None:
-    breakage(SPINNER, "private void Update()\n        {\n            Turn();",
-             "private static void Update()\n        {", "script-message")
-
-
-def test_private_method_that_is_called_passes(sample) -> None:
-    sample.edit(SPINNER, "private void Turn()",
-                "private void Start()\n        {\n        }\n\n        private void Turn()")
-    assert sample.broken() == set()
