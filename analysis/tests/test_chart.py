@@ -87,7 +87,7 @@ def test_the_picture_shows_every_setting_and_names_those_on_the_front() -> None:
     assert axes.get_xlabel() == "wall time per simulated second (s per s)"
     assert axes.get_ylabel() == "error: of its length"
     assert "xpbd, cost 3, <nan> (a): diverged" in caption and "pbd, cost 0.5, <1e-06> (a): passed a wall" in caption
-    assert "explicit meets no walls" in caption and "kept at most 0.50 processors busy" in caption
+    assert "explicit does not support walls" in caption and "kept at most 0.50 processors busy" in caption
     assert next(t for t in drawn.texts if t.get_gid() == CAPTION_ID).get_text().split() == caption.split()
 
 

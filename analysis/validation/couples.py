@@ -140,7 +140,8 @@ def _darboux_couple() -> Plan:
         "couple 1.08 K = 1.08 EI/l, Darboux law, n = 6: has no rest shape, so the run must end as failed (1)", "direct",
         float(failed == "failed"), 1.0, 0.0 if failed == "failed" else 1.0, 0.0, "", None, "1: ended otherwise",
     ))
-    results.append(not_run("couple at the tip, Darboux law", "xpbd", _NO_COUPLES + "; it has the rotation vector only"))
+    results.append(not_run("couple at the tip, Darboux law", "xpbd", _NO_COUPLES + "; it supports the rotation "
+                                                                                   "vector only"))
     caption = (
         "End couples with the Darboux law, torque K sin(angle), direct solver: the tip's distance from that of the arc "
         "falls with the second power of n. A couple above K = EI/l has no rest shape: with n = 6 and 1.08 K the run "

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the step of a run with a material, once, from its parameters.</summary>
+    /// <summary>Builds the stepper of a run with a material from its parameters.</summary>
     internal static class MaterialSetup
     {
         /// <summary>What makes the stepper of a scene, its rest shape found.</summary>

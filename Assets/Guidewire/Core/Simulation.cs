@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>One run: a wire, the method that steps it and the rule that ends it. It knows no file and no clock; the
+    /// <summary>One run: a wire, the method that steps it and the rule that ends it. It uses no files and no clock; the
     /// same parameters give the same bits on the same runtime.</summary>
     public sealed class Simulation
     {
@@ -226,17 +226,17 @@ namespace Guidewire.Core
             if (MethodTable.Of(parameters.Method.Solver).TakesMaterial != _hasMaterial)
             {
                 throw new ArgumentException("solver needs to be one for " + (_hasMaterial ? "a material" : "gains")
-                    + ": this run goes on with the wire that it has");
+                    + ": a run cannot change its wire");
             }
             if ((parameters.Scene.Sheath != null) != _hasSheath)
             {
-                throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
-                    + " wire that it has");
+                throw new ArgumentException("a sheath cannot be added or removed: a run cannot "
+                    + "change its wire");
             }
             if (parameters.Scene.Catheters.Count != _catheters.Length)
             {
-                throw new ArgumentException("catheters need to be as many as they were: this run goes on with those"
-                    + " that it has");
+                throw new ArgumentException("the number of catheters cannot change "
+                    + "during a run");
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);
@@ -278,7 +278,7 @@ namespace Guidewire.Core
                 int n = snapshot.Serialize(0);
                 if (n != ElementLayout.Count(parameters))
                 {
-                    throw new ArgumentException("what was saved is a wire of " + n + " elements");
+                    throw new ArgumentException("the saved state is that of a wire of " + n + " elements");
                 }
                 var start = new RodStart(new Vector3d[n + 1], new Quaterniond[n], new Vector3d[n + 1],
                     new Vector3d[n]);
@@ -298,7 +298,7 @@ namespace Guidewire.Core
             }
             catch (InvalidOperationException error)
             {
-                throw new ArgumentException("what was saved is no run of these parameters: " + error.Message, error);
+                throw new ArgumentException("the saved state does not fit these parameters: " + error.Message, error);
             }
         }
 

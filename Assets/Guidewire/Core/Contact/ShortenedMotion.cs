@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: the motion of the spheres
-    /// that would, and of their elements, in the end to zero.</summary>
+    /// <summary>Shortens a displacement of the wire until it passes no wall, as a last resort: that of the spheres that
+    /// would pass, and of their elements, if necessary to zero.</summary>
     /// <remarks>First each is shortened to nine tenths of what is free. That turns elements, which may then pass
     /// elsewhere; so after <see cref="CutRounds"/> rounds the spheres of those that still would do not move. Each round
     /// leaves at least one more, and an element between two of them does not move. Only what a round changed is tested

@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The result of a neighbour query of a node or an element, and where it was made. Lengths in
+    /// <summary>The result of a neighbour query for a node or an element, and the position at which it was made.
+    /// Lengths in
     /// units.</summary>
     internal struct Neighbour
     {

@@ -380,7 +380,8 @@ namespace Guidewire.Core
                 }
                 if (i > 0 && !(Vector3d.Distance(knots[i - 1], knots[i]) > Math.Abs(radii[i] - radii[i - 1])))
                 {
-                    return "knots " + (i - 1) + " and " + i + " of the tube are nearer than their radii differ";
+                    return "knots " + (i - 1) + " and " + i + " of the tube are closer together than their radii "
+                        + "differ";
                 }
             }
             return null;

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What picture of a run is asked for. Lengths are in mm where no other unit stands.</summary>
+    /// <summary>The view of a run's picture, as requested. Lengths are in mm unless stated otherwise.</summary>
     public sealed class PictureView
     {
         /// <summary>LAO, degrees; RAO is negative.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What contact adds to the energy of a rod, by a method whose walls are part of it.</summary>
+    /// <summary>Contact as part of a rod's energy, for methods that treat walls in that way.</summary>
     internal abstract class ContactTerms
     {
         /// <summary>The terms that act.</summary>

@@ -2,8 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The wire at one position: how stiff and heavy its cross-section is, and how it is bent at
-    /// rest.</summary>
+    /// <summary>Cross-section of the wire at one position: stiffness, mass per length and rest curvature.</summary>
     internal struct CrossSection
     {
         /// <summary>EA, N.</summary>

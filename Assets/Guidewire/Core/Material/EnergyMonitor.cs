@@ -3,8 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds a motion that has blown up: the wire moves with more energy than was ever put into
-    /// it.</summary>
+    /// <summary>Detects an unstable motion: the wire has more kinetic energy than was ever put into it.</summary>
     /// <remarks>With T of motion and V of the strains, T + V is at most what it was at the start plus the work W of
     /// loads and held ends; damping and implicit steps only take from it. V is no less than 0, so T never exceeds the
     /// largest sum that start and W have had. T alone is compared: strains left by too few iterations hold energy on

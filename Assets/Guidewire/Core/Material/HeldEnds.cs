@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Puts the held ends of a material rod and the clamps' frames where the schedule wants them, and counts
-    /// the work that this does on the wire.</summary>
+    /// <summary>Moves the held ends of a material rod and the clamps' frames to where the schedule prescribes them, and
+    /// sums the work done on the wire.</summary>
     internal sealed class HeldEnds
     {
         private readonly RodTerms _terms;

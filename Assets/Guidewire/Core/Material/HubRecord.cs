@@ -2,8 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is read off at the hub and at the tip of a wire with a material, at one moment, in SI
-    /// units.</summary>
+    /// <summary>Results at the hub and the tip of a wire with a material at one time, in SI units.</summary>
     /// <remarks>The hub is the proximal support; its axis is that of the clamp. Force and torque are those of the hub
     /// on the wire: a thrust and a turn to the right, as seen from the hub, are positive.</remarks>
     public sealed class HubRecord

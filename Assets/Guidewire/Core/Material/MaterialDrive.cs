@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as
-    /// user steering, a table or the drive's speeds have it.</summary>
+    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, from
+    /// user steering, a table or the drive's speeds.</summary>
     internal sealed class MaterialDrive
     {
         private const double Nothing = 1e-12;  // m, a displacement left by rounding of times in a table

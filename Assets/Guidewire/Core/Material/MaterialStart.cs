@@ -2,7 +2,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire with a material may start: no element touches a wall with its surface.</summary>
+    /// <summary>Checks where a wire with a material starts: the surface of no element may touch a wall.</summary>
     internal static class MaterialStart
     {
         private const string Wire = "the wire";

@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Decides whether a wire with a material is at rest, by how fast it moves and by the forces that are out
-    /// of balance, whatever the method and its time step.</summary>
+    /// <summary>Decides whether a wire with a material is at rest, from its speed and its unbalanced forces,
+    /// independent of the method and its time step.</summary>
     /// <remarks>With K the second derivative of all terms at the current shape, g their gradient and M the mass, a wire
     /// near its rest shape moves by M u'' + K u = 0 about it. Three lengths must be below the threshold: 1. |K^-1 g|,
     /// the Newton step to the rest shape: how far the wire is from it, also at a turning point, where nothing moves. K

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How the mass of a rod acts on its nodes and elements: the one place where it is distributed.</summary>
+    /// <summary>Distribution of a rod's mass over its nodes and elements.</summary>
     internal sealed class RodMass
     {
         /// <summary>The mass of a rod under one rule.</summary>

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The largest values that a wire came to in a run of the direct solver, in SI units: at the start and
-    /// after every step. NaN where nothing is there to be measured.</summary>
+    /// <summary>The largest values in a run of the direct solver, in SI units, taken at the start and after every step.
+    /// NaN for quantities that do not exist.</summary>
     public sealed class RunExtremes
     {
         private Vector3d[] _turns = Array.Empty<Vector3d>();      // of the joints, rad

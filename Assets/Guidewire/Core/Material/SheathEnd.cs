@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a sheath ends, and what is in it.</summary>
+    /// <summary>The end of a sheath, and the nodes and elements in it.</summary>
     internal class SheathEnd
     {
         /// <summary>An end.</summary>

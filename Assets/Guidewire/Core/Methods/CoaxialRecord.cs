@@ -2,9 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is read off of a catheter over a wire at one moment: of the catheter all, of the wire what its hub
-    /// feels; and what the model of one shared centreline leaves out between the catheter and the next instrument
-    /// inside it.</summary>
+    /// <summary>Results of a catheter over a wire at one time: those of the catheter, the force at the wire's hub, and
+    /// the play neglected by the shared centreline between the catheter and the next instrument inside it.</summary>
     /// <remarks>Force and torque are those of a hub on its instrument: a thrust and a turn to the right, as seen from
     /// the hub, are positive. Those of inner instruments are derivatives of the energy in their hubs' positions and
     /// turns, the outermost one's the chain's reaction less those.
@@ -140,8 +139,8 @@ namespace Guidewire.Core
                 bool isSharp = PlayAngle > LargePlay;
                 bool isLong = PlayLength > LargeLength * Overlap;
                 return isSharp || isLong ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                    "the {4} has {0:G3} mm of play in the {5}, which is not simulated: it may leave it at up to"
-                    + " {1:G3} degrees from its axis, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
+                    "the {4} has {0:G3} mm of play in the {5}, which is not simulated: at the tip their axes may "
+                    + "differ by up to {1:G3} degrees, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
                     1e3 * _play, PlayAngle, 1e3 * LengthLost, 1e3 * Overlap,
                     Inside == null ? "wire" : "inner catheter or wire",
                     Inside != null ? "outer catheter" : _instrument > 0 ? "inner catheter" : "catheter") : null;

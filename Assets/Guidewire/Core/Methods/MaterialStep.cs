@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What the steps of all methods for a material share: the wire, the monitors that end a run, and the
+    /// <summary>Common base of the steps of all methods for a material: the wire, the monitors that end a run, and the
     /// stress.</summary>
     internal abstract class MaterialStep : TimeStepper
     {

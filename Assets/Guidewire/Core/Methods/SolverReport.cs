@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>What a solver for a material says of itself at the end of a run. A number that does not apply is NaN, a
+    /// <summary>Results of a solver for a material about its own work, at the end of a run. A number that does not
+    /// apply is NaN, a
     /// force or couple that the method does not compute null.</summary>
     public sealed class SolverReport
     {

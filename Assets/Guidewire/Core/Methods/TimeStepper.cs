@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>A method at work: takes a wire from one moment to the next, and says how that went. One implementation
-    /// a method; which one a run has is chosen once, when it is built.</summary>
+    /// <summary>Advances a wire in time by steps of one method, and reports their success. One implementation per
+    /// method, chosen when a run is built.</summary>
     internal abstract class TimeStepper
     {
         /// <summary>Distance in units between the last sphere's prediction and where the constraints left it in the

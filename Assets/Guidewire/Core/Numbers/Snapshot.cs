@@ -251,7 +251,8 @@ namespace Guidewire.Core
                 content(this);
                 if (_at != next)
                 {
-                    throw new InvalidOperationException("section " + key + " is read otherwise than it was written");
+                    throw new InvalidOperationException("section " + key + " is read differently from how it was "
+                        + "written");
                 }
             }
             _at = (int)next;

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What a method takes: one row of the <see cref="MethodTable"/>.</summary>
+    /// <summary>The features and keys that a method supports: one row of the <see cref="MethodTable"/>.</summary>
     public sealed class MethodTraits
     {
         /// <summary>The method.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>A force of constant direction at a place of the wire.</summary>
+    /// <summary>A force of constant direction at a point of the wire.</summary>
     public readonly struct PointLoad
     {
         /// <summary>A force at a place.</summary>

@@ -3,7 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is simulated, whatever the method: the wire's length and start, how its ends are held, what acts
+    /// <summary>What is simulated, independent of the method: the wire's length and start, how its ends are held, what
+    /// acts
     /// on it, and the walls around it. Lengths are in units; loads are in mass units, units and seconds with pbd, in SI
     /// units with a material.</summary>
     public sealed class SceneParameters

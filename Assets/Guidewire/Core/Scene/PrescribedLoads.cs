@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The loads on a wire over time: weight, forces on its ends and force per length. None of them ever
-    /// changes but with time, so several motions may share them.</summary>
+    /// <summary>The loads on a wire over time: weight, forces on its ends and force per length. They are functions of
+    /// time only, so several motions may share them.</summary>
     internal sealed class PrescribedLoads
     {
         private readonly Vector3d _gravity;           // m/s^2

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is prescribed of one wire in time: its loads, the motion of its hub and that of a held distal
+    /// <summary>What is prescribed over time for one wire: its loads, the motion of its hub and that of a held distal
     /// end.</summary>
     internal sealed class RodSchedule
     {

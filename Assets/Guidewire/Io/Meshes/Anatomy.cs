@@ -6,8 +6,8 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>Ends and centreline of a vessel: a tree of points, each with the radius of the sphere that fits into
-    /// the lumen there. Lengths in units of the scene, the vessel placed.</summary>
+    /// <summary>Ends and centreline of a vessel: a tree of points, each with the radius of the largest inscribed
+    /// sphere. Lengths in units of the scene, the vessel placed.</summary>
     internal sealed class Anatomy
     {
         /// <summary>A point near the middle of each open rim, in the mesh file's own units and frame.</summary>

@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>What a file and overrides say: values by key, parts of such values, and who said it.</summary>
+    /// <summary>The values given by a file and overrides: by key, or for parts of a key, with their source.</summary>
     internal sealed class GivenParameters
     {
         private const int LongestValue = 80;    // characters that are repeated in a refusal

@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Where a value stands: a key, or a part of what a key holds, such as <c>vessel.radius</c>,
+    /// <summary>Path of a value: a key, or a part of its value, such as <c>vessel.radius</c>,
     /// <c>obstacles[0].radius</c>, <c>wireSections[-1].youngsModulus</c> or <c>gravity[1]</c>. A negative index counts
     /// from a list's end.</summary>
     internal sealed class ParameterPath
@@ -91,7 +91,7 @@ namespace Guidewire.Io
                         break;
                     }
                     holder = map[_names[k]]
-                        ?? throw new ParameterException(Text + " leads nowhere: there is no " + reached);
+                        ?? throw new ParameterException(Text + " does not exist: there is no " + reached);
                 }
                 else
                 {

@@ -4,8 +4,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Where the parameters of a run come from, beside its overrides: a file, or what a host program has in
-    /// its place, such as an asset and the meshes of a scene.</summary>
+    /// <summary>Where the parameters of a run come from, beside its overrides: a file, or its replacement in a host
+    /// program, such as an asset and the meshes of a scene.</summary>
     public sealed class ParameterSource
     {
         private readonly JObject? _content;

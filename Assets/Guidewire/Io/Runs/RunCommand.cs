@@ -58,7 +58,7 @@ namespace Guidewire.Io
             string ending = result.Word + (isDone && !result.IsReliable ? ", not reliable: " : ": ") + result.Reason;
             if (result.KeptEarlier)
             {
-                ending += "; the complete run that " + run.Folder + " held before is kept, the log of this one is "
+                ending += "; the complete run that " + run.Folder + " held before is kept, the log of the new one is "
                     + RunFolder.PartialLogOf(handler);
             }
             if (result.Outcome == Outcome.Failed)

@@ -58,7 +58,7 @@ namespace Guidewire.Io
             {
                 throw new ParameterException("out = " + _folder + " holds a complete run already ("
                     + earlier.Difference(_handler, _repeat)
-                    + "): give another folder, or --force to replace that run once this one is complete");
+                    + "): give another folder, or --force to replace that run once the new one is complete");
             }
             long before = Stopwatch.GetTimestamp();
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);

@@ -25,39 +25,39 @@ namespace Guidewire.Runtime
         [Tooltip("Parameter file as an asset, instead of the file.")]
         [SerializeField] private TextAsset? _parameterAsset;
 
-        [Tooltip("Vessels of the scene, beside what the parameters state.")]
+        [Tooltip("Vessels of the scene, in addition to those of the parameters.")]
         [SerializeField] private SceneVessel[] _vessels = Array.Empty<SceneVessel>();
 
-        [Tooltip("KEY=VALUE, one a line: parameters that count instead of the file's.")]
+        [Tooltip("KEY=VALUE, one per line: parameters that override those of the file.")]
         [SerializeField] private string[] _overrides = Array.Empty<string>();
 
-        [Tooltip("Folder that takes positions.json, parameters.json and summary.json; empty: the run is not logged.")]
+        [Tooltip("Folder for positions.json, parameters.json and summary.json; empty: the run is not logged.")]
         [SerializeField] private string _logFolder = "";
 
-        [Tooltip("Parameter file that a key swaps with this one, and back; empty: none.")]
+        [Tooltip("Parameter file to which a key switches, and back; empty: none.")]
         [SerializeField] private string _alternativeFile = "";
 
-        [Tooltip("KEY=VALUE, one a line: parameters that count instead of that file's.")]
+        [Tooltip("KEY=VALUE, one per line: parameters that override those of that file.")]
         [SerializeField] private string[] _alternativeOverrides = Array.Empty<string>();
 
         [Header("Pace")]
-        [Tooltip("In-game seconds a second of real time.")]
+        [Tooltip("Simulated seconds per second of real time.")]
         [SerializeField, Range(0.01f, 10f)] private float _pace = 1f;
 
-        [Tooltip("Steps a frame at most.")]
+        [Tooltip("Largest number of steps per frame.")]
         [SerializeField, Range(1, 1000)] private int _stepsPerFrame = 100;
 
-        [Tooltip("Wall time a frame for steps at most, in ms; at least one step is made.")]
+        [Tooltip("Largest wall time of the steps of a frame, in ms; at least one step is made.")]
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
         [Header("Steering")]
         [Tooltip("Whether keys push and turn the wire, instead of the parameter file's drive.")]
         [SerializeField] private bool _isSteered;
 
-        [Tooltip("Speed of sphere 0 while a push or pull key is down, in units a second of in-game time.")]
+        [Tooltip("Speed of sphere 0 while a push or pull key is down, in units per second of simulated time.")]
         [SerializeField, Range(0f, 500f)] private float _pushSpeed = 40f;
 
-        [Tooltip("Speed of turning while a turn key is down, in degrees a second of in-game time.")]
+        [Tooltip("Rotation speed while a turn key is down, in degrees per second of simulated time.")]
         [SerializeField, Range(0f, 720f)] private float _turnSpeed = 180f;
 
         [Header("Parameters while it runs")]
@@ -130,7 +130,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Names what the next <see cref="Load"/> takes instead of a file.</summary>
         /// <param name="parameters">Text of a parameter file; null: the file.</param>
-        /// <param name="vessels">Vessels of the scene, beside what the parameters state.</param>
+        /// <param name="vessels">Vessels of the scene, in addition to those of the parameters.</param>
         public void Choose(TextAsset? parameters, params SceneVessel[] vessels)
         {
             _parameterAsset = parameters;

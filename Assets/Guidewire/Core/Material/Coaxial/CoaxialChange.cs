@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What nodes and elements of a chain of coaxial instruments were in another one, where nodes have come in
-    /// beyond tips or have gone there.</summary>
+    /// <summary>Maps nodes and elements of a chain of coaxial instruments to those of another chain, after nodes have
+    /// emerged from tips or were withdrawn.</summary>
     internal sealed class CoaxialChange
     {
         private readonly double[] _oldStation;   // m, by the new leads

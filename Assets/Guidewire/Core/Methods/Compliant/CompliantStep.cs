@@ -162,8 +162,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            Results.Method = "Gauss-Seidel with compliance; each substep is one of implicit Euler where it has"
-                + " converged";
+            Results.Method = "Gauss-Seidel with compliance; each converged substep is one of "
+                + "implicit Euler";
             Results.LargestError = _convergence.LargestError;
             Results.StepsNotConverged = _convergence.StepsAbove;
             Results.ContactStiffness = _walls == null || _contactStiffness == 0.0 ? double.NaN : _contactStiffness;

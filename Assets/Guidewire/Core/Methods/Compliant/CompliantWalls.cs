@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Walls around the substeps of a wire with compliance: finds contacts, lets no substep pass a wall, and
-    /// takes down what contact came to.</summary>
+    /// <summary>Walls for the substeps of xpbd: finds contacts, prevents passages, and records the contact
+    /// forces.</summary>
     /// <remarks>Contacts are found where a step begins, and again where a node has moved farther than <see
     /// cref="Reuse"/> of the wire's radius since; a substep is much shorter than a search needs. What is nearer than
     /// half a radius to touching is found. Until a node has gone as far as the core line of any element was from the

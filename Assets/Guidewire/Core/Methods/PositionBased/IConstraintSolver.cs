@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Corrects a predicted state until its constraints hold as well as the method achieves.</summary>
+    /// <summary>Corrects a predicted state towards its constraints.</summary>
     internal interface IConstraintSolver
     {
         /// <summary>Corrects <see cref="RodState.PredictedPositions"/> and

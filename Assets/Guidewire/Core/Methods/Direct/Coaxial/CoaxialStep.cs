@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps of a wire in one or two catheters: all as one rod, by a <see cref="DirectStep"/> of its own,
+    /// <summary>Steps of a wire in one or two catheters: all are one rod with a <see cref="DirectStep"/> of its own,
     /// while nodes of those inside come and go with the hubs beyond the tips around them.</summary>
     /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. What is simulated is built anew whenever that
     /// changes, and where a tip inside comes into another element.</remarks>

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One stage of an implicit scheme: its positions and orientations minimise inertia plus energies. It
-    /// owns what stages leave to those after them, and what steps leave to the next.</summary>
+    /// <summary>One stage of an implicit scheme: its positions and orientations minimise inertia plus energies. It owns
+    /// the history that stages and steps pass on to later ones.</summary>
     /// <remarks>A step is <see cref="BeginStep"/>, then for each stage <see cref="BeginStage(double[], double)"/> and
     /// <see cref="Solve(double, double, int, in StagePredictor)"/>, then <see cref="Accept"/> and, where the step
     /// counts, <see cref="EndStep"/>.</remarks>

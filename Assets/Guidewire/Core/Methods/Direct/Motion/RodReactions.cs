@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The forces from outside on a moving rod: in its last stage, their means over the last step by the
-    /// scheme's weights, and the change of the momentum that they make.</summary>
+    /// <summary>The external forces on a moving rod: in its last stage, their means over the last step by the scheme's
+    /// weights, and the change of momentum that they cause.</summary>
     internal sealed class RodReactions
     {
         private readonly RodTerms _terms;

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>The forces from outside on a rod in one stage, or their weighted sum, N; the hub's torque, N
+    /// <summary>The external forces on a rod in one stage, or their weighted sum, N; the hub's torque, N
     /// m.</summary>
     internal struct StageForces
     {

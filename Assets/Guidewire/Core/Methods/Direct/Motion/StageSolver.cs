@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is kept as long
-    /// as it contracts, and where it does not, the slower search that minimises the stage's energy.</summary>
+    /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is reused as
+    /// long as the iteration contracts, and otherwise the slower minimisation of the stage's energy.</summary>
     /// <remarks>A stage is solved when no piece of the rod, from its start to any node, is out of balance by more than
     /// a force S, nor the couples on its elements by S L in all. S is the prescribed fraction of the largest force in
     /// the rod, and at most tolerance EI/L^2, because a force S at the tip of a cantilever moves it by S L^3/(3 EI) and

@@ -4,7 +4,7 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>Solves one implicit stage between walls: Newton's method on one energy, that of inertia, wire, loads
-    /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
+    /// and barriers, from a shape with open gaps to one in equilibrium.</summary>
     /// <remarks>A step goes no farther than every gap allows on the straight path of the nodes, and is shortened until
     /// the energy falls by a fraction of what the slope predicts (Armijo); so no iterate is outside a wall.
     /// Where the second derivative is not positive definite, a wire under thrust away from the solution,

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where the orientations would go without constraints.</summary>
+    /// <summary>Prediction of the orientations without constraints.</summary>
     internal interface IOrientationPrediction
     {
         /// <summary>Writes <see cref="RodState.PredictedOrientations"/>.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where the spheres would go without constraints: from x, v and forces to p. A sphere of inverse mass 0
+    /// <summary>Prediction of the positions without constraints: from x, v and forces to p. A sphere of inverse mass 0
     /// stays where it is (thesis 3.1.4); its drive moves it afterwards.</summary>
     internal interface IPositionPrediction
     {

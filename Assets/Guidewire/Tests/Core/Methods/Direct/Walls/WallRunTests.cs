@@ -348,7 +348,7 @@ namespace Guidewire.Core.Tests
             run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
             Assert.That(run.Reason, Does.Contain("contactDistance = 0.0001 m is too long")
-                .And.Contain("4E-05 m is by rule"));
+                .And.Contain("4E-05 m is the default"));
         }
 
         [Test]
