@@ -1,4 +1,4 @@
-"""What is read off at the hub and at the tip over time, from a log with ``logHub``."""
+"""Quantities at the hub and the tip over time, from a log with ``logHub``."""
 
 from __future__ import annotations
 

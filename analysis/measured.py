@@ -1,4 +1,4 @@
-"""Measurements of a real wire in a CSV file, and how far a run is off them.
+"""Measurements of a real wire in a CSV file, and the error of a run against them.
 
 Two kinds, told apart by their first line: `time,force` (s, and N at the hub), or `time,x,y,z` (s, and a point of the
 centreline in the run's units), where lines of the same time are points of one shape.

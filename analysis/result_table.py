@@ -1,4 +1,4 @@
-"""The table of a study's runs, runs.csv: what of it can be drawn over what."""
+"""The table of a study's runs, runs.csv: which columns can be plotted against one another."""
 
 from __future__ import annotations
 

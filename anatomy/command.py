@@ -1,4 +1,4 @@
-"""`guidewire.py anatomy`: what it is given, and what it writes."""
+"""`guidewire.py anatomy`: its arguments and its output."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a mesh is like: rims, bodies, size, unit, orientation, and every bad place with its position."""
+"""Inspection of a mesh: rims, bodies, size, unit, orientation, and every defect with its position."""
 
 from __future__ import annotations
 

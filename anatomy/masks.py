@@ -1,4 +1,5 @@
-"""The wall of a vessel in a segmentation: marched, smoothed without loss of volume, decimated to a stated error."""
+"""The wall of a vessel in a segmentation: extracted by marching cubes, smoothed without loss of volume, decimated to a
+stated error."""
 
 from __future__ import annotations
 

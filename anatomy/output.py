@@ -1,4 +1,4 @@
-"""What is written of a vessel: the mesh, its ends and centreline, a scene with a wire at an inlet, the report."""
+"""Output for a vessel: the mesh, its ends and centreline, a scene with a wire at an inlet, the report."""
 
 from __future__ import annotations
 

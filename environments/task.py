@@ -1,4 +1,4 @@
-"""What an environment is built from: scenes, targets, and the bounds that episodes are drawn from by seed."""
+"""Definition of a task: scenes, targets, and the ranges from which episodes are drawn by seed."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The command line of guidewire.py: its commands, their arguments, and what `--help` says of them."""
+"""The command line of guidewire.py: its commands, their arguments and help."""
 
 from __future__ import annotations
 

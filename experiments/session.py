@@ -1,4 +1,4 @@
-"""A run under the hand of a Python script: stepped, saved, restored, any number of them side by side.
+"""A run controlled by a Python script: stepped, saved, restored; any number of them in parallel.
 
     with Session("params/insertion.json", bendStiffness=0.05) as session:
         state = session.step(push=1.0, turn=0.1, steps=10)

@@ -1,4 +1,4 @@
-"""Makes the runs that studies and checks ask for, round by round, and says in tables what became of them.
+"""Makes the runs of studies and checks, round by round, and writes tables of their results.
 
 Runs stand in one store, each under the address that the runner tells for its parameters (experiments/store.py), so that
 what is done is not run again, whoever asked for it. In `<out>/<source>/` stand study.json, what was asked for and in

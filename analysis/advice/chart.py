@@ -1,4 +1,4 @@
-"""The settings that were searched as a picture: error against cost of one scene."""
+"""Chart of the settings tried on a scene: error against cost."""
 
 from __future__ import annotations
 

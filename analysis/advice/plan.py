@@ -1,4 +1,4 @@
-"""How far each trial is from the reference, what it costs, and which one to take.
+"""Error and cost of each trial, and the choice among them.
 
 What the error is of, `quantity` says: without a name the RMS distance of the wire from the reference's,
 over points along the wire and times from start to end, over the RMS way that the reference's points have gone.

@@ -1,4 +1,4 @@
-"""What advice tells: the parts of a scene, the settings that were searched, and the file to run."""
+"""The report of an advice: parts of the model, settings tried, and the file to run."""
 
 from __future__ import annotations
 

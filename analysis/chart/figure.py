@@ -1,4 +1,4 @@
-"""The chart as pictures: one panel a problem, and a small one for the README."""
+"""The chart as pictures: one panel per problem, and a small version for the README."""
 
 from __future__ import annotations
 

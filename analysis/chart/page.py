@@ -1,4 +1,4 @@
-"""The chart as a page of its own, without a network: each point says its settings where one points at it."""
+"""The chart as a self-contained page: each point shows its settings under the pointer."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What others have published of their cost on a problem of the chart: a mark without an error where they say none."""
+"""Costs of other programs published for a problem of the chart, drawn without an error if none was stated."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Captions of Figures 4.10 to 4.18: what the tables show, and where the thesis's text is borne out and where not.
+"""Captions of Figures 4.10 to 4.18: what the tables show, and which statements of the thesis they confirm.
 
 As in every caption here, a sentence that claims a relation stands behind a test of it on the table.
 """

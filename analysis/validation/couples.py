@@ -1,5 +1,5 @@
-"""Checks of couples at the tip: they turn with it, so that what a wire does under them in space is no minimum of an
-energy. How the solver treats that, each run says itself (summary.json, "method"), and the captions repeat it."""
+"""Checks of couples at the tip: they are follower couples, so in space the equilibrium is not a minimum of an energy.
+Each run states how the solver treated that (summary.json, "method"), and the captions repeat it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Check of a rope over a drum, drawn over it and let back: the capstan with bending stiffness, the loop of a reversal.
+"""Check of a rope pulled over a drum and released: the capstan with bending stiffness, the loop of a reversal.
 
 A rope without weight lies over half a drum of radius R, its axis R + r from the drum's. Where it lies on the drum its
 couple EI/(R + r) is constant, its tension grows by exp(m phi), m = mu R/(R + r) as friction acts at the drum's

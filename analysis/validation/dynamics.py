@@ -1,4 +1,4 @@
-"""Checks of motion against exact ones: a cantilever let go, a bar struck."""
+"""Checks of motion against exact solutions: a released cantilever, a struck bar."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Checks that a material's answer does not depend on iterations, steps and elements, and that a gain's does."""
+"""Checks that results with a material are independent of iterations, steps and elements, and that those of pbd are
+not."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks of schemes in time where a wire turns far: what they keep of energy and momenta, what is left of their order.
+"""Checks of time integration schemes under large rotations: conservation of energy and momenta, and the order attained.
 
 Energies and momenta are summed up here from logged places, velocities and orientations.
 """

@@ -59,14 +59,14 @@ namespace Guidewire.Core
             _rims.Begin(state);
         }
 
-        /// <summary>A step has come to this state.</summary>
+        /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="time">s.</param>
         public void Update(RodState state, ContactRecord? contacts, double time)
         {
             _rims.Update(state, contacts, time);
         }
 
-        /// <summary>Writes or takes over what was seen.</summary>
+        /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
         public void Serialize(Snapshot snapshot, RodState state)
         {

@@ -61,7 +61,7 @@ namespace Guidewire.Core
             Array.Clear(_left, 0, _left.Length);
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, the passages so far.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, the passages so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Total = snapshot.Serialize(Total);

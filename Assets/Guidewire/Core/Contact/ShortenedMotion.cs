@@ -29,7 +29,7 @@ namespace Guidewire.Core
             _isCut = new bool[sphereCount];
         }
 
-        /// <summary>Shortens one sphere's motion, in place, as far as the sphere itself requires.</summary>
+        /// <summary>Shortens one sphere's displacement, in place, as far as the sphere itself requires.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         /// <param name="i">The sphere.</param>

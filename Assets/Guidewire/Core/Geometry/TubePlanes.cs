@@ -24,7 +24,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How far x is past the plane of knot k, units.</summary>
+        /// <summary>Distance of x beyond the plane of knot k, units.</summary>
         public double Past(int k, in Vector3d x)
         {
             return Vector3d.Dot(_across[k], x - _knots[k]);

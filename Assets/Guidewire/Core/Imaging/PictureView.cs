@@ -21,7 +21,7 @@ namespace Guidewire.Core
         /// <summary>Linear attenuation coefficient of all instruments, 1/mm; null: by their materials.</summary>
         public double? Attenuation { get; set; }
 
-        /// <summary>What is shown, with mm in place of units.</summary>
+        /// <summary>The settings of the picture, with mm in place of units.</summary>
         public FluoroscopySettings Settings { get; } = new FluoroscopySettings();
     }
 }

@@ -15,7 +15,7 @@ namespace Guidewire.Core
         /// <summary>Force of the support on node 0, N.</summary>
         public abstract Vector3d SupportForce(RodShape shape);
 
-        /// <summary>Writes or takes over what friction keeps from step to step.</summary>
+        /// <summary>Writes or restores what friction keeps from step to step.</summary>
         public abstract void SerializeFriction(Snapshot snapshot);
     }
 }

@@ -72,8 +72,8 @@ namespace Guidewire.Core
             return Of(area, 0.25 * area * (square + hollow), youngsModulus, shearModulus, density);
         }
 
-        /// <summary>The wire of these parameters at a position, units from the proximal end: of the sections there the
-        /// last one that says something counts.</summary>
+        /// <summary>The wire of these parameters at a position, units from the proximal end: if sections overlap, the
+        /// last one with a value applies.</summary>
         public static CrossSection At(MaterialParameters material, double position)
         {
             var wire = new WireSection { AxialStiffness = material.AxialStiffness };

@@ -64,7 +64,7 @@ namespace Guidewire.Core
             _before.CopyFrom(_shape);
             double motion = Motion();
             double putIn = _start + _loadWork + _ends.MostWork;
-            // A NaN fails every comparison, so the question is asked for the good case.
+            // A NaN fails every comparison, so the condition states the good case.
             if (motion <= Allowance * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             _start = Motion() + _terms.StoredEnergy(_shape);
         }
 
-        /// <summary>Writes or takes over the energies so far. A reader's wire is placed already; where it is heavier or
+        /// <summary>Writes or restores the energies so far. A reader's wire is placed already; where it is heavier or
         /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
         public void Serialize(Snapshot snapshot)
         {
@@ -105,7 +105,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {

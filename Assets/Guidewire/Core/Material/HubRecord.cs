@@ -22,10 +22,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How far the hub has gone along its axis since the start, m.</summary>
+        /// <summary>Insertion of the hub since the start, m.</summary>
         public double Insertion { get; private set; }
 
-        /// <summary>How far it has turned since the start, rad; more than one turn counts.</summary>
+        /// <summary>Rotation of the hub since the start, rad, also beyond one turn.</summary>
         public double Turn { get; private set; }
 
         /// <summary>Its force on the wire along its axis, N.</summary>

@@ -113,7 +113,7 @@ namespace Guidewire.Core
                 away / _scene.Metres, Math.Max(swing, speed * _time) / _scene.Metres, _threshold / _scene.Metres);
         }
 
-        /// <summary>Writes or takes over the time of the next check.</summary>
+        /// <summary>Writes or restores the time of the next check.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _nextCheck);

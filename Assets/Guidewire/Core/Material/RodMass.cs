@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// <summary>kg.</summary>
         public double Total { get; }
 
-        /// <summary>What each node weighs, kg, n+1: half of each element beside it, or an equal part.</summary>
+        /// <summary>Mass of each node, kg, n+1: half of each neighbouring element, or an equal part.</summary>
         public double[] Nodal { get; }
 
         /// <summary>Diagonal of the mass matrix, kg, n+1.</summary>

@@ -207,7 +207,7 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
-        /// <summary>Writes or takes over the state of the terms between steps.</summary>
+        /// <summary>Writes or restores the state of the terms between steps.</summary>
         public void Serialize(Snapshot snapshot)
         {
             foreach (EnergyTerm term in All)

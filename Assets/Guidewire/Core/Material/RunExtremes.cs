@@ -42,8 +42,8 @@ namespace Guidewire.Core
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
         public double WallPressure { get; private set; } = double.NaN;
 
-        /// <summary>Largest power of the slip against friction in a step, W: friction turns energy into heat, and it is
-        /// never above 0. NaN where no wall has friction.</summary>
+        /// <summary>Largest power of friction in a step, W: friction dissipates energy, so it is never positive. NaN
+        /// where no wall has friction.</summary>
         public double FrictionPower { get; private set; } = double.NaN;
 
         /// <summary>Work of friction on what slips, J, minus the heat of all steps; NaN where no wall has friction.
@@ -134,7 +134,7 @@ namespace Guidewire.Core
             FrictionWork = (double.IsNaN(FrictionWork) ? 0.0 : FrictionWork) - heat;
         }
 
-        /// <summary>Writes or takes over all of it.</summary>
+        /// <summary>Writes or restores all of it.</summary>
         internal void Serialize(Snapshot snapshot)
         {
             _curvatureSquared = snapshot.Serialize(_curvatureSquared);

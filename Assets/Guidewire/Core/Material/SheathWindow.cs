@@ -50,7 +50,7 @@ namespace Guidewire.Core
         /// <summary>The joints of the window; joint 0 twists as all of the sheathed part with it.</summary>
         public Joint[] Joints { get; }
 
-        /// <summary>The length that each stands for, m.</summary>
+        /// <summary>The length of wire that each represents, m.</summary>
         public double[] JointLengths { get; }
 
         /// <summary>Sum of l/EA in the sheath, m/N.</summary>

@@ -16,7 +16,7 @@ namespace Guidewire.Core
         /// <summary>Play angle in degrees from which on a warning is due.</summary>
         public const double LargePlay = 15.0;
 
-        /// <summary>The same of a over the overlap.</summary>
+        /// <summary>The same for a over the overlap.</summary>
         public const double LargeLength = 0.1;
 
         private const double LostAtTip = 0.66;
@@ -58,10 +58,10 @@ namespace Guidewire.Core
         /// <summary>Its n elements.</summary>
         public Quaterniond[] Orientations { get; }
 
-        /// <summary>How far the catheter's hub has gone along its axis since the start, m.</summary>
+        /// <summary>Insertion of the catheter's hub since the start, m.</summary>
         public double Insertion { get; private set; }
 
-        /// <summary>How far it has turned since the start, rad.</summary>
+        /// <summary>Rotation of the catheter's hub since the start, rad.</summary>
         public double Turn { get; private set; }
 
         /// <summary>Force of the catheter's hub, N.</summary>
@@ -100,7 +100,7 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint of both, 1/m.</summary>
         public double LargestCurvature { get; private set; }
 
-        /// <summary>How far the tip of the next instrument inside is beyond the catheter's, m; negative
+        /// <summary>Distance of the tip of the next instrument inside beyond the catheter's tip, m; negative
         /// inside.</summary>
         public double Extension { get; private set; }
 
@@ -222,7 +222,7 @@ namespace Guidewire.Core
 
         /// <summary>Counts a step that both drives have prepared.</summary>
         /// <param name="from">Insertion of the catheter's hub before it, m.</param>
-        /// <param name="wireFrom">The same of the wire's.</param>
+        /// <param name="wireFrom">The same for the wire's.</param>
         internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
         {
             _asked += drive.Asked;

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// each method writes the turns of both clamps' frames, then one section of its own.</summary>
     internal static class MaterialSnapshot
     {
-        /// <summary>Writes or takes over the wire's motion.</summary>
+        /// <summary>Writes or restores the wire's motion.</summary>
         /// <param name="velocities">m/s.</param>
         /// <param name="spins">rad/s along the elements' axes.</param>
         /// <param name="time">s.</param>

@@ -51,13 +51,13 @@ namespace Guidewire.Core
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 
-        /// <summary>What the solver says of itself after the steps so far; null with pbd.</summary>
+        /// <summary>The solver's report on its own work after the steps so far; null with pbd.</summary>
         public virtual SolverReport? Report()
         {
             return null;
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, all that the next step depends on besides the
+        /// <summary>Writes into a snapshot, or restores from one, all that the next step depends on besides the
         /// <see cref="RodState"/>: history, predictors, counters, what is prescribed.</summary>
         public virtual void Serialize(Snapshot snapshot)
         {

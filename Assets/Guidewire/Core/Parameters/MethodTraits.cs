@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// spring.</summary>
         public bool HasBarriers { get; internal set; }
 
-        /// <summary>How far contact may let a wall into the wire, in its radii.</summary>
+        /// <summary>Largest penetration depth allowed by its contact, in radii of the wire.</summary>
         public double DepthInRadii { get; internal set; }
 
         /// <summary>Whether a user may steer it.</summary>

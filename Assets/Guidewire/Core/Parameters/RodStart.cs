@@ -45,7 +45,7 @@ namespace Guidewire.Core
         /// (<see cref="ClampExtrapolation"/>). With pbd a clamp holds the first element itself.</summary>
         public Quaterniond? ProximalFrame { get; set; }
 
-        /// <summary>The same of the distal clamp and the last elements.</summary>
+        /// <summary>The same for the distal clamp and the last elements.</summary>
         public Quaterniond? DistalFrame { get; set; }
 
         /// <summary>n + 1 velocities in unit/s.</summary>

@@ -72,7 +72,7 @@ namespace Guidewire.Core
             return Factor(_distributedForceTable, time) * _distributedForce;
         }
 
-        /// <summary>Forces at places of the wire, at lengths in m, without their factor.</summary>
+        /// <summary>Point loads on the wire, at arc lengths in m, without their factor.</summary>
         public ReadOnlySpan<PointLoad> PointLoads => _pointLoads;
 
         /// <summary>Factor on them at this time.</summary>
@@ -97,7 +97,7 @@ namespace Guidewire.Core
                 + points;
         }
 
-        /// <summary>The first time after this one, s, at which a load jumps: the tip force is let go, or a table has
+        /// <summary>The first time after this one, s, at which a load jumps: the tip force is released, or a table has
         /// two rows of one time. Infinite where none does.</summary>
         public double NextJump(double time)
         {

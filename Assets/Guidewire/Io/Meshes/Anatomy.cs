@@ -43,7 +43,7 @@ namespace Guidewire.Io
             return Ends.OrderBy(end => Vector3d.Distance(end.Centre, point)).First();
         }
 
-        /// <summary>The ends as an error line lists them, with number and place.</summary>
+        /// <summary>The ends as listed in an error line, with number and position.</summary>
         public string List()
         {
             return string.Join(", ", Ends.Take(12).Select(end => string.Format(CultureInfo.InvariantCulture,

@@ -53,7 +53,7 @@ namespace Guidewire.Io
         /// <summary>Where distances begin.</summary>
         public VesselEnd Inlet { get; }
 
-        /// <summary>Where the tip is to come: a point of the centreline; -1 where nothing is asked.</summary>
+        /// <summary>Target of the tip: a point of the centreline; -1 without a target.</summary>
         public int Target { get; set; } = -1;
 
         /// <summary>The target as it is called.</summary>

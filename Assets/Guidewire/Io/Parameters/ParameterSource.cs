@@ -21,7 +21,7 @@ namespace Guidewire.Io
         /// for in its folder.</summary>
         public string? Name { get; }
 
-        /// <summary>Walls beside those that the keys state, in units of the wire.</summary>
+        /// <summary>Walls in addition to those of the keys, in units of the wire.</summary>
         public ContactShape[] Walls { get; }
 
         /// <summary>A file on disk.</summary>

@@ -34,7 +34,7 @@ namespace Guidewire.Io
         /// thread.</summary>
         public Func<bool>? StopRequested { get; set; }
 
-        /// <summary>Told after every step, with the wall time in ms since the run's start.</summary>
+        /// <summary>Called after every step, with the wall time in ms since the run's start.</summary>
         public Action<Simulation, double>? Progress { get; set; }
 
         /// <summary>The folder of the results.</summary>

@@ -158,7 +158,7 @@ namespace Guidewire.Io
                 : InstrumentCount > 2 ? "catheter " + instrument : "catheter";
         }
 
-        /// <summary>Names that can stand for an instrument: those of the folder beside the parameter file, then the
+        /// <summary>Names of instruments that can replace one: those of the folder beside the parameter file, then the
         /// program's; for a catheter only catheters. Empty where the run's method takes no instrument.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
         public IReadOnlyList<string> ChoicesOf(int instrument)
@@ -303,14 +303,14 @@ namespace Guidewire.Io
             return string.Join(" ", Magic, FileFormat.Version, _handler.Hash, RunSummary.CoreBuild, holds, sum) + "\n";
         }
 
-        /// <summary>Changes a parameter; the wire goes on from where it is.</summary>
+        /// <summary>Changes a parameter; the wire continues from its current state.</summary>
         /// <exception cref="ParameterException">The value is not allowed; nothing has changed.</exception>
         public void Set(string key, JToken value)
         {
             Set(new[] { new KeyValuePair<string, JToken>(key, value) });
         }
 
-        /// <summary>Changes parameters; the wire goes on from where it is.</summary>
+        /// <summary>Changes parameters; the wire continues from its current state.</summary>
         /// <exception cref="ParameterException">A value is not allowed; nothing has changed.</exception>
         /// <exception cref="ArgumentException">This wire cannot go on with them; nothing has changed.</exception>
         public void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)

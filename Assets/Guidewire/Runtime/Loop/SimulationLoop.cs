@@ -71,7 +71,7 @@ namespace Guidewire.Runtime
         /// <summary>The run, or null where it could not be built.</summary>
         public SimulationSession? Session { get; private set; }
 
-        /// <summary>Counts the runs built, so that views know when to build anew.</summary>
+        /// <summary>Counts the runs built, so that views know when to rebuild.</summary>
         public int Generation { get; private set; }
 
         /// <summary>What stopped the loop, in one line; empty where nothing did.</summary>
@@ -161,7 +161,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Takes the alternative's parameters instead of the present ones, and builds the wire anew; does
+        /// <summary>Takes the alternative's parameters instead of the present ones, and rebuilds the wire; does
         /// nothing where there is no alternative.</summary>
         public void TakeAlternative()
         {
@@ -175,7 +175,7 @@ namespace Guidewire.Runtime
             Load();
         }
 
-        /// <summary>Holds the next instrument: wire, catheters, wire again.</summary>
+        /// <summary>Selects the next instrument to steer: wire, catheters, wire again.</summary>
         public void HoldNext()
         {
             Held = Session == null ? 0 : (Held + 1) % Session.InstrumentCount;
@@ -207,7 +207,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Builds the wire anew from the parameter file.</summary>
+        /// <summary>Rebuilds the wire from the parameter file.</summary>
         public void Load()
         {
             Close();
@@ -239,7 +239,7 @@ namespace Guidewire.Runtime
             Generation++;
         }
 
-        /// <summary>Simulates what a frame asks for.</summary>
+        /// <summary>Makes the steps of a frame.</summary>
         /// <param name="seconds">Real time since the last frame in s.</param>
         public void Advance(float seconds)
         {

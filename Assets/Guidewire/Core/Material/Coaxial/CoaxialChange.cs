@@ -41,7 +41,7 @@ namespace Guidewire.Core
         /// <summary>The chain that is.</summary>
         public CoaxialJoints Joints { get; }
 
-        /// <summary>What each node was, -1 where it comes in.</summary>
+        /// <summary>Former index of each node, -1 for a new one.</summary>
         public int[] Node { get; }
 
         /// <summary>The element that each one goes on from: that which ended at the same node, else the one in which

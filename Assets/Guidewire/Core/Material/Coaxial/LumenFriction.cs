@@ -48,7 +48,7 @@ namespace Guidewire.Core
                 : _used * (Pushed(-force, angle, end) + force);
         }
 
-        /// <summary>Writes or takes over what is used.</summary>
+        /// <summary>Writes or restores what is used.</summary>
         public void Serialize(Snapshot snapshot)
         {
             if (Coefficient > 0.0)

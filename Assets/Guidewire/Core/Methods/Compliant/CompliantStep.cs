@@ -145,7 +145,7 @@ namespace Guidewire.Core
             ContactRecord record = walls.Record;
             Vector3d inertia = (Terms.Mass.Nodal[0] / TimeStep) * (Velocities[0] - velocity);
             record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
-            // A drive continues from where node 0 is; a held node is asked for until it has arrived.
+            // A drive continues from where node 0 is; a held node keeps a displacement until it has arrived.
             Vector3d position = Schedule.Hub.PositionAt(_time);
             if (Drive.Axis == Vector3d.Zero)
             {

@@ -100,7 +100,7 @@ namespace Guidewire.Core
             Contacts.Begin(old, predicted, substep);
         }
 
-        /// <summary>A substep has come to this shape, which is taken back where it would pass a wall.</summary>
+        /// <summary>Accepts the shape of a substep, and reverts what would pass a wall.</summary>
         public void EndSubstep(RodShape shape)
         {
             SetUnits(shape, _to);
@@ -125,7 +125,7 @@ namespace Guidewire.Core
             Contacts.AddMultipliers(Record.Forces, Record.WallForces);
         }
 
-        /// <summary>The step has come to its end.</summary>
+        /// <summary>The step has ended.</summary>
         /// <param name="substep">h, s.</param>
         /// <param name="substeps">How many they were.</param>
         public void EndStep(double substep, int substeps)
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             Record.SetTotal(total);
         }
 
-        /// <summary>Writes or takes over what was counted.</summary>
+        /// <summary>Writes or restores what was counted.</summary>
         public void Serialize(Snapshot snapshot)
         {
             _passages.Serialize(snapshot);

@@ -88,7 +88,7 @@ namespace Guidewire.Core
             Add(Contact, step.Contact, 1.0);
         }
 
-        /// <summary>Writes or takes over the steps so far.</summary>
+        /// <summary>Writes or restores the steps so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(_classes);

@@ -326,7 +326,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {
@@ -346,7 +346,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>
+        /// <summary>Writes or restores what was counted, whatever the number of elements.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
             snapshot.Serialize(ref _startFactorisations);

@@ -7,7 +7,7 @@ namespace Guidewire.Core
         /// <see cref="RodState.PredictedOrientations"/> in place.</summary>
         void Solve(RodState state);
 
-        /// <summary>Writes into a snapshot, or takes over from one, its state between steps.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, its state between steps.</summary>
         void Serialize(Snapshot snapshot);
     }
 }

@@ -73,7 +73,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, what has been seen so far.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, what has been seen so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _origin);

@@ -8,7 +8,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Runs that set out from a file.</summary>
+    /// <summary>Runs that start from a file.</summary>
     [TestFixture]
     public sealed class StartFileTests : FolderTests
     {

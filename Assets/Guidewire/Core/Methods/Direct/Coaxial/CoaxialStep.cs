@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>Steps of a wire in one or two catheters: all are one rod with a <see cref="DirectStep"/> of its own,
     /// while nodes of those inside come and go with the hubs beyond the tips around them.</summary>
-    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. What is simulated is built anew whenever that
+    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. What is simulated is rebuilt whenever that
     /// changes, and where a tip inside comes into another element.</remarks>
     internal sealed class CoaxialStep : TimeStepper
     {
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             TakeInner();
         }
 
-        /// <summary>Sums over the run and the walls' forces; that on each sphere is not told apart.</summary>
+        /// <summary>Sums over the run and the walls' forces; that on each sphere is not distinguished.</summary>
         public override ContactRecord? Contacts { get; }
 
         /// <summary>Whether the start is a rest shape.</summary>
@@ -275,7 +275,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>. What was simulated
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>. What was simulated
         /// when it began is kept: the step may build it anew.</summary>
         public void SerializeStep(Snapshot snapshot)
         {

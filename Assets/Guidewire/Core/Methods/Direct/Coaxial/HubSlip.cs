@@ -49,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
 
-        /// <summary>A step begins, as it is asked for.</summary>
+        /// <summary>A step begins, as it is requested.</summary>
         public void Begin()
         {
             _trials = 0;

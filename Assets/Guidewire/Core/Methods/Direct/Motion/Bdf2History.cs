@@ -76,7 +76,7 @@ namespace Guidewire.Core
             return h;
         }
 
-        /// <summary>Writes or takes over the step before.</summary>
+        /// <summary>Writes or restores the step before.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _isComplete);

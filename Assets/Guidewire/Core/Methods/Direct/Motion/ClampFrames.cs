@@ -89,7 +89,7 @@ namespace Guidewire.Core
             set => _time = value;
         }
 
-        /// <summary>Writes or takes over the turns.</summary>
+        /// <summary>Writes or restores the turns.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _proximal);

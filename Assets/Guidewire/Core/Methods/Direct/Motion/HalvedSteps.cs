@@ -37,7 +37,7 @@ namespace Guidewire.Core
             _start = new StepStart(dynamics.SerializeStep);
         }
 
-        /// <summary>What is told of each piece that is done, or null.</summary>
+        /// <summary>Called after each completed part, or null.</summary>
         public Action? PieceDone { get; set; }
 
         /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
@@ -100,7 +100,7 @@ namespace Guidewire.Core
             _start.Restore();
         }
 
-        /// <summary>Writes or takes over the count, and how long the next piece is.</summary>
+        /// <summary>Writes or restores the count, and how long the next piece is.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Halvings = snapshot.Serialize(Halvings);

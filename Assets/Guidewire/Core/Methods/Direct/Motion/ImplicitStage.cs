@@ -227,7 +227,7 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
             _motion.Serialize(snapshot);
@@ -244,7 +244,7 @@ namespace Guidewire.Core
             WallSolver?.SerializeShift(snapshot);
         }
 
-        /// <summary>Writes or takes over what stages leave to the next step.</summary>
+        /// <summary>Writes or restores what stages leave to the next step.</summary>
         public void SerializeHistory(Snapshot snapshot)
         {
             SerializePast(snapshot);

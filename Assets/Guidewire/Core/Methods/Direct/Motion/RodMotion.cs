@@ -33,7 +33,7 @@ namespace Guidewire.Core
             Array.Copy(spins, Spins, Spins.Length);
         }
 
-        /// <summary>Writes or takes over the motion.</summary>
+        /// <summary>Writes or restores the motion.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Shape.Serialize(snapshot);

@@ -84,7 +84,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _proximalVelocity);
             snapshot.Serialize(ref _distalVelocity);
             Control.SerializeLength(snapshot);
-            // Rates are those of this rod under these loads; a reader on which other forces act begins anew.
+            // Rates are those of this rod under these loads; a reader on which other forces act starts again.
             _terms.SetTime(_schedule, time);
             double own = _start.CheckSum(_motion.Shape);
             double sum = own;

@@ -55,7 +55,7 @@ namespace Guidewire.Core
             _sum += steps * LossInTurns * turn / Turns * Math.Pow(turn / _angle, _power);
         }
 
-        /// <summary>Writes or takes over the sums.</summary>
+        /// <summary>Writes or restores the sums.</summary>
         public void Serialize(Snapshot snapshot)
         {
             LargestTurn = snapshot.Serialize(LargestTurn);

@@ -20,7 +20,7 @@ namespace Guidewire.Core
             HubTorque += weight * other.HubTorque;
         }
 
-        /// <summary>Writes or takes over.</summary>
+        /// <summary>Writes or restores.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref Proximal);

@@ -152,7 +152,7 @@ namespace Guidewire.Core
             return dt * Math.Max(Math.Sqrt(shift) / length, Math.Sqrt(turn));
         }
 
-        /// <summary>Writes or takes over what the next step needs.</summary>
+        /// <summary>Writes or restores what the next step needs.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(_acceleration);

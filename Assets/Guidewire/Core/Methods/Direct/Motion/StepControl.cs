@@ -70,7 +70,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>Writes or takes over the counts.</summary>
+        /// <summary>Writes or restores the counts.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
             LargestError = snapshot.Serialize(LargestError);
@@ -78,7 +78,7 @@ namespace Guidewire.Core
             StepsAbove = snapshot.Serialize(StepsAbove);
         }
 
-        /// <summary>Writes or takes over the length of the next step.</summary>
+        /// <summary>Writes or restores the length of the next step.</summary>
         public void SerializeLength(Snapshot snapshot)
         {
             snapshot.Serialize(ref _length);

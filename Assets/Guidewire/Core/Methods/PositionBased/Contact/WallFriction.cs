@@ -56,7 +56,7 @@ namespace Guidewire.Core
             return _taken[k];
         }
 
-        /// <summary>How far friction moves the point of contact k in one iteration, units.</summary>
+        /// <summary>Displacement of the point of contact k by friction in one iteration, units.</summary>
         /// <param name="k">The contact.</param>
         /// <param name="motion">Its point's motion since the solve began, units.</param>
         /// <param name="normal">Its normal n.</param>

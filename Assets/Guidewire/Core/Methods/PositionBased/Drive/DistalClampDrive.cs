@@ -29,7 +29,7 @@ namespace Guidewire.Core
             state.PredictedOrientations[state.ElementCount - 1] = _schedule.Distal.FrameAt(time);
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, where the clamp's motion stands.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, where the clamp's motion stands.</summary>
         public void Serialize(Snapshot snapshot)
         {
             _clock.Serialize(snapshot);

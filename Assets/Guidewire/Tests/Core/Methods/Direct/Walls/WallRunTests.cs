@@ -303,7 +303,7 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
         }
 
-        /// <summary>A mesh keeps what it was asked for, for all that ask.</summary>
+        /// <summary>A mesh caches the results of queries for all callers.</summary>
         [Test]
         public void TwoWiresInOneMesh_InTurns_MoveAsEachAlone()
         {
