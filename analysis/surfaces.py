@@ -130,7 +130,7 @@ def wall(parameters: Mapping[str, Any], middle: np.ndarray, reach: float) -> Sur
     placed = any(parameters.get(key) not in (None, rest) for key, rest in
                  (("position", [0, 0, 0]), ("rotation", [0, 0, 0]), ("scale", [1, 1, 1])))
     if placed:
-        raise SurfaceError("a vessel that is moved, turned or scaled is not drawn")
+        raise SurfaceError("a vessel that is moved, rotated or scaled cannot be drawn")
     if vessel["shape"] == "mesh":
         return read_obj(_find(Path(vessel["file"])))
     if vessel["shape"] == "plane":

@@ -196,7 +196,7 @@ def guess_unit(mesh: Mesh, given: str | None = None) -> Unit:
     if given and given != best:
         reason += f"; the sizes look like {best}"
     elif not given and not sure:
-        reason += "; another unit is nearly as likely: say --unit"
+        reason += "; another unit is nearly as likely: give --unit"
     return Unit(name, reason, bool(sure or given))
 
 

@@ -113,7 +113,7 @@ class _Work:
 
     def drop_slivers(self) -> None:
         self.mesh, places = without_slivers(self.mesh)
-        self._note("triangles without area or there twice removed", len(places), 0.0,
+        self._note("triangles without area, or duplicates removed", len(places), 0.0,
                    places[0] if len(places) else None)
 
     def drop_bodies(self) -> None:

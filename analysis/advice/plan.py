@@ -158,7 +158,7 @@ def _plan(wish: Wish, cost: Cost, repeats: int,
     case = partial(_case, overrides, scene, quantity)
     runs = yield [case(key, trial) for key, trial in asked.items()]
     if runs["reference"].outcome in _LOST:
-        raise LogError(f"the reference is lost ({runs['reference'].measured('reason')}): no error can be measured")
+        raise LogError(f"the reference run failed ({runs['reference'].measured('reason')}): no error can be measured")
     measure = _Measure(scene, runs["reference"], runs["file"], quantity)
     found = {key: _tried(trial, runs[key], measure) for key, trial in asked.items()}
     known = max((found[key].error for key in coarser), key=lambda error: math.inf if math.isnan(error) else error)
@@ -178,10 +178,10 @@ def _plan(wish: Wish, cost: Cost, repeats: int,
 def _lasting(run: Run) -> dict[str, Any]:
     """Effective values of the scene, with the steps after which it rests as their number, such that it divides."""
     if run.summary is None or run.outcome in _LOST:
-        raise LogError(f"the scene itself is lost: {run.measured('reason')}")
+        raise LogError(f"the run of the scene itself failed: {run.measured('reason')}")
     steps = int(run.measured("steps"))
     if steps == 0:
-        raise LogError("the scene makes no step: nothing moves, and nothing costs")
+        raise LogError("the scene makes no step: there is no motion and no cost")
     places = read_log(run.folder, spheres="all").positions
     if np.max(np.abs(places - places[0])) <= _STILL * run.number("guidewireLength"):
         raise LogError("nothing moves in the scene: a relative error is not defined")

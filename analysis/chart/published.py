@@ -37,6 +37,6 @@ PUBLISHED = (
         "Inter-block GPU Synchronization, arXiv:2509.04277, abstract",
         "a catheter and a guidewire of 512 Cosserat elements each in a cardiovascular scene, simulated in real time at "
         "0.5 to 1 kHz by a program that makes several time steps in one launch on a graphics processor; another vessel, "
-        "other wires and another machine, and no error is said there",
+        "other wires and another machine, and no error is stated there",
     ),
 )

@@ -128,7 +128,7 @@ FIGURES: dict[str, FigureSpec] = {
             "Push against a wall, the wire's first two thirds between two plates")),
         FigureSpec("gain-vessel", "long elements in a vessel: error, cost, passages", ("vessel-gain",), partial(
             _draw_gain, "gain-vessel", "vessel-gain", "Insertion into an arch with a branch, until the wire buckles")),
-        FigureSpec("contact-rule", "the published contact rule beside the lever rule", ("contact-rule",),
+        FigureSpec("contact-rule", "the published contact rule compared with the lever rule", ("contact-rule",),
                    partial(_draw_rows, draw_contact_rule, read_rests, "contact-rule")),
         FigureSpec("pulling", "what moves the first sphere in a bend", ("drives",),
                    partial(_draw_rows, draw_drives, read_drives, "drives")),

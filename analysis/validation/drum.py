@@ -110,9 +110,10 @@ def _plan() -> Plan:
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        f"A rope over half a drum, pulled by {_PULL:g} N at its other end, is drawn over it and let back: the force at "
+        f"A rope over half a drum, pulled by {_PULL:g} N at its other end, is pulled over it and released: the force "
+        f"at "
         "its held end against the capstan with bending stiffness (lines). Where the two differ a reversal is a loop. "
         f"Worst: {percent(max(r.error for r in results))}."))
 
 
-CHECKS = (Check("drum", tubes.SECTION, "a rope is drawn over a drum and let back", _plan),)
+CHECKS = (Check("drum", tubes.SECTION, "a rope is pulled over a drum and released", _plan),)
