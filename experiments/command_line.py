@@ -53,8 +53,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     sweep.set_defaults(packages=SWEEPING)
 
     figures = commands.add_parser("figures", help="draw the figures of the thesis and of this project, making "
-                                                  "missing runs; exit "
-                                                  "code 1 if a check exceeds its limit")
+                                                  "missing runs; exit code 1 if a check exceeds its limit")
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; default: all")
     figures.add_argument("--out", type=path, default=Path("results"),
                          help="parent of the studies' folders (results); pictures are written to its 'figures'")

@@ -144,8 +144,7 @@ def _came_to(row: DriveRow, radius: float) -> str:
     if farthest > radius:
         told = (
             f"contact does not act on the first sphere, which leaves the lumen, up to {number(farthest)} units from "
-            f"its "
-            f"middle line, and the wire is pulled after it: {passages} of its points pass the wall; "
+            f"its middle line, and the wire is pulled after it: {passages} of its points pass the wall; "
         )
     else:
         told = f"the first sphere stays within {number(farthest)} units of the middle line; "

@@ -113,8 +113,7 @@ def _time_evolution_caption(
         parts.append(
             f"(c) The prediction error oscillates with the motion: before the steady state it dips below the threshold "
             f"for up to {dips} steps at a time, so falling below the threshold once proves nothing. It is below for "
-            f"good, "
-            f"that is for {int(run.number('steadyStateHold'))} steps on end, from step {step} "
+            f"good, that is for {int(run.number('steadyStateHold'))} steps on end, from step {step} "
             f"(t = {number(step * run.number('timeStep'))} s) on."
         )
     if log.warning:

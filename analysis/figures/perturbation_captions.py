@@ -61,8 +61,7 @@ def _rotation(reference: WireRun) -> str:
         return f"Over the second half it still moves between {number(y.min())} and {number(y.max())}."
     return (
         f"The wave has decayed before the second half; what remains is a rotation about the held first sphere, whose "
-        f"frame "
-        f"is free: {number(np.mean(rates), 2)} units a step without end, so this run has no steady state."
+        f"frame is free: {number(np.mean(rates), 2)} units a step without end, so this run has no steady state."
     )
 
 

@@ -110,10 +110,9 @@ def _plan() -> Plan:
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        f"A rope over half a drum, pulled by {_PULL:g} N at its other end, is pulled over it and released: the force "
-        f"at "
-        "its held end against the capstan with bending stiffness (lines). Where the two differ a reversal is a loop. "
-        f"Worst: {percent(max(r.error for r in results))}."))
+        f"A rope over half a drum, under {_PULL:g} N at its other end, is pulled over it and released: the force "
+        "at its held end against the capstan with bending stiffness (lines). Where the two differ a reversal is a "
+        f"loop. Worst: {percent(max(r.error for r in results))}."))
 
 
 CHECKS = (Check("drum", tubes.SECTION, "a rope is pulled over a drum and released", _plan),)

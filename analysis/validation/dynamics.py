@@ -55,7 +55,7 @@ def release_error(run: Run) -> float:
 
 
 def release(elements: int, time_step: float, method: Mapping[str, Any]) -> dict[str, Any]:
-    """A released cantilever from its rest shape under a tip load."""
+    """A cantilever released from its rest shape under a tip load."""
     force = RELEASE_LOAD * BASE.bending / BASE.length**2
     return {
         "numberRodElements": elements, "timeStep": time_step, "initialState": "equilibrium",
@@ -142,12 +142,10 @@ def _release() -> Plan:
         cost.legend(loc="center left", bbox_to_anchor=(1.02, 0.5), fontsize=6)
 
     caption = (
-        "A released cantilever from its rest shape under F L²/EI = 0.1. Left: motion of the tip. Right: error over "
-        "0.2 s "
-        "(RMS of 2001 samples, space and time together) against wall time per simulated second, of direct the median "
-        f"of {_REPEATS} runs made one at a time, {beside(loads)}, of explicit and xpbd of one run beside others; "
-        f"dashed: "
-        "0.3 %. Reference: "
+        "A cantilever released from its rest shape under F L²/EI = 0.1. Left: motion of the tip. Right: error over "
+        "0.2 s (RMS of 2001 samples, space and time together) against wall time per simulated second, of direct the "
+        f"median of {_REPEATS} runs made one at a time, {beside(loads)}, of explicit and xpbd of one run beside "
+        "others; dashed: 0.3 %. Reference: "
         f"geometrically exact, modes of the slope, 14 and 10 of them differ by {number(own, 1)}. "
         + "; ".join(f"{r.solver}: {percent(r.error)} at {number(r.cost, 2)}" for r in shown) + ". A "
         "simulated millisecond costs as much as "

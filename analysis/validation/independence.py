@@ -175,8 +175,7 @@ def _time_step() -> Plan:
         "What the time step changes from 0.1 to 4 ms: the rest shape under a load after a damped motion, "
         f"{span([r.value for r in results[:6]], 6)} L, and the "
         f"released cantilever, off by at most {percent(max(r.error for r in results[6:]))} over 0.2 s. The error of "
-        f"the "
-        "second goes down to that of 12 elements."
+        "the second goes down to that of 12 elements."
     )
     draw = pictures.orders("time step (s)", "error (relative)", series, (), (GATE, "gate"))
     return Finding(tuple(results), draw, caption)
