@@ -110,7 +110,7 @@ def _plan() -> Plan:
         pictures.outside_legend(axes)
 
     return Finding(tuple(results), draw, (
-        f"A rope over half a drum, under {_PULL:g} N at its other end, is pulled over it and released: the force "
+        f"A rope over half a drum, with {_PULL:g} N at its other end, is pulled over it and released: the force "
         "at its held end against the capstan with bending stiffness (lines). Where the two differ a reversal is a "
         f"loop. Worst: {percent(max(r.error for r in results))}."))
 

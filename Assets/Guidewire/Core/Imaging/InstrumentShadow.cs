@@ -139,7 +139,7 @@ namespace Guidewire.Core
             return (int)Math.Min(Math.Max(at - 0.5, 0.0), isFirst ? _pixels : _pixels - 1.0);
         }
 
-        // Columns of a row whose middles are within the strip.
+        // Columns of a row whose pixel centres are within the strip.
         private bool Columns(double start, double y, double ux, double uy, double beyond, double shown, double outer,
             out int first, out int end)
         {

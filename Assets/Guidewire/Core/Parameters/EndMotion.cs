@@ -54,7 +54,7 @@ namespace Guidewire.Core
             return RateOf(_displacements, time);
         }
 
-        /// <summary>Rotation of the frame against the start at this time.</summary>
+        /// <summary>Rotation of the frame at this time, relative to the start.</summary>
         public Quaterniond RotationAt(double time)
         {
             return RotationVector.Exp(At(_rotations, time));

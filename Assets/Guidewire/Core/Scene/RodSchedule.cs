@@ -79,8 +79,8 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where
-        /// there is none yet.</summary>
+        /// <summary>The largest rotation between the two frames in the interval from a time to an end, s, relative to
+        /// that at its start; 1 if that is zero.</summary>
         public double TurnAhead(double time, double end)
         {
             double now = Math.Abs(Distal.TurnAt(time) - Hub.TurnAt(time));

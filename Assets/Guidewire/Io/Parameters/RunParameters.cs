@@ -50,7 +50,7 @@ namespace Guidewire.Io
         /// <summary>When the run ends, s, instead of its largest number of steps; null once that is known.</summary>
         public double? Duration { get; set; }
 
-        /// <summary>The forces at places of the wire as their key has them, or null.</summary>
+        /// <summary>The point loads as given by their key, or null.</summary>
         public JToken? PointLoads { get; set; }
 
         /// <summary>Name of the instrument that the wire is; empty for none.</summary>
