@@ -107,7 +107,7 @@ def test_what_others_state_stands_in_the_picture_of_steps_with_its_source_and_wi
     assert [len(own) for own in bars] == [0, 1]
     assert list(bars[1][0].get_xdata()) == pytest.approx([1.0, 2.0])    # ms: 500 to 1,000 answers a second
     assert f"published: {one.label}" in [text.get_text() for text in drawn.axes[1].texts]
-    assert "(b) 2 x 512 elements" in caption and "arXiv:2509.04277" in caption and "no error is said" in caption
+    assert "(b) 2 x 512 elements" in caption and "arXiv:2509.04277" in caption and "no error is stated" in caption
     assert "Grey bars" not in figure.draw_steps([charted(*POINTS)])[1]
 
 

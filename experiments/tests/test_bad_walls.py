@@ -126,7 +126,7 @@ def test_a_mesh_that_goes_through_itself_is_warned_of_with_the_place(live, tmp_p
     file = write_obj(tmp_path / "through.obj", vertices, faces)
     scene = {**mesh(file), "guidewireOffset": 20.0, "guidewireLength": 20.0, "sphereRadius": 1.0}
     (warning,) = warnings_of(live, tmp_path, scene)
-    assert "through.obj: the mesh goes through itself" in warning
+    assert "through.obj: the mesh intersects itself" in warning
     place = [float(text) for text in warning.split("the first at (")[1].split(")")[0].split(",")]
     assert np.hypot(place[0], place[1]) == pytest.approx(20.0, rel=0.05)
 
