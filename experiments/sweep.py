@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FAILED = 5  # as of a run: something that was asked for is not there
 _STARTS = "starts"
 _TIMED = {"logSpheres": "last", "logOrientations": False}  # a timed run's log is read for its times only
-WALL_TIMES = (  # what differs from one time to the next; all other columns are the same whatever made them
+WALL_TIMES = (  # what differs from one time to the next; all other columns are independent of the machine
     "computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "othersBusy", "timesMeasured",
     "elementIterationsPerMillisecond", "wallTimePerSecond", "elementIterationTime", "versions.machine",
 )

@@ -138,7 +138,7 @@ def choose(searched: Sequence[Tried], wish: Wish, cost: Cost = by_time) -> Tried
 def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEATS,
              overrides: Mapping[str, Any] = MappingProxyType({})) -> Check[Advice]:
     """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone. Overrides
-    are laid over the file's values, dotted keys (`vessel.radius`) too."""
+    are which override the file's values, dotted keys (`vessel.radius`) too."""
     return Check(file.stem, "Advice", f"advice for {file.name}", partial(_plan, wish, cost, repeats, overrides),
                  str(file.resolve()))
 

@@ -37,7 +37,7 @@ class Trial:
     name : str
         What is changed, for people.
     changed : mapping of str to Any
-        Values laid over the scene's.
+        Values that override the scene's.
     """
 
     name: str

@@ -106,7 +106,7 @@ class Check(Generic[Found]):
     plan : callable
         Makes the generator described above.
     scene : str
-        Parameter file that its cases are laid over.
+        Parameter file whose values its cases override.
     results : tuple of str
         Outcomes that count as a result: a solver that gives up with a reason is one too.
     logs : bool

@@ -1,4 +1,4 @@
-"""A campaign of random pushes: each is run, and its log judged by a search of its own.
+"""A campaign of random pushes: each is run, and its log judged by an independent search.
 
 ``python3 -m experiments.campaigns.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run
 that breaks a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross

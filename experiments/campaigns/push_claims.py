@@ -1,4 +1,4 @@
-"""What the log of a push between walls is held to, by a search of its own (`wall_search`): no passage, no frozen
+"""What the log of a push between walls is held to, by an independent search (`wall_search`): no passage, no frozen
 element, true figures in the summary."""
 
 from __future__ import annotations

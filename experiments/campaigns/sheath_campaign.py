@@ -1,5 +1,5 @@
 """The wire of ``params/sheath.json`` fed into the artery with its tip bent in any direction, at any of many speeds, and
-what each run's log and summary say, held against a search of its own."""
+what each run's log and summary say, compared with an independent search."""
 
 from __future__ import annotations
 

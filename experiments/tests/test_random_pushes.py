@@ -1,4 +1,4 @@
-"""Wires pushed at random into vessels of twelve kinds: what each log says, found by a search of its own."""
+"""Wires pushed at random into vessels of twelve kinds: what each log says, found by an independent search."""
 
 import json
 import os

@@ -162,7 +162,7 @@ namespace Guidewire.Core
             return _stepper.Coaxial();
         }
 
-        /// <summary>What is read off of each catheter over the wire as it is now, outermost first; as
+        /// <summary>Results of each catheter at the current time, outermost first; as
         /// <see cref="Coaxial"/>.</summary>
         public IReadOnlyList<CoaxialRecord> Catheters()
         {

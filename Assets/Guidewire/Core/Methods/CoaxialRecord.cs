@@ -49,7 +49,7 @@ namespace Guidewire.Core
             _lumen = lumenRadius;
         }
 
-        /// <summary>What is read off of the catheter in this one; null where the wire is next.</summary>
+        /// <summary>Results of the catheter inside this one; null if the wire is next.</summary>
         public CoaxialRecord? Inside { get; internal set; }
 
         /// <summary>The catheter's n + 1 nodes, units.</summary>

@@ -41,7 +41,7 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>What is read off of the outermost catheter over the wire, and of the one in it; null without
+        /// <summary>Results of the outermost catheter, and of the one inside it; null without
         /// one.</summary>
         public virtual CoaxialRecord? Coaxial()
         {

@@ -101,7 +101,7 @@ namespace Guidewire.Core
             return slips;
         }
 
-        /// <summary>What is read off of each catheter, the outermost one first.</summary>
+        /// <summary>Results of each catheter, the outermost one first.</summary>
         public CoaxialRecord[] Records()
         {
             IReadOnlyList<Catheter> catheters = _parameters.Scene.Catheters;

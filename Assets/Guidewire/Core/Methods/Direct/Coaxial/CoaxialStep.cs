@@ -170,7 +170,7 @@ namespace Guidewire.Core
             return isDone;
         }
 
-        // The hubs go as far as they may.
+        // Moves the hubs as far as allowed.
         private void BeginStep()
         {
             _setup.LimitDrives(_drives, _hubs, _dynamics.Time);
