@@ -38,7 +38,7 @@ class Session:
     hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
         wire is gains; a wire with a material has its file's drive.
     native : whether the native library simulates, in this process. None: where it has been built from these sources.
-    overrides : parameters by key, overriding the file's: numbers, texts, lists, dicts, numpy arrays; parts of them stand
+    overrides : parameters by key, overriding the file's: numbers, texts, lists, dicts, numpy arrays; parts of them
         as `**{"vessel.radius": 4.0}`.
 
     Attributes
