@@ -129,7 +129,8 @@ def _large_turns() -> Plan:
     for (scheme, name), case in pendulums.items():
         fraction = _pendulum_energy(wires[name], runs[case.key])
         results.append(Result(f"pendulum released from the horizontal{name}, 2 s at 1 ms: energy",
-                              f"direct, {scheme}", fraction, 0.0, abs(fraction), _ENERGY_GATES[scheme], "m g L/2", None, "m g L/2"))
+                              f"direct, {scheme}", fraction, 0.0, abs(fraction), _ENERGY_GATES[scheme], "m g L/2",
+                              None, "m g L/2"))
     for scheme, case in spins.items():
         states = read_states(runs[case.key])
         first, last = (_balance(BASE, state) for state in (states[0], states[-1]))
