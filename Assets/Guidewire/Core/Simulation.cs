@@ -230,12 +230,12 @@ namespace Guidewire.Core
             }
             if ((parameters.Scene.Sheath != null) != _hasSheath)
             {
-                throw new ArgumentException("a sheath cannot be added or removed: a run cannot "
+                throw new ArgumentException("sheath: it cannot be added or removed, as a run cannot "
                     + "change its wire");
             }
             if (parameters.Scene.Catheters.Count != _catheters.Length)
             {
-                throw new ArgumentException("the number of catheters cannot change "
+                throw new ArgumentException("catheters: their number cannot change "
                     + "during a run");
             }
             var snapshot = new Snapshot();
