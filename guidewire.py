@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""The one door to the project: `python3 guidewire.py --help` lists what it can do.
+"""Command line of the project: `python3 guidewire.py --help` lists the commands.
 
 Needs nothing but Python's standard library (3.6 can read this file). It looks for a Python that can do what is asked,
 makes one if there is none, and hands over to experiments/commands.py there.

@@ -1,4 +1,4 @@
-"""Reads what runs leave behind, measures it and draws it.
+"""Reads the files of runs, evaluates them and draws figures.
 
 Nothing here starts a run: the package knows run folders (``runs``) and their logs (``logs``), measures relaxation
 (``relaxation``), errors and steady state (``errors``) and distances between runs (``distances``), puts a study's runs

@@ -1,4 +1,4 @@
-"""Logs of format npz: an array for each quantity, first index an entry.
+"""Logs of format npz: an array for each quantity; the first index is the entry.
 
 A complete log is a zip of .npy files. What a killed run leaves is one .npy file of rows, an entry each, whose header
 says 0 rows: as many as are whole in its length count.

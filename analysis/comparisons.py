@@ -102,7 +102,7 @@ def read_reference(folder: Path) -> tuple[WireRun, ...]:
     """
     study = read_study(folder)
     if not study.untimed or study.missing:
-        raise LogError(f"{folder}: not all runs of this study left a log")
+        raise LogError(f"{folder}: not all runs of this study have a log")
     return tuple(read_wire(run) for run in study.untimed)
 
 

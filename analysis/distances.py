@@ -94,7 +94,7 @@ def at_arc_length(positions: np.ndarray, arc_length: np.ndarray, wanted: np.ndar
     slack = _SAME * max(abs(arc_length[0]), abs(arc_length[-1]))
     if np.min(wanted) < arc_length[0] - slack or np.max(wanted) > arc_length[-1] + slack:
         raise DistanceError(
-            f"arc lengths {np.min(wanted):g} to {np.max(wanted):g} are not all on a wire that is known from "
+            f"arc lengths {np.min(wanted):g} to {np.max(wanted):g} are not all within the logged wire, from "
             f"{arc_length[0]:g} to {arc_length[-1]:g} units"
         )
     return _interpolate(positions, arc_length, wanted, axis=positions.ndim - 2)

@@ -79,7 +79,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
         if wire.run.value("elementContact") == "barycentric" and wire.run.outcome == "finished"
     ]
     if not whole:
-        raise LogError(f"{folder}: no run with element contact went to its end")
+        raise LogError(f"{folder}: no run with element contact was completed")
     finest = max(whole, key=lambda wire: wire.run.number("numberRodElements"))
     rows = []
     for wire in wires:

@@ -1,4 +1,4 @@
-"""What is read off at the hub and at the tip over time, from a log with ``logHub``."""
+"""Quantities at the hub and the tip over time, from a log with ``logHub``."""
 
 from __future__ import annotations
 
@@ -51,7 +51,7 @@ def read_hub(path: Path) -> HubLog:
     for _, entry in read_entries(path):
         hub = entry.get("hub")
         if hub is None:
-            raise LogError(f"{find_log(path)}: says nothing of the hub: needs a run of solver direct with logHub")
+            raise LogError(f"{find_log(path)}: has no data of the hub: needs a run of solver direct with logHub")
         rows["time"].append(entry["totalTime"])
         tip = entry["sphere"][max(entry["sphere"], key=int)]
         rows["tip"].append([tip[axis] for axis in "xyz"])

@@ -1,4 +1,4 @@
-"""Measurements of a real wire in a CSV file, and how far a run is off them.
+"""Measurements of a real wire in a CSV file, and the error of a run against them.
 
 Two kinds, told apart by their first line: `time,force` (s, and N at the hub), or `time,x,y,z` (s, and a point of the
 centreline in the run's units), where lines of the same time are points of one shape.
@@ -108,7 +108,7 @@ def _read(file: Path) -> np.ndarray:
         with file.open(newline="", encoding="utf-8-sig") as stream:
             lines = [(number, row) for number, row in enumerate(csv.reader(stream), 1) if any(map(str.strip, row))]
     except (OSError, UnicodeDecodeError, csv.Error) as error:
-        said = error.strerror if isinstance(error, OSError) else "is no text in UTF-8 with commas"
+        said = error.strerror if isinstance(error, OSError) else "is not a comma-separated text file in UTF-8"
         raise LogError(f"{file}: {said}") from error
     names = tuple(name.strip().lower() for name in lines[0][1]) if lines else ()
     if names not in COLUMNS:

@@ -1,4 +1,4 @@
-"""Pictures and short films of a run: the wire as a tube, of the vessel the far wall, so that one looks inside.
+"""Pictures and short films of a run: the wire as a tube, and the far wall of the vessel, so that the inside is visible.
 
 No Unity takes part: the wire and the catheters come from the log, walls are triangles that the caller brings, the
 pixels are made by analysis.raster. One moment of a wire alone is coloured by curvature, instruments in one another have

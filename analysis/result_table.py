@@ -1,4 +1,4 @@
-"""The table of a study's runs, runs.csv: what of it can be drawn over what."""
+"""The table of a study's runs, runs.csv: which columns can be plotted against one another."""
 
 from __future__ import annotations
 
@@ -131,7 +131,7 @@ def _read(file: Path) -> list[dict[str, str]]:
     except (UnicodeDecodeError, csv.Error) as error:
         raise LogError(f"{file}: is no table ({error})") from error
     if not rows or "key" not in rows[0] or "outcome" not in rows[0]:
-        raise LogError(f"{file}: is no table of a study's runs")
+        raise LogError(f"{file}: is not a table of a study's runs")
     return rows
 
 

@@ -118,7 +118,7 @@ class StudyRuns:
     def required(self) -> tuple[Run, ...]:
         """Runs made for their positions, or LogError where none left a log."""
         if not self.untimed:
-            raise LogError(f"{self.folder}: no run of this study left a log")
+            raise LogError(f"{self.folder}: no run of this study has a log")
         return self.untimed
 
     @property

@@ -1,4 +1,4 @@
-"""What the longitudinal run's slowest mode does, in closed form: why tau depends on m, n, M and dt as it does.
+"""The slowest mode of the longitudinal run in closed form, which explains how tau depends on m, n, M and dt.
 
 With gains, a step is linear in the distances u from the new rest as long as the wire stays straight. One link of rest
 length l and gain g, between two spheres of inverse mass w, moves each of them by gamma = g w/(2 w + 4 wq l^2) times its

@@ -1,4 +1,4 @@
-"""Where methods fail: frontiers that bisections found, and the limits that theory has for them.
+"""Stability limits found by bisection, and those of theory.
 
 **Gains.** While a wire is nearly straight, a sweep is linear in the distances u from rest, u -> S u, and so is a step
 with its prediction: u_{k+1} = S^m (2 u_k - u_{k-1}). With an eigenvalue s of S and a = s^m the roots of

@@ -1,4 +1,4 @@
-"""What the material feels along the wire over time, from a log with ``logStrains``."""
+"""Stresses and strains along the wire over time, from a log with ``logStrains``."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""One row for each value of a study: what the runs of that value measured."""
+"""One row for each value of a study: the results of the runs with that value."""
 
 from __future__ import annotations
 

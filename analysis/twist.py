@@ -1,4 +1,4 @@
-"""Twist along a wire from logged orientations: how much of the turn at the base arrives at the tip."""
+"""Twist along a wire from logged orientations: the fraction of the rotation at the base that reaches the tip."""
 
 from __future__ import annotations
 

@@ -1,1 +1,1 @@
-"""Vessels from meshes, segmentations and centrelines: inspection, repair, centrelines, and anatomies made by code."""
+"""Vessels from meshes, segmentations and centrelines: inspection, repair, centrelines, and generated anatomies."""

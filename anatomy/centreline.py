@@ -113,7 +113,7 @@ def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None)
     lost = [rim for rim, node in zip(rims, nodes) if not np.isfinite(cost[node])]
     if lost:
         raise AnatomyError(f"no path leads to {lost[0].name} at {np.round(lost[0].centre, 4).tolist()}: the lumen is "
-                           "closed on the way")
+                           "closed in between")
     known = set(walk_back(before, start)) if len(nodes) == 1 else set().union(*(walk_back(before, n) for n in nodes))
     blind = graph.blind_ends(known, before, dijkstra(graph.lengths, directed=False, indices=start))
     return _Builder(graph, wall, WallDistance(mesh) if rims else wall, rims, nodes, blind, start, before).build()

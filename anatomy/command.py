@@ -1,4 +1,4 @@
-"""`guidewire.py anatomy`: what it is given, and what it writes."""
+"""`guidewire.py anatomy`: its arguments and its output."""
 
 from __future__ import annotations
 
@@ -85,7 +85,7 @@ def read(file: Path, unit: str | None = None, label: float | None = None, thresh
         from anatomy.shapes import tube_mesh
 
         line = line or reading.read_line(file)
-        left = f"; of {line.others + 1} lines the longest, the others are left out" if line.others else ""
+        left = f"; of {line.others + 1} lines the longest, the others are ignored" if line.others else ""
         return tube_mesh(line.points, line.radii), unit or line.unit or None, [
             f"a tube around a centreline of {len(line.points)} points{left}"]
     return reading.read_mesh(file), unit, []

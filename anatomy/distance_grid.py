@@ -1,4 +1,4 @@
-"""A wall made anew from its signed distance on a grid."""
+"""Reconstruction of a wall from its signed distance on a grid."""
 
 from __future__ import annotations
 

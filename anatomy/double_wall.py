@@ -1,4 +1,4 @@
-"""The lumen's side of a double wall whose two surfaces are joined at the ends of the vessel.
+"""The inner surface of a double wall whose two surfaces are joined at the ends of the vessel.
 
 A triangle of the inner surface looks at the wall opposite, one of the outer surface into the open: the fraction of a
 cone of rays that meet the mesh says which it is, but not everywhere (branches side by side, the lips at the ends). The

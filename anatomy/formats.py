@@ -1,4 +1,4 @@
-"""Endings of the names of files that hold a vessel, without a package that would have to be there to read them."""
+"""File extensions of vessels, without the packages needed to read them."""
 
 from __future__ import annotations
 

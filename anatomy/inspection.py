@@ -1,4 +1,4 @@
-"""What a mesh is like: rims, bodies, size, unit, orientation, and every bad place with its position."""
+"""Inspection of a mesh: rims, bodies, size, unit, orientation, and every defect with its position."""
 
 from __future__ import annotations
 
@@ -197,7 +197,7 @@ def guess_unit(mesh: Mesh, given: str | None = None) -> Unit:
     if given and given != best:
         reason += f"; the sizes look like {best}"
     elif not given and not sure:
-        reason += "; another unit is nearly as likely: say --unit"
+        reason += "; another unit is nearly as likely: give --unit"
     return Unit(name, reason, bool(sure or given))
 
 

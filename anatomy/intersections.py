@@ -1,4 +1,4 @@
-"""Where a mesh passes through itself: edges of a triangle that pierce another one with no vertex in common."""
+"""Self-intersections of a mesh: edges of a triangle that pierce another one with no vertex in common."""
 
 from __future__ import annotations
 

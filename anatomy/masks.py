@@ -1,4 +1,5 @@
-"""The wall of a vessel in a segmentation: marched, smoothed without loss of volume, decimated to a stated error."""
+"""The wall of a vessel in a segmentation: extracted by marching cubes, smoothed without loss of volume, decimated to a
+stated error."""
 
 from __future__ import annotations
 
@@ -76,8 +77,8 @@ def _inside(values: np.ndarray, label: float | None, threshold: float | None) ->
         if len(found) > 2:
             listed = (", ".join(f"{value:g}" for value in found) if len(found) <= _LISTED
                       else f"from {found[0]:g} to {found[-1]:g}")
-            raise AnatomyError(f"the voxels have {len(found)} values ({listed}): say --label N for a mask, or "
-                               "--threshold T for an image")
+            raise AnatomyError(f"the voxels have {len(found)} values ({listed}): give --label N for a mask, "
+                               "or --threshold T for an image")
         inside, asked = values != 0, ""
     if not inside.any() or inside.all():
         raise AnatomyError(f"{asked}{'no' if not inside.any() else 'every'} voxel is in the vessel; the values go from "

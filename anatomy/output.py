@@ -1,4 +1,4 @@
-"""What is written of a vessel: the mesh, its ends and centreline, a scene with a wire at an inlet, the report."""
+"""Output for a vessel: the mesh, its ends and centreline, a scene with a wire at an inlet, the report."""
 
 from __future__ import annotations
 
@@ -145,10 +145,10 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
             zip(found.body_sizes[:_PLACES], found.body_centres)))
     if found.near_vertices:
         lines.append(f"{found.near_vertices} vertices nearer than {found.weld_length:.3g} {unit.name} to another one")
-    for name, places in (("triangles without area or there twice", found.slivers),
+    for name, places in (("triangles without area, or duplicates", found.slivers),
                          ("edges of more than two triangles", found.crowded),
-                         ("edges whose triangles are turned against each other", found.turned),
-                         ("places where the surface passes through itself", found.crossings)):
+                         ("edges whose triangles are oriented inconsistently", found.turned),
+                         ("self-intersections", found.crossings)):
         if len(places):
             listed = ", ".join(_place(place) for place in places[:_PLACES])
             lines.append(f"{len(places)} {name}: {listed}{', ..' if len(places) > _PLACES else ''}")

@@ -1,4 +1,4 @@
-"""A picture of a vessel: its wall from two sides, rims with their numbers, the centreline, bad places."""
+"""A picture of a vessel: its wall from two sides, rims with their numbers, the centreline, defects."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a file holds: a mesh, a mask, or a centreline. VTK reads the formats; here stands what is wrong with a file."""
+"""Reads a mesh, a mask or a centreline from a file with VTK, and reports errors of the file."""
 
 from __future__ import annotations
 

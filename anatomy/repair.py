@@ -113,7 +113,7 @@ class _Work:
 
     def drop_slivers(self) -> None:
         self.mesh, places = without_slivers(self.mesh)
-        self._note("triangles without area or there twice removed", len(places), 0.0,
+        self._note("triangles without area, or duplicates removed", len(places), 0.0,
                    places[0] if len(places) else None)
 
     def drop_bodies(self) -> None:
@@ -238,7 +238,7 @@ class _Work:
         rims = sort_rims(self.mesh, find_rims(self.mesh, edges))
         self.mesh, moved = remesh(self.mesh, [rim for rim in rims if not rim.is_hole], 0.25 * narrow_radius(self.mesh))
         self.mesh = relaxed(self.mesh)
-        self._note("crossings left: the wall made anew from its signed distance", count, moved, place)
+        self._note("crossings left: the wall reconstructed from its signed distance", count, moved, place)
         points, _ = self_intersections(self.mesh)
         if len(points):
             raise AnatomyError(f"the surface passes through itself at {len(points)} places, the first at "

@@ -1,4 +1,4 @@
-"""Anatomies made by code: aortic arch, iliac bifurcation, carotid siphon, left coronary tree.
+"""Generated anatomies: aortic arch, iliac bifurcation, carotid siphon, left coronary tree.
 
 Sizes are drawn with a seed from normal distributions cut at two standard deviations, or evenly from ranges:
 

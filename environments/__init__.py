@@ -1,4 +1,4 @@
-"""Environments to train on: a wire, a vessel and a target, as Gymnasium 1.x has them. docs/environments.md."""
+"""Training environments as defined by Gymnasium 1.x: a wire, a vessel and a target. docs/environments.md."""
 
 from environments.drive import Drive
 from environments.environment import Environment, Reward

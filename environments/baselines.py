@@ -1,4 +1,4 @@
-"""Policies by rule: turn and retry, and chance."""
+"""Baseline policies: turn and retry, and random actions."""
 
 from __future__ import annotations
 

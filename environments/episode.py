@@ -1,4 +1,4 @@
-"""What an episode has come to: success, safe success, forces on the walls, ways."""
+"""Results of an episode: success, safe success, wall forces, displacements."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Sessions that stay open between episodes: reading a vessel takes most of a second, going back to a start a few ms."""
+"""Sessions that stay open between episodes: reading a vessel takes most of a second, restoring a start a few ms."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a policy is told of the wire, part by part."""
+"""Observations of the wire for a policy, part by part."""
 
 from __future__ import annotations
 

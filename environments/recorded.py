@@ -1,4 +1,4 @@
-"""What was done to the hub in an episode, kept in a file, and done again to the same bits."""
+"""The motion of the hub in an episode, saved to a file and replayed with the same bits."""
 
 from __future__ import annotations
 

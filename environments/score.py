@@ -1,4 +1,4 @@
-"""Episodes of a policy, and what they come to."""
+"""Episodes of a policy, and their results."""
 
 from __future__ import annotations
 

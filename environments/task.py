@@ -1,4 +1,4 @@
-"""What an environment is built from: scenes, targets, and the bounds that episodes are drawn from by seed."""
+"""Definition of a task: scenes, targets, and the ranges from which episodes are drawn by seed."""
 
 from __future__ import annotations
 
@@ -30,7 +30,7 @@ class Task:
     ----------
     name, summary : as listed.
     scene : parameter file; "" where each anatomy has its own.
-    overrides : keys laid over the scene's.
+    overrides : keys that override the scene's.
     anatomies : of each vessel an episode may have: path of its anatomy.json beside which, with no `scene`, is its
         scene.json; or "make", "type", "seed", "inlet" and "target" of one that is generated when it is first needed;
         in a file, "seeds" for several of a kind.

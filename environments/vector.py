@@ -1,4 +1,4 @@
-"""Several environments of one task at once, over threads or processes; the bits do not depend on how many."""
+"""Several environments of one task at once, over threads or processes; the bits do not depend on their number."""
 
 from __future__ import annotations
 

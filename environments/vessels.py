@@ -1,4 +1,4 @@
-"""Vessels made by code, written once and then found again."""
+"""Generated vessels, cached on disk."""
 
 from __future__ import annotations
 

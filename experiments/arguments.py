@@ -1,4 +1,4 @@
-"""Words of the command line: what they are read as, and what is said of those that cannot be."""
+"""Types of command-line arguments, and their error messages."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Builds programs of the headless solution, where they were made from something else than what is there now.
+"""Builds programs of the headless solution if their sources have changed.
 
 After a build a stamp says what each program came from and what it is: the content of every file that a build can read,
 the .NET SDKs, and size and time of the files written. Where all three are as stamped, nothing is built.

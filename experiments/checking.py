@@ -1,4 +1,4 @@
-"""What can be said of a run's arguments before anything is built: a typing error must not cost a build first.
+"""Checks of a run's arguments before anything is built, so that a typing error does not cost a build.
 
 Whatever is refused here the runner would refuse too; what is let pass here, such as keys that do not go together, the
 runner still checks. Its table of keys is taken from docs/parameters.md.

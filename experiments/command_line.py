@@ -1,4 +1,4 @@
-"""The command line of guidewire.py: its commands, their arguments, and what `--help` says of them."""
+"""The command line of guidewire.py: its commands, their arguments and help."""
 
 from __future__ import annotations
 
@@ -52,8 +52,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     _add_runner(sweep)
     sweep.set_defaults(packages=SWEEPING)
 
-    figures = commands.add_parser("figures", help="draw the thesis's figures and ours, running what is missing; exit "
-                                                  "code 1 if a check exceeds its limit")
+    figures = commands.add_parser("figures", help="draw the figures of the thesis and of this project, making "
+                                                  "missing runs; exit code 1 if a check exceeds its limit")
     figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; default: all")
     figures.add_argument("--out", type=path, default=Path("results"),
                          help="parent of the studies' folders (results); pictures are written to its 'figures'")
@@ -82,13 +82,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     _add_workers(advise)
     advise.set_defaults(packages=DRAWING + SWEEPING)
 
-    render = commands.add_parser("render", help="a picture or a film of a run, with its vessel and obstacles")
+    render = commands.add_parser("render", help="picture or film of a run, with its vessel and obstacles")
     render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
     render.add_argument("--out", type=path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
     render.add_argument("--times", type=finite, nargs="+", metavar="T", default=[],
                         help="of a .png: times in s, drawn in one picture, one colour each (default: the end, coloured "
                              "by curvature)")
-    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: most frames (40)")
+    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: largest number of "
+                                                                                 "frames (40)")
     middle = render.add_mutually_exclusive_group()
     middle.add_argument("--target", type=finite, nargs=3, metavar=("X", "Y", "Z"), help="point at the centre, units")
     middle.add_argument("--follow", choices=("tip",), help="keep the tip at the centre, at four times the zoom")
@@ -105,10 +106,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
     fluoroscopy.add_argument("--lao", type=finite, metavar="DEGREES", help="left anterior oblique, RAO is negative (0)")
     fluoroscopy.add_argument("--cranial", type=finite, metavar="DEGREES", help="caudal is negative (0)")
     fluoroscopy.add_argument("--field", type=above_zero, metavar="MM", help="side of the picture (the whole vessel)")
-    fluoroscopy.add_argument("--vessel", choices=("roadmap", "contrast", "none"), help="how it is shown (roadmap)")
+    fluoroscopy.add_argument("--vessel", choices=("roadmap", "contrast", "none"), help="how the vessel is shown "
+                                                                                       "(roadmap)")
     fluoroscopy.add_argument("--pixels", type=positive, metavar="N", help="of a side (512)")
-    fluoroscopy.add_argument("--noise", type=finite, metavar="F", help="deviation over brightness (0.03)")
-    fluoroscopy.add_argument("--blur", type=finite, metavar="MM", help="deviation of the spot (0.15)")
+    fluoroscopy.add_argument("--noise", type=finite, metavar="F", help="standard deviation of the noise over "
+                                                                       "brightness (0.03)")
+    fluoroscopy.add_argument("--blur", type=finite, metavar="MM", help="standard deviation of the focal spot (0.15)")
     render.set_defaults(packages=DRAWING)
 
     _add_anatomy(commands)
@@ -117,17 +120,17 @@ def parse(argv: list[str]) -> argparse.Namespace:
     steer.add_argument("file", metavar="SCENE", type=Path, help="scene.json that 'anatomy' wrote")
     steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
     steer.add_argument("--attempts", type=positive, default=200, metavar="N",
-                       help="that fail with each tip, at most (200)")
+                       help="largest number of failed attempts with each tip (200)")
     steer.set_defaults(packages=("numpy",))
 
     view = commands.add_parser("view", help="in the browser: open a scene interactively, replay one or two runs, or "
                                               "look at a vessel")
     view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
                       help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "
-                           "superimposed; a mesh, mask or centreline: its ends and bad places, a click on an end makes "
+                           "superimposed; a mesh, mask or centreline: its ends and defects, a click on an end makes "
                            "it the inlet")
     view.add_argument("--html", type=path, metavar="FILE", help="write the replay into a self-contained file")
-    view.add_argument("--frames", type=positive, metavar="K", help="most frames of a run (5000; 300 with --html)")
+    view.add_argument("--frames", type=positive, metavar="K", help="largest number of frames (5000; 300 with --html)")
     view.add_argument("--open", action="store_true", help="open the page in a browser")
     view.set_defaults(packages=("numpy", *VIEWING))
 
@@ -173,7 +176,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     modes.set_defaults(packages=DRAWING)
 
     instrument = commands.add_parser("instrument", help="all instruments, or one: sources of its numbers, bench tests, "
-                                                        "picture; exit code 1 if a gate is not passed")
+                                                        "picture; exit code 1 if an error exceeds its limit")
     instrument.add_argument("name", metavar="NAME", nargs="?", help="such as amplatz-super-stiff-0.035")
     instrument.add_argument("--out", type=path, default=Path("results/instruments"), metavar="DIR",
                             help="folder for NAME.png (results/instruments)")
@@ -181,14 +184,15 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     tasks = commands.add_parser("tasks", help="tasks to train on: list them, score a policy, steer one by hand")
     tasks.add_argument("task", metavar="TASK", nargs="?", help="name, or a scene.json with anatomy and target")
-    tasks.add_argument("--policy", choices=("retry", "random"), default="retry", help="what acts (retry)")
-    tasks.add_argument("--episodes", type=positive, default=50, metavar="N", help="how many are played (50)")
-    tasks.add_argument("--seed", type=positive, default=1, metavar="S", help="of the first; the next has S + 1 (1)")
-    tasks.add_argument("--jobs", type=positive, default=1, metavar="N", help="environments at once (1)")
+    tasks.add_argument("--policy", choices=("retry", "random"), default="retry", help="policy that steers (retry)")
+    tasks.add_argument("--episodes", type=positive, default=50, metavar="N", help="number of episodes (50)")
+    tasks.add_argument("--seed", type=positive, default=1, metavar="S", help="seed of the first episode; the next "
+                                                                             "has S + 1 (1)")
+    tasks.add_argument("--jobs", type=positive, default=1, metavar="N", help="number of parallel environments (1)")
     by_hand = tasks.add_mutually_exclusive_group()
     by_hand.add_argument("--record", type=path, metavar="FILE",
-                         help="open its page, and write what is steered there when it ends (Ctrl-C)")
-    by_hand.add_argument("--replay", type=Path, metavar="FILE", help="do again what was recorded")
+                         help="open the page of the task, and save the steering when the command ends (Ctrl-C)")
+    by_hand.add_argument("--replay", type=Path, metavar="FILE", help="repeat a recorded episode")
     tasks.add_argument("--open", action="store_true", help="open the page in a browser")
     tasks.set_defaults(packages=(*DRAWING, *VIEWING))
 
@@ -233,8 +237,8 @@ def _add_overrides(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_anatomy(commands: argparse._SubParsersAction) -> None:
-    anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one made "
-                                                  "by code: inspected, repaired, with its centreline and a scene")
+    anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one "
+                                                  "generated: inspected, repaired, with its centreline and a scene")
     source = anatomy.add_mutually_exclusive_group(required=True)
     source.add_argument("file", metavar="FILE", type=Path, nargs="?",
                         help=".stl, .obj, .ply, .vtp; masks .nii, .nii.gz, .nrrd; centrelines .csv, .vtp, .mrk.json")
@@ -247,11 +251,12 @@ def _add_anatomy(commands: argparse._SubParsersAction) -> None:
     anatomy.add_argument("--out", type=path, help="folder of the results (results/anatomy/<name of FILE>)")
     anatomy.add_argument("--look", action="store_true", help="report and picture only")
     anatomy.add_argument("--open", action="store_true", help="cut closed ends open")
-    anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="of the file's numbers (guessed from the sizes)")
+    anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="unit of the coordinates (guessed from the size)")
     anatomy.add_argument("--label", type=finite, metavar="N", help="of a mask: value of the vessel's voxels")
     anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
     anatomy.add_argument("--region", type=positive, metavar="K",
-                         help="of what --label or --threshold takes: the K-th largest connected region (default 1)")
+                         help="among the voxels of --label or --threshold: the K-th largest connected region "
+                              "(default 1)")
     anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
                                                                         "(a tenth of a voxel)")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")
@@ -269,5 +274,5 @@ def _add_workers(parser: argparse.ArgumentParser) -> None:
 
 def _add_runner(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--runner", choices=("headless", "unity"), default="headless",
-                        help="what makes the runs: the console program (default), or Unity in batch mode")
+                        help="program that makes the runs: the console program (default), or Unity in batch mode")
     parser.add_argument("--unity", metavar="PATH", help="Unity editor or player (or the environment's GUIDEWIRE_UNITY)")

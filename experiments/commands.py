@@ -1,4 +1,4 @@
-"""The commands of guidewire.py: what people type, and what is printed."""
+"""The commands of guidewire.py: their execution and output."""
 
 from __future__ import annotations
 

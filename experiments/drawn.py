@@ -1,4 +1,4 @@
-"""What `guidewire.py render` draws beside the wire and its walls: instruments in one another, and a sheath."""
+"""Catheters and the sheath in the pictures of `guidewire.py render`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Whether this is the repository or the installed package, and what stands where in the latter.
+"""Whether this is the repository or the installed package, and the paths in the latter.
 
 In the package everything lies below `guidewire`, as it lies below the repository here (experiments/wheel.py); programs
 are built already, and commands that build or check the repository are refused.

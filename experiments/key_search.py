@@ -1,4 +1,4 @@
-"""`guidewire.py keys`: what a parameter file may hold, as the runner says it."""
+"""`guidewire.py keys`: the keys of parameter files, from the runner."""
 
 from __future__ import annotations
 

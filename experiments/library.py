@@ -67,7 +67,7 @@ def advise(file: str | Path, error: float | None = None, budget: float | None = 
     of, at : quantity of the error, and whether it counts over the run ("run") or at its end ("end").
     out : parent of the folder of the runs, advice/SCENE.
     jobs : untimed runs at once; None: one a processor.
-    overrides : parameters by key, laid over the file's.
+    overrides : parameters by key, which override the file's.
 
     Returns
     -------

@@ -1,4 +1,4 @@
-"""How busy the machine is with anything but the run that is timed."""
+"""Load of the machine by other programs during a timed run."""
 
 from __future__ import annotations
 

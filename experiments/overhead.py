@@ -1,4 +1,4 @@
-"""What short runs cost beside their own steps: parameters, files, tables, and whatever hands them out."""
+"""Overhead of short runs: parameters, files, tables, and scheduling."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Which Python runs a command: the first that has what the command imports, or one that is made here.
+"""Chooses the Python for a command: the first with the packages that it imports, or a new virtual environment.
 
 The order: the running one; .venv in the repository; Debian's /usr/bin/python3; a new .venv filled by pip from
 requirements.txt; on Debian as root, apt's packages with /usr/bin/python3. Standard library only, and readable by

@@ -1,4 +1,4 @@
-"""A program that runs beside others: with a log and a time limit of its own, and with what it cost."""
+"""A child process with its own log and time limit, and its processor time."""
 
 from __future__ import annotations
 

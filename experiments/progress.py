@@ -1,4 +1,4 @@
-"""What a terminal shows while somebody waits."""
+"""Progress display in a terminal."""
 
 from __future__ import annotations
 

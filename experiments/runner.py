@@ -34,7 +34,7 @@ class Request:
     name : what people call it; the answer repeats it.
     parameters : parameter file; None: the defaults.
     out : folder of the run; None where its parameters are only checked.
-    overrides : parameter key to value, laid over the file.
+    overrides : parameter key to value, which override the file.
     repeat : number of a timed repeat (from 1), or None for a run whose wall time does not matter.
     log : whether it leaves a log.
     """

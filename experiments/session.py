@@ -1,4 +1,4 @@
-"""A run under the hand of a Python script: stepped, saved, restored, any number of them side by side.
+"""A run controlled by a Python script: stepped, saved, restored; any number of them in parallel.
 
     with Session("params/insertion.json", bendStiffness=0.05) as session:
         state = session.step(push=1.0, turn=0.1, steps=10)
@@ -38,7 +38,7 @@ class Session:
     hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
         wire is gains; a wire with a material has its file's drive.
     native : whether the native library simulates, in this process. None: where it has been built from these sources.
-    overrides : parameters by key, laid over the file's: numbers, texts, lists, dicts, numpy arrays; parts of them stand
+    overrides : parameters by key, overriding the file's: numbers, texts, lists, dicts, numpy arrays; parts of them
         as `**{"vessel.radius": 4.0}`.
 
     Attributes
@@ -140,7 +140,7 @@ class Session:
 
     def change(self, **parameters: Any) -> State:
         """Change parameters, such as `timeStep`, or parts of them, such as `**{"vessel.frictionCoefficient": 0.1}`; the
-        wire goes on from where it is. What takes the place of an override counts after a `reset` too."""
+        wire continues from its current state. What takes the place of an override counts after a `reset` too."""
         answer = self._ask("change", set=parameters)
         self.parameters = answer["effective"]
         return self._take(answer)

@@ -1,4 +1,4 @@
-"""Who simulates for a session: the runner in a process of its own, or the native library in this one.
+"""The host that simulates for a session: the runner in a process of its own, or the native library in this one.
 
 Both answer the requests of docs/runs.md; the library also makes steps whose state comes back without text.
 """

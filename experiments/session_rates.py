@@ -1,5 +1,5 @@
 """Calls a second of sessions that step the accurate vessel scene by 140 ms a call, as those do who train navigation,
-and by 10 ms, as those do who close a loop of control: a hand pushes in and pulls out, and turns as chance has it.
+and by 10 ms, as in a control loop: random pushes, pulls and rotations.
 
     python3 guidewire.py python experiments/session_rates.py
 

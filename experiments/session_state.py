@@ -1,4 +1,4 @@
-"""What a session reads off a run: its state at one moment, with the hub, the catheters and the energies."""
+"""The state of a session's run at one time, with the hub, the catheters and the energies."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where runs stand: `runs/` holds a folder for each address, and studies point there, so that two share what is the same.
+"""The store of runs: `runs/` has a folder for each address, and studies refer to it, so that equal runs are shared.
 
 A run is whole where its summary is, and what the summary and whoever asks need beside it. A folder without that is what
 a killed or failed run left: it is made again, in the same place.

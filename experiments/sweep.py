@@ -1,4 +1,4 @@
-"""Makes the runs that studies and checks ask for, round by round, and says in tables what became of them.
+"""Makes the runs of studies and checks, round by round, and writes tables of their results.
 
 Runs stand in one store, each under the address that the runner tells for its parameters (experiments/store.py), so that
 what is done is not run again, whoever asked for it. In `<out>/<source>/` stand study.json, what was asked for and in
@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 FAILED = 5  # as of a run: something that was asked for is not there
 _STARTS = "starts"
 _TIMED = {"logSpheres": "last", "logOrientations": False}  # a timed run's log is read for its times only
-WALL_TIMES = (  # what differs from one time to the next; all other columns are the same whatever made them
+WALL_TIMES = (  # what differs from one time to the next; all other columns are independent of the machine
     "computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "othersBusy", "timesMeasured",
     "elementIterationsPerMillisecond", "wallTimePerSecond", "elementIterationTime", "versions.machine",
 )

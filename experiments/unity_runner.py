@@ -1,4 +1,4 @@
-"""Lets a Unity editor or player make runs in place of the headless runner.
+"""Makes runs with a Unity editor or player instead of the headless runner.
 
 It is started like the headless runner, for one run (``-parameters FILE -out DIR -KEY VALUE ...``) or with ``-lines``
 (one JSON request a line, one JSON answer a line), and starts Unity in batch mode once a run. Unity's exit code alone

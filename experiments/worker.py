@@ -1,4 +1,4 @@
-"""What a worker of the cluster does: it keeps runners alive and makes batches of runs with them.
+"""A worker of the cluster: keeps runners alive and makes batches of runs with them.
 
 This code travels to workers by value (see experiments/cluster.py): they need dask's packages and, under the paths that
 they have here, the programs that make runs and the folder of the results.

@@ -1,4 +1,4 @@
-"""What is run: a table of parameters over any number of axes, and the names of its runs and their folders.
+"""Studies: tables of parameters over any number of axes, and the names of its runs and their folders.
 
 ``table`` says what one run and a table of runs are, ``sampling`` and ``bisection`` which other tables there are, ``keys``
 how runs are named, ``study_file`` reads a study that a user wrote, ``builtin`` holds those that the command line knows.

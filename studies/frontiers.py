@@ -1,5 +1,5 @@
-"""Studies of where methods fail: bisections of a gain or a step, for which there are limits in closed form, and the
-direct solver's schemes at steps of up to 0.1 s, for which there is none.
+"""Studies of stability limits: bisections of pbd's stiffness or a step, for which there are limits in closed form, and
+the direct solver's schemes at steps of up to 0.1 s, for which there is none.
 
 Runs are displaced by 10 units and may rest, but do not end there: a gain just beyond its limit needs time to be seen.
 """

@@ -1,4 +1,4 @@
-"""Names of runs, exact: from a name the values can be read back, so no two share one.
+"""Names of runs, which contain the exact values and so are unique.
 
 A run's name is its variant and its values, such as `seed,numberRodElements=30,timeStep=0.03333333333333333`. A number
 is written with as many digits as it takes to read the same number again, a whole number without a point and any other

@@ -1,5 +1,5 @@
-"""Studies of outcomes over two parameters: where methods hold, are off, or are lost. Runs log the last sphere alone, at
-their end.
+"""Studies of outcomes over two parameters: where methods are stable, inaccurate, or fail. Runs log the last sphere
+alone, at their end.
 
 Pushes go the same way in fewer, longer steps; joints are turned by a couple at the tip or by the distal clamp; a tip is
 made heavier; xpbd has more substeps or more sweeps; a drag is made stronger than a step can follow.

@@ -23,7 +23,7 @@ KEYS = {
     "study": "its name, and that of its folder in the results",
     "question": "what it asks, for people",
     "scene": "parameter file, counted from this one's folder",
-    "common": "parameters of every run, laid over the scene",
+    "common": "parameters of every run, which override the scene's",
     "variants": "names, each with further parameters; every other combination is run with each",
     "axes": "parameters, each with a list of values or a range with a count; every combination is run",
     "list": "objects of parameters that change together, one for each run",

@@ -95,7 +95,7 @@ class Case:
     Attributes
     ----------
     key : its name among the runs of whoever asks for it, and its folder.
-    overrides : parameter key to value, laid over the scene.
+    overrides : parameter key to value, which override the scene.
     repeats : timed repeats, made with no other run of ours beside them.
     start : positions, orientations and so on to start from, as a start file holds them.
     in_turns : not run, but its cost measured: its motion and sweeps of the thesis's rod are timed in turns in one
@@ -169,7 +169,7 @@ class Grid:
         yield self.cases()
 
     def overrides(self, variant: Mapping[str, Any], values: Mapping[str, Value]) -> dict[str, Any]:
-        """What is laid over the scene for one run."""
+        """The overrides of the scene for one run."""
         overrides = {**self.common, **variant, **plain_values(values)}
         if self.duration is not None:
             steps = max(math.ceil(self.duration / overrides["timeStep"] - _ROUNDING), self.least_steps)

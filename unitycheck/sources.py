@@ -1,4 +1,5 @@
-"""What the compiler says of the C# sources: asked of the built program Guidewire.UnityCheck, which stays up for more.
+"""Findings of the compiler in the C# sources, from the built program Guidewire.UnityCheck, which stays running for
+further requests.
 
 Where it has not been built, nothing is known of the sources, and the rules that need it say nothing.
 """

@@ -1,4 +1,4 @@
-"""A vessel in the browser: its wall as the file has it, its ends, its bad places; a click makes an end the inlet."""
+"""A vessel in the browser: its wall as it is in the file, its ends, its defects; a click makes an end the inlet."""
 
 from __future__ import annotations
 

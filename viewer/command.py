@@ -1,4 +1,4 @@
-"""`guidewire.py view`: what it is given, and how that comes to the page."""
+"""`guidewire.py view`: its arguments, and what the page is given."""
 
 from __future__ import annotations
 

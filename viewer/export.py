@@ -1,4 +1,4 @@
-"""One file with the page and what it shows: it needs neither a server nor a network."""
+"""A self-contained file with the page and its data: it needs neither a server nor a network."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""The instruments of a run under the hand of a page: which of them the hand holds, and what was steered of each."""
+"""The instruments of a run steered by a page: which one is selected, and the steering of each."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""A run under the hand of one page, while others look on. The runner simulates; here is only who asks it for what.
+"""A run steered by one page, while others watch. The runner simulates; this module passes requests and states.
 
 A page says what it wants in short JSON messages, `_DO` below lists them, and is told the run's status as JSON where
 that has changed, and each new state as doubles: the number of the page's last message of its hand, the largest size

@@ -1,4 +1,4 @@
-"""What the page takes from npm: named and pinned in page/package.json, installed on first use into .npm here."""
+"""npm packages of the page: named and pinned in page/package.json, installed on first use into .npm here."""
 
 from __future__ import annotations
 

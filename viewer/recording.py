@@ -1,4 +1,4 @@
-"""What the page shows of a run: numbers by frame, and walls; from a run's folder, or from a session as it goes on.
+"""Data of a run for the page: numbers by frame, and walls; from a run's folder, or from a session in progress.
 
 A recording goes to the page as one block of bytes: the length of the header (4 bytes, lowest first), the header (JSON),
 then the arrays, lowest byte first. `viewer/page/recording.js` reads it.

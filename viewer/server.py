@@ -1,4 +1,4 @@
-"""Serves the page on this machine alone: a fixed list of files, recordings, and the run that goes on.
+"""Serves the page on this machine alone: a fixed list of files, recordings, and the run in progress.
 
 Whoever asks needs the token in the address; names of hosts and origins other than this server's are refused, so that
 neither another page nor a name that is pointed here reaches it. There are no paths in a file system to ask for: what is

@@ -1,4 +1,4 @@
-"""What was steered, as a table for `driveFile` that moves the hub by the same bits.
+"""Recorded steering as a table for `driveFile`, which repeats the motion of the hub with the same bits.
 
 The core moves a steered hub by metresPerUnit * push in a step, and a hub with a table by the difference of two of its
 values. The two are the same double where the displacement is a multiple of 2^-48 m: sums of those are exact up to 16 m.

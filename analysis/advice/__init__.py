@@ -1,2 +1,2 @@
-"""The cheapest settings of a scene that meet an error: what is tried (`trials`), how far off it is and what it costs
-(`plan`), and what is told (`report`)."""
+"""The cheapest settings of a scene that meet an error: the settings tried (`trials`), their error and cost (`plan`),
+and the report (`report`)."""

@@ -1,4 +1,4 @@
-"""The settings that were searched as a picture: error against cost of one scene."""
+"""Chart of the settings tried on a scene: error against cost."""
 
 from __future__ import annotations
 
@@ -43,13 +43,13 @@ def draw_advice(name: str, wish: Wish, advice: Advice) -> Figure:
                                              if level and math.isfinite(level)]
     if levels:
         axes.set_ylim(0.5 * min(levels), 2.0 * max(levels))
-    axes.set(xscale="log", yscale="log", xlabel="work over that of the file (1)",
+    axes.set(xscale="log", yscale="log", xlabel="work relative to that of the file (1)",
              ylabel=f"error of {wish.quantity.said} (1)")
     axes.legend(loc="center left", bbox_to_anchor=(1.02, 0.5))
     lost = len(advice.searched) - sum(math.isfinite(one.error) for one in advice.searched)
     add_caption(figure, (
         f"{name}: error of {wish.quantity.said} over work of {len(advice.searched)} settings, one point each, "
-        f"{lost} of them lost and not shown. Work is counted (iterations, factorisations) and is the same on every "
+        f"{lost} of them failed and not shown. Work is counted (iterations, factorisations) and is the same on every "
         f"machine. The reference is {advice.reference.trial.name.removeprefix('reference, ')}, known to "
         f"{percent(advice.reference_error)}."))
     return figure

@@ -1,4 +1,4 @@
-"""How far each trial is from the reference, what it costs, and which one to take.
+"""Error and cost of each trial, and the choice among them.
 
 What the error is of, `quantity` says: without a name the RMS distance of the wire from the reference's,
 over points along the wire and times from start to end, over the RMS way that the reference's points have gone.
@@ -126,7 +126,7 @@ def choose(searched: Sequence[Tried], wish: Wish, cost: Cost = by_time) -> Tried
 def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEATS,
              overrides: Mapping[str, Any] = MappingProxyType({})) -> Check[Advice]:
     """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone. Overrides
-    are laid over the file's values, dotted keys (`vessel.radius`) too."""
+    are which override the file's values, dotted keys (`vessel.radius`) too."""
     return Check(file.stem, "Advice", f"advice for {file.name}", partial(_plan, wish, cost, repeats, overrides),
                  str(file.resolve()))
 
@@ -146,7 +146,7 @@ def _plan(wish: Wish, cost: Cost, repeats: int,
     case = partial(_case, overrides, scene, quantity)
     runs = yield [case(key, trial) for key, trial in asked.items()]
     if runs["reference"].outcome in _LOST:
-        raise LogError(f"the reference is lost ({runs['reference'].measured('reason')}): no error can be measured")
+        raise LogError(f"the reference run failed ({runs['reference'].measured('reason')}): no error can be measured")
     measure = _Measure(scene, runs["reference"], runs["file"], quantity)
     found = {key: _tried(trial, runs[key], measure) for key, trial in asked.items()}
     known = max((found[key].error for key in coarser), key=lambda error: math.inf if math.isnan(error) else error)
@@ -166,10 +166,10 @@ def _plan(wish: Wish, cost: Cost, repeats: int,
 def _lasting(run: Run) -> dict[str, Any]:
     """Effective values of the scene, with the steps after which it rests as their number, such that it divides."""
     if run.summary is None or run.outcome in _LOST:
-        raise LogError(f"the scene itself is lost: {run.measured('reason')}")
+        raise LogError(f"the run of the scene itself failed: {run.measured('reason')}")
     steps = int(run.measured("steps"))
     if steps == 0:
-        raise LogError("the scene makes no step: nothing moves, and nothing costs")
+        raise LogError("the scene makes no step: there is no motion and no cost")
     places = read_log(run.folder, spheres="all").positions
     if np.max(np.abs(places - places[0])) <= _STILL * run.number("guidewireLength"):
         raise LogError("nothing moves in the scene: a relative error is not defined")

@@ -1,4 +1,5 @@
-"""What an error is of: places of the wire, read-offs of the hub over time, forces of walls, numbers of the summary.
+"""The quantity whose error is measured: positions of the wire, quantities at the hub over time, wall forces, or a
+number of the summary.
 
 A quantity is sampled at the same times in every run, as an array of shape (times, values). An error is the RMS of its
 difference from the reference's over the RMS of the reference's own values, for places over the RMS way that they have

@@ -1,4 +1,4 @@
-"""What advice tells: the parts of a scene, the settings that were searched, and the file to run."""
+"""The report of an advice: parts of the model, settings tried, and the file to run."""
 
 from __future__ import annotations
 
@@ -27,15 +27,15 @@ def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
         f"{_known(advice)} apart. The file as it is: "
         f"{_error(advice.scene)} at {_step(advice.scene)} ms a step. {_timed(advice)}", "",
         "## Parts of the model", "",
-        "Each part of the scene's model, left out or halved: how much the result changes from the file's, and its "
-        "cost. Work is counted, relative to that of the file, and does not depend on the machine.", "",
+        "Each part of the scene's model, omitted or halved: the change of the result from that of the file, and "
+        "the cost. Work is counted, relative to that of the file, and does not depend on the machine.", "",
         "| part | change of the result | error | ms a step | work |", "|---|---|---|---|---|",
         f"| the file as it is | - | {_error(advice.scene)} | {_step(advice.scene)} | 1 |",
         *(f"| {one.trial.name} | {_moved(one)} | {_error(one)} | {_step(one)} | "
           f"{number(one.work / advice.scene.work, 2)} |" for one in advice.parts),
         "", f"Writing the log of this comparison took {_log(advice.scene)} ms per step more; it can be "
         "reduced or left out (`logSpheres`, `logEvery`).", "",
-        "## Settings that were tried", "",
+        "## Settings tried", "",
         "In order of work; settings without a time were not timed, because they miss the error or because others that "
         "meet it need less work." if wish.budget is None else
         "In order of work; those that no other setting beats in both error and work per step were timed.", "",
@@ -89,14 +89,14 @@ def _timed(advice: Advice) -> str:
 
 
 def _coarser(wish: Wish) -> str:
-    return "those of its kind that are half and three quarters as fine" if wish.quantity.is_one_number else \
-        "one of its kind that is half as fine"
+    return "those with half and three quarters of its resolution" if wish.quantity.is_one_number else \
+        "one with half of its resolution"
 
 
 def _known(advice: Advice) -> str:
     """What lies between the reference and coarser ones."""
     known = advice.reference_error
-    return f"are up to {percent(known)}" if math.isfinite(known) else "are, one being lost, not known how far"
+    return f"are up to {percent(known)}" if math.isfinite(known) else "are, as one run failed, an unknown distance"
 
 
 def _relative(file: str, folder: Path) -> str:

@@ -1,4 +1,4 @@
-"""What is tried on a scene: finer runs that are its reference, settings that may be cheaper, parts that are left out.
+"""The trial runs of a scene: finer runs as its reference, cheaper settings, and runs without a part of the model.
 
 With a material all settings solve the same equations, so any method may be taken, and the finest steps and elements
 are the reference. With pbd the settings are part of the model: m iterations with the stiffnesses k act as m f iterations
@@ -35,7 +35,7 @@ class Trial:
     Attributes
     ----------
     name : what is changed, for people.
-    changed : values laid over the scene's.
+    changed : values that override the scene's.
     """
 
     name: str

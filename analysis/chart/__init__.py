@@ -1,2 +1,2 @@
-"""Error against cost for every method on twelve problems: what is run (`material`, `walls`, `coaxial`), what came of it
-(`points`), and how it is shown (`figure`, `tables`, `page`)."""
+"""Error against cost for every method on twelve problems: the problems (`material`, `walls`, `coaxial`), the results
+(`points`), and their presentation (`figure`, `tables`, `page`)."""

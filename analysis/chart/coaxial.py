@@ -1,4 +1,5 @@
-"""Problems of two coaxial instruments: tubes that are turned until they snap, and where their tip is before."""
+"""Problems of two coaxial instruments: tubes that are turned until they snap, and the position of their tip before
+that."""
 
 from __future__ import annotations
 

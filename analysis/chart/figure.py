@@ -1,4 +1,4 @@
-"""The chart as pictures: one panel a problem, and a small one for the README."""
+"""The chart as pictures: one panel per problem, and a small version for the README."""
 
 from __future__ import annotations
 
@@ -41,7 +41,7 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
         "Figure chart. Error against cost of every method. Cost: wall time of the steps per "
         f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
-        "other setting beats in both error and cost; its settings stand beside it where they fit (n elements, time "
+        "other setting beats in both error and cost; its settings are labelled where they fit (n elements, time "
         "step or substep, m iterations), and all of them in the table and on the page beside this picture. Vertical "
         "line: real time, 1 s per s. Crosses at the "
         f"upper edge: settings that gave no result, at their cost. {_lost(found)}{_references(found)} pbd has no "
@@ -60,7 +60,7 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
     return captioned(figure, (
         "Figure chart, error against latency: wall time of one time step, of the same runs. A display of 90 Hz has "
         f"{number(1e3 * FRAME, 3)} ms for a step, a haptic loop of 1 kHz one ms (vertical lines). A step below the "
-        "line keeps up with its loop; whether the simulation then runs in real time is seen in the chart of "
+        "line is fast enough for its loop; whether the simulation then runs in real time is shown by the chart of "
         f"cost.{_published(found)}"
     ))
 
@@ -147,7 +147,7 @@ def _published(found: Sequence[Charted]) -> str:
     names = [charted.problem.name for charted in found]
     told = [f"({_LETTERS[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
             for one in PUBLISHED if one.problem in names]
-    return f" Grey bars: published by others, a wall time without an error. {'; '.join(told)}." if told else ""
+    return f" Grey bars: wall times published by others without an error. {'; '.join(told)}." if told else ""
 
 
 def _draw_front(axes: Axes, charted: Charted, cost: Cost) -> None:
@@ -183,7 +183,7 @@ def _lost(found: Sequence[Charted]) -> str:
     """Which settings have no answer."""
     lost = [f"{p.setting.method}, {p.setting.words} ({_LETTERS[k]}): {p.outcome}"
             for k, charted in enumerate(found) for p in charted.points if not p.held]
-    return f"Without an answer: {'; '.join(lost)}. " if lost else ""
+    return f"Without a result: {'; '.join(lost)}. " if lost else ""
 
 
 def _references(found: Sequence[Charted]) -> str:

@@ -1,4 +1,4 @@
-"""Problems of a wire without walls: own weight, a cantilever let go, a pendulum, a bar that is struck, twist."""
+"""Problems of a wire without walls: own weight, a released cantilever, a pendulum, a bar that is struck, twist."""
 
 from __future__ import annotations
 
@@ -276,8 +276,8 @@ def twist_asked(gain: float, stable: Mapping[int, float]) -> Asked:
 
 PROBLEMS = (
     Problem("static", "sag under own weight", "sag of the tip, relative", _at_rest),
-    Problem("release", "cantilever let go, 0.2 s", "RMS of the tip, relative", _let_go),
-    Problem("pendulum", "pendulum let go level, 1 s", "RMS of the tip, of L", _pendulum),
+    Problem("release", "released cantilever, 0.2 s", "RMS of the tip, relative", _let_go),
+    Problem("pendulum", "pendulum released from the horizontal, 1 s", "RMS of the tip, of L", _pendulum),
     Problem("bar", "bar struck at its base, 2 ms", "RMS of the tip, relative", _bar),
     Problem("turned", "one end turned by 90°", "worst element's turn, of 90°", _twist),
 )

@@ -1,4 +1,4 @@
-"""The chart as a page of its own, without a network: each point says its settings where one points at it."""
+"""The chart as a self-contained page: each point shows its settings under the pointer."""
 
 from __future__ import annotations
 
@@ -23,8 +23,8 @@ def as_page(found: Sequence[Charted]) -> str:
     parts = [
         "<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8"><title>Error against cost</title>',
         f"<style>{_STYLE}</style></head><body>", "<h1>Error against cost</h1>",
-        "<p>Point at a mark to read its settings. Grey: the Pareto front. Crosses at the upper edge: settings without "
-        "an answer.</p><p>",
+        "<p>Hover over a mark to read its settings. Grey: the Pareto front. Crosses at the upper edge: settings "
+        "without a result.</p><p>",
         *(f'<span style="color:{_COLOURS[method]}">&#9679; {method}</span> ' for method in METHODS),
         "</p>", "<h2>Wall time per simulated second</h2>",
         *(_panel(charted, seconds, "wall time per simulated second (s per s)", ((1.0, "real time"),))

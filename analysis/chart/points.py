@@ -1,4 +1,4 @@
-"""A problem of the chart, the settings that are run on it, and what came of each: error, cost, outcome."""
+"""A problem of the chart, its settings, and the result of each: error, cost, outcome."""
 
 from __future__ import annotations
 

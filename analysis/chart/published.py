@@ -1,4 +1,4 @@
-"""What others have published of their cost on a problem of the chart: a mark without an error where they say none."""
+"""Costs of other programs published for a problem of the chart, drawn without an error if none was stated."""
 
 from __future__ import annotations
 
@@ -32,6 +32,6 @@ PUBLISHED = (
         "Inter-block GPU Synchronization, arXiv:2509.04277, abstract",
         "a catheter and a guidewire of 512 Cosserat elements each in a cardiovascular scene, simulated in real time at "
         "0.5 to 1 kHz by a program that makes several time steps in one launch on a graphics processor; another vessel, "
-        "other wires and another machine, and no error is said there",
+        "other wires and another machine, and no error is stated there",
     ),
 )

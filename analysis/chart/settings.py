@@ -1,4 +1,4 @@
-"""How settings are put: the keys of each method, the words and labels of its settings, and pbd's gain."""
+"""Settings of each method: its keys, labels and descriptions, and the stiffness of pbd."""
 
 from __future__ import annotations
 

@@ -102,7 +102,7 @@ FIGURES: dict[str, FigureSpec] = {
                    "Push against a wall, the wire's first two thirds between two plates"),
         _gain_spec("vessel-gain", "gain-vessel", "long elements in a vessel: error, cost, passages",
                    "Insertion into an arch with a branch, until the wire buckles"),
-        _rows_spec("contact-rule", "the published contact rule beside the lever rule", "contact-rule", read_rests,
+        _rows_spec("contact-rule", "the published contact rule compared with the lever rule", "contact-rule", read_rests,
                    draw_contact_rule),
         _rows_spec("pulling", "what moves the first sphere in a bend", "drives", read_drives, draw_drives),
         _rows_spec("twist", "tip angle against base angle", "twist", read_twists, draw_twist),

@@ -62,7 +62,7 @@ def _rod_elements(table: StudyTable) -> list[str]:
     best = int(np.nanargmin(tau))
     gains = np.array([SlowestMode.of(row.run).effective_gain for row in table.rows])
     sentences = [
-        f"Default run with n = {_values(n)} rod elements; dashed: n = 30, where sphere touches sphere. (a) τ is "
+        f"Default run with n = {_values(n)} rod elements; dashed: n = 30, where neighbouring spheres touch. (a) τ is "
         f"smallest, {number(tau[best])} s, at n = {n[best]:g} and largest, {number(np.nanmax(tau))} s, at n = "
         f"{n[np.nanargmax(tau)]:g}."
     ]

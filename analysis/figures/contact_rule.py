@@ -1,4 +1,4 @@
-"""The published contact rule beside the lever rule: one element on a small fixed sphere at eleven positions."""
+"""The published contact rule compared with the lever rule: one element on a small fixed sphere at eleven positions."""
 
 from __future__ import annotations
 

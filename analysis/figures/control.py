@@ -58,7 +58,7 @@ def read_drives(folder: Path) -> list[DriveRow]:
         along = along_line(wire.motion.positions[:, -1], knots)[0]
         rows.append(DriveRow(run.key, wire, along_line(wire.motion.positions[:, 0], knots)[1], along - along[0]))
     if {row.key for row in rows} != set(_DRIVES):
-        raise LogError(f"{folder}: not all runs of this study left a log")
+        raise LogError(f"{folder}: not all runs of this study have a log")
     return rows
 
 
@@ -124,7 +124,7 @@ def drives_caption(rows: dict[str, DriveRow]) -> str:
         f"Figure pulling. A wire of {push.wire.run.number('guidewireLength'):g} units in a lumen of radius {radius:g} "
         f"that turns round, after {push.wire.motion.steps[-1]} steps of "
         f"{push.wire.run.number('displacementPerStep'):g} units ({asked:g} asked of the first sphere, black; dotted: "
-        "its way)."
+        "its path)."
     ]
     for name, (key, (label, _)) in zip("abcd", _DRIVES.items()):
         parts.append(f"({name}) {label[0].upper()}{label[1:]}: {_came_to(rows[key], radius)}")
@@ -137,8 +137,8 @@ def _came_to(row: DriveRow, radius: float) -> str:
     passages = int(run.measured("passages"))
     if farthest > radius:
         told = (
-            f"the first sphere does not see the wall and leaves the lumen, up to {number(farthest)} units from its "
-            f"middle line, and the wire is pulled after it: {passages} of its points pass the wall; "
+            f"contact does not act on the first sphere, which leaves the lumen, up to {number(farthest)} units from "
+            f"its middle line, and the wire is pulled after it: {passages} of its points pass the wall; "
         )
     else:
         told = f"the first sphere stays within {number(farthest)} units of the middle line; "

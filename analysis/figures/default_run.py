@@ -94,7 +94,7 @@ def _time_evolution_caption(
     run, log = table.run, table.log
     pace = np.polyfit(clock.time, clock.elapsed, 1)
     bend = np.max(np.abs(clock.elapsed - np.polyval(pace, clock.time))) / clock.elapsed[-1]
-    measured = "the median of the timed runs" if table.timed else "a run that may have had others beside it"
+    measured = "the median of the timed runs" if table.timed else "a run made possibly beside others"
     dips = _longest_dip(log.prediction_error, run.number("deltaThreshold"), step)
     parts = [
         f"Figure 4.1. Default run. (a) One second of in-game time takes {number(pace[0])} s of real time; the relation "
@@ -107,8 +107,8 @@ def _time_evolution_caption(
     else:
         parts.append(
             f"(c) The prediction error oscillates with the motion: before the steady state it dips below the threshold "
-            f"for up to {dips} steps at a time, so touching the threshold once says nothing. It is below for good, "
-            f"that is for {int(run.number('steadyStateHold'))} steps on end, from step {step} "
+            f"for up to {dips} steps at a time, so falling below the threshold once proves nothing. It is below for "
+            f"good, that is for {int(run.number('steadyStateHold'))} steps on end, from step {step} "
             f"(t = {number(step * run.number('timeStep'))} s) on."
         )
     if log.warning:

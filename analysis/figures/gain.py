@@ -1,4 +1,5 @@
-"""The thesis's main gain, elements longer than a sphere's diameter: what they cost, miss and pass, rule by rule."""
+"""The thesis's main gain, elements longer than a sphere's diameter: their cost, error and passages, for each contact
+rule."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What is read off at the hub and at the tip over time: insertion and turn, force and torque, tip and curvature."""
+"""Quantities at the hub and the tip over time: insertion and turn, force and torque, tip and curvature."""
 
 from __future__ import annotations
 

@@ -40,6 +40,6 @@ def draw_modes(frequencies: Sequence[float], positions: np.ndarray, shapes: np.n
                  ylabel=f"${'xyz'[across]}$ (units)")
     for axes in panels[len(frequencies):]:
         axes.remove()
-    add_caption(figure, "Lowest frequencies and shapes about the rest shape (dashed); the sizes of the shapes mean"
-                " nothing. A round wire has each bending mode twice, in two directions.")
+    add_caption(figure, "Lowest frequencies and shapes about the rest shape (dashed); the amplitudes are "
+                "arbitrary. A round wire has each bending mode twice, in two directions.")
     return figure

@@ -1,4 +1,4 @@
-"""What stands around a wire, cut by the plane x = 0 and drawn in the y-z plane."""
+"""Sections of walls by the plane x = 0, drawn in the y-z plane."""
 
 from __future__ import annotations
 

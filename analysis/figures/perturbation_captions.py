@@ -1,4 +1,4 @@
-"""Captions of Figures 4.10 to 4.18: what the tables show, and where the thesis's text is borne out and where not.
+"""Captions of Figures 4.10 to 4.18: what the tables show, and which statements of the thesis they confirm.
 
 As in every caption here, a sentence that claims a relation stands behind a test of it on the table.
 """
@@ -60,8 +60,8 @@ def _rotation(reference: WireRun) -> str:
     if misfit > 0.05 * abs(y[-1] - y[0]):
         return f"Over the second half it still moves between {number(y.min())} and {number(y.max())}."
     return (
-        f"The wave is gone before the second half; what is left is a rotation about the held first sphere, whose frame "
-        f"is free: {number(np.mean(rates), 2)} units a step, on and on, so this run has no steady state."
+        f"The wave has decayed before the second half; what remains is a rotation about the held first sphere, whose "
+        f"frame is free: {number(np.mean(rates), 2)} units a step without end, so this run has no steady state."
     )
 
 
@@ -317,7 +317,7 @@ def _collision_mass(table: ComparisonTable) -> list[str]:
     rising = _trend(x[x <= _HEAVY], light) > _CLEAR
     falling = heavy.size > 2 and heavy[-1] < heavy[0]
     own = (
-        f"The thesis has it grow with M and fall beyond M = {_HEAVY:g}. Here it "
+        f"According to the thesis it grows with M and falls beyond M = {_HEAVY:g}. Here it "
         f"{'grows' if rising else 'does not simply grow'} up to there (from {number(light[0])} to {number(light[-1])} "
         f"units)"
     )

@@ -1,4 +1,4 @@
-"""The wall and the vessel as a picture: the wire at several moments."""
+"""The wall and the vessel as a picture, with the wire at several times."""
 
 from __future__ import annotations
 

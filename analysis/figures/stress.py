@@ -1,4 +1,4 @@
-"""What the material feels: the last shape coloured by curvature, force and couple over arc length and time."""
+"""Stresses along the wire: the last shape coloured by curvature, force and couple over arc length and time."""
 
 from __future__ import annotations
 

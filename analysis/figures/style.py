@@ -1,4 +1,4 @@
-"""The look that all figures share: style file, panel letters, and the caption drawn under the panels."""
+"""The common style of all figures: style file, panel letters, and the caption drawn under the panels."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Numbers as captions write them."""
+"""Formats numbers for captions."""
 
 from __future__ import annotations
 

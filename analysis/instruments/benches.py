@@ -1,4 +1,4 @@
-"""Bench tests of a wire: each as the parameters of a run, and what a tester reads from such a run.
+"""Bench tests of a wire: each as the parameters of a run, and its evaluation.
 
 Three-point bending after ASTM F2606, a guide for stents: cylinders of radius 6.35 mm (so in the fixture of
 instron.us for it), none of them with friction. In the frame of the two fixed anvils the proximal support moves: that is

@@ -1,4 +1,4 @@
-"""What instruments' files state, as text: names, and each number with its basis and its source.
+"""The contents of instrument files as text: names, and each number with its basis and its source.
 
 The numbers themselves are read by the program that simulates them; here they are only shown.
 """

@@ -87,7 +87,7 @@ def test_the_picture_shows_every_setting_and_names_those_on_the_front() -> None:
     assert axes.get_xlabel() == "wall time per simulated second (s per s)"
     assert axes.get_ylabel() == "error: of its length"
     assert "xpbd, cost 3, <nan> (a): diverged" in caption and "pbd, cost 0.5, <1e-06> (a): passed a wall" in caption
-    assert "explicit meets no walls" in caption and "kept at most 0.50 processors busy" in caption
+    assert "explicit does not support walls" in caption and "kept at most 0.50 processors busy" in caption
     assert next(t for t in drawn.texts if t.get_gid() == CAPTION_ID).get_text().split() == caption.split()
 
 
@@ -107,7 +107,7 @@ def test_what_others_state_stands_in_the_picture_of_steps_with_its_source_and_wi
     assert [len(own) for own in bars] == [0, 1]
     assert list(bars[1][0].get_xdata()) == pytest.approx([1.0, 2.0])    # ms: 500 to 1,000 answers a second
     assert f"published: {one.label}" in [text.get_text() for text in drawn.axes[1].texts]
-    assert "(b) 2 x 512 elements" in caption and "arXiv:2509.04277" in caption and "no error is said" in caption
+    assert "(b) 2 x 512 elements" in caption and "arXiv:2509.04277" in caption and "no error is stated" in caption
     assert "Grey bars" not in figure.draw_steps([charted(*POINTS)])[1]
 
 

@@ -113,7 +113,7 @@ def test_drives_show_where_the_first_sphere_is(studies: dict[str, Path]) -> None
         np.testing.assert_array_equal(line.get_ydata(), row.first_off)
         np.testing.assert_allclose(row.first_off, NAMED_WAVES["drives"][row.key].displacement)  # beside the line
     assert set(axes.lines[-1].get_ydata()) == {8}
-    assert "does not see the wall and leaves the lumen, up to 12.0 units" in caption
+    assert "which leaves the lumen, up to 12.0 units" in caption
     assert "(b) Fixed axis: the first sphere stays within 8.00 units" in caption
 
 

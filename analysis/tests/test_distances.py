@@ -84,14 +84,14 @@ def test_points_of_a_bent_wire_lie_on_its_elements() -> None:
 def test_a_longer_wire_cannot_be_compared() -> None:
     reference = wire(4, 0.5, 2)
     longer = Trajectory(reference.steps, reference.time, reference.arc_length * 1.01, reference.positions)
-    with pytest.raises(DistanceError, match="not all on a wire"):
+    with pytest.raises(DistanceError, match="not all within the logged wire"):
         distances(longer, reference)
 
 
 def test_reference_may_know_its_last_sphere_alone_only_for_the_last_sphere() -> None:
     run, reference = wire(4, 0.5, 2), wire(4, 0.5, 2)
     tip = Trajectory(reference.steps, reference.time, reference.arc_length[-1:], reference.positions[:, -1:])
-    with pytest.raises(DistanceError, match="not all on a wire"):
+    with pytest.raises(DistanceError, match="not all within the logged wire"):
         distances(run, tip)
     own_tip = Trajectory(run.steps, run.time, run.arc_length[-1:], run.positions[:, -1:] + 1.0)
     np.testing.assert_allclose(distances(own_tip, tip).values, 3.0**0.5)

@@ -247,7 +247,7 @@ def test_caption_says_what_is_left_out(tables: dict[str, StudyTable]) -> None:
 def test_default_run_without_timed_repeats_says_whose_clock_it_shows(studies: dict[str, Path]) -> None:
     table = dataclasses.replace(read_default_run(studies["default"]), timed=None)
     _, caption = draw_time_evolution(table)
-    assert "a run that may have had others beside it" in caption
+    assert "a run made possibly beside others" in caption
 
 
 @pytest.mark.parametrize(

@@ -85,7 +85,7 @@ def test_file_that_is_none_or_no_text_is_named(tmp_path):
     with pytest.raises(LogError, match="absent.csv: No such file"):
         compare(tmp_path, tmp_path / "absent.csv")
     (tmp_path / "picture.csv").write_bytes(b"\x89PNG\xff\xfe\x00")
-    with pytest.raises(LogError, match="picture.csv: is no text"):
+    with pytest.raises(LogError, match="picture.csv: is not a comma-separated text"):
         compare(tmp_path, tmp_path / "picture.csv")
 
 

@@ -125,7 +125,7 @@ def test_runs_that_left_nothing_are_named(tmp_path: Path, chain: Chain) -> None:
     (folder / "study.json").write_text(json.dumps(table))
     assert read_table(folder, "timeStep").missing == ("timeStep=9",)
     (folder / "timeStep=0.01" / "positions.json").unlink()
-    with pytest.raises(LogError, match="no run of this study left a log"):
+    with pytest.raises(LogError, match="no run of this study has a log"):
         read_table(folder, "timeStep")
 
 

@@ -1,4 +1,4 @@
-"""Checks of what a motion keeps: energy over a long time, and the balance of forces in every step."""
+"""Checks of conservation in motion: energy over a long time, and the force balance of every step."""
 
 from __future__ import annotations
 

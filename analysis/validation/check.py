@@ -94,7 +94,7 @@ class Check(Generic[Found]):
     name : folder of its runs and name of its picture.
     section, title : for the report.
     plan : makes the generator described above.
-    scene : parameter file that its cases are laid over.
+    scene : parameter file whose values its cases override.
     results : outcomes that count as a result: a solver that gives up with a reason is one too.
     logs : whether its runs leave logs.
     seconds : how long a run may take.

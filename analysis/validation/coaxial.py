@@ -1,4 +1,4 @@
-"""Checks of a wire in a catheter on one shared centreline: concentric tubes, and what slides in what.
+"""Checks of a wire in a catheter on one shared centreline: concentric tubes, and a wire that slides in a catheter.
 
 A turn of the inner hub is written as a turn of the wire's rest curvature, so that a rest shape needs no motion.
 """

@@ -1,5 +1,5 @@
-"""Checks of couples at the tip: they turn with it, so that what a wire does under them in space is no minimum of an
-energy. How the solver treats that, each run says itself (summary.json, "method"), and the captions repeat it."""
+"""Checks of couples at the tip: they are follower couples, so in space the equilibrium is not a minimum of an energy.
+Each run states how the solver treated that (summary.json, "method"), and the captions repeat it."""
 
 from __future__ import annotations
 
@@ -135,7 +135,8 @@ def _darboux_couple() -> Plan:
         "couple 1.08 K = 1.08 EI/l, Darboux law, n = 6: has no rest shape, so the run must end as failed (1)", "direct",
         float(failed == "failed"), 1.0, 0.0 if failed == "failed" else 1.0, 0.0, "", None, "1: ended otherwise",
     ))
-    results.append(not_run("couple at the tip, Darboux law", "xpbd", _NO_COUPLES + "; it has the rotation vector only"))
+    results.append(not_run("couple at the tip, Darboux law", "xpbd", _NO_COUPLES + "; it supports the rotation "
+                                                                                   "vector only"))
     caption = (
         "End couples with the Darboux law, torque K sin(angle), direct solver: the tip's distance from that of the arc "
         "falls with the second power of n. A couple above K = EI/l has no rest shape: with n = 6 and 1.08 K the run "

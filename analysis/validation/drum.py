@@ -1,4 +1,4 @@
-"""Check of a rope over a drum, drawn over it and let back: the capstan with bending stiffness, the loop of a reversal.
+"""Check of a rope pulled over a drum and released: the capstan with bending stiffness, the loop of a reversal.
 
 A rope without weight lies over half a drum of radius R, its axis R + r from the drum's. Where it lies on the drum its
 couple EI/(R + r) is constant, its tension grows by exp(m phi), m = mu R/(R + r) as friction acts at the drum's
@@ -108,9 +108,9 @@ def _plan() -> Plan:
         pictures.label(axes, "coefficient of friction (1)", "force of the held end (N)")
 
     return Finding(tuple(results), draw, (
-        f"A rope over half a drum, pulled by {_PULL:g} N at its other end, is drawn over it and let back: the force at "
-        "its held end against the capstan with bending stiffness (lines). Where the two differ a reversal is a loop. "
-        f"Worst: {percent(max(r.error for r in results))}."))
+        f"A rope over half a drum, with {_PULL:g} N at its other end, is pulled over it and released: the force "
+        "at its held end against the capstan with bending stiffness (lines). Where the two differ a reversal is a "
+        f"loop. Worst: {percent(max(r.error for r in results))}."))
 
 
-CHECKS = (Check("drum", tubes.SECTION, "a rope is drawn over a drum and let back", _plan),)
+CHECKS = (Check("drum", tubes.SECTION, "a rope is pulled over a drum and released", _plan),)

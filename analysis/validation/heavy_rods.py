@@ -213,7 +213,7 @@ def _snaps(slack: float, expected: float, n: int) -> Search:
 
 
 def _hanging(n: int, loads: tuple[float, ...]) -> Check:
-    return Check("heavy-cantilever", STATICS, "how far a heavy cantilever hangs", partial(_aspect, n, loads))
+    return Check("heavy-cantilever", STATICS, "sag of a heavy cantilever", partial(_aspect, n, loads))
 
 
 def _buckled(ratios: tuple[float, ...]) -> Check:

@@ -1,4 +1,4 @@
-"""Euler or Verlet for positions, Euler or Verlet for orientations: where the four differ, by how much, at what cost.
+"""Euler or Verlet for positions and for orientations: differences between the four combinations, and their cost.
 
 Without damping or forces Euler's and Verlet's positions are one formula: x + dt v with v = (x_k - x_(k-1))/dt is
 2 x_k - x_(k-1). The same holds for orientations up to the third order of a step's turn.

@@ -1,4 +1,4 @@
-"""What the pictures of several checks share."""
+"""Common parts of the pictures of checks."""
 
 from __future__ import annotations
 

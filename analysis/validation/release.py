@@ -1,4 +1,4 @@
-"""Free motion of a cantilever let go from its rest shape under a tip load, geometrically exact, in a plane.
+"""Free motion of a cantilever released from its rest shape under a tip load, geometrically exact, in a plane.
 
 The series is that of the slopes of the linear modes (`PlaneRod`), with e = I/(A L^2) (1 + E/kG): the rotary inertia
 and, as its second part, the shear, k its factor. To first order in I/(A L^2) shear lowers a cantilever's frequencies as

@@ -1,4 +1,4 @@
-"""Parameters of the runs that checks ask for, laid over the scene of the base wire."""
+"""Parameters of the runs of checks, which override those of the base wire's scene."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What runs with a material left behind, in SI units."""
+"""Results of runs with a material, in SI units."""
 
 from __future__ import annotations
 

@@ -1,4 +1,5 @@
-"""Motion of a pendulum: a rod on a ball joint at its first end, let go level under its own weight, in a plane.
+"""Motion of a pendulum: a rod on a ball joint at its first end, released from the horizontal under its own weight, in a
+plane.
 
 No couple acts at either end, so the slope's derivative vanishes there: the series is one of cosines.
 """

@@ -1,4 +1,4 @@
-"""What checks of a wire in tubes share: the tubes, and starts along them."""
+"""Common parts of the checks of a wire in tubes: the tubes, and starts along them."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Checks of schemes in time where a wire turns far: what they keep of energy and momenta, what is left of their order.
+"""Checks of time integration schemes under large rotations: conservation of energy and momenta, and the order attained.
 
 Energies and momenta are summed up here from logged places, velocities and orientations.
 """
@@ -127,8 +127,9 @@ def _large_turns() -> Plan:
     results = []
     for (scheme, name), case in pendulums.items():
         fraction = _pendulum_energy(wires[name], runs[case.key])
-        results.append(Result(f"pendulum let go level{name}, 2 s at 1 ms: energy", f"direct, {scheme}", fraction, 0.0,
-                              abs(fraction), _ENERGY_GATES[scheme], "m g L/2", None, "m g L/2"))
+        results.append(Result(f"pendulum released from the horizontal{name}, 2 s at 1 ms: energy",
+                              f"direct, {scheme}", fraction, 0.0, abs(fraction), _ENERGY_GATES[scheme], "m g L/2",
+                              None, "m g L/2"))
     for scheme, case in spins.items():
         states = read_states(runs[case.key])
         first, last = (_balance(BASE, state) for state in (states[0], states[-1]))
@@ -272,10 +273,10 @@ class _Problem:
 
 _PULL = 50.0  # N
 _PROBLEMS = (
-    _Problem("stretch pulse: pulled with 50 N, let go", 0.5e-6, 4e-4, {
+    _Problem("stretch pulse: pulled with 50 N, released", 0.5e-6, 4e-4, {
         "numberRodElements": 20, "initialState": "equilibrium", "tipForce": [0.0, 0.0, _PULL],
         "tipForceReleaseTime": 0.0}, 5e-8),
-    _Problem("sudden release: k = 1, let go after 20.4 ms of weight", 0.5e-3, _SHORT, {
+    _Problem("sudden release: k = 1, released after 20.4 ms of weight", 0.5e-3, _SHORT, {
         "numberRodElements": 12, "initialState": "equilibrium", "gravity": [0.0, -_GRAVITY, 0.0],
         "tipForce": [BASE.bending / BASE.length**2, 0.0, 0.0], "tipForceReleaseTime": 0.0204}, 2e-5),
     _Problem("stepped drive: base displaced across by 0.1 mm at once", 0.5e-3, _SHORT, {
@@ -288,7 +289,7 @@ _PROBLEMS = (
 def _schemes() -> Plan:
     cases: dict[tuple[str, str], Case] = {}
     for scheme, stages in _STAGES.items():
-        cases["cantilever let go, 0.2 s", scheme] = Case(
+        cases["released cantilever, 0.2 s", scheme] = Case(
             f"release-{scheme}", release(10, 2e-3 / 3 * stages, {"integrator": scheme}))
         cases["pendulum, 2 s", scheme] = Case(
             f"pendulum-{scheme}", _pendulum(BASE, 1e-3 / 3 * stages, {"integrator": scheme}))

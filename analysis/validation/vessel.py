@@ -1,4 +1,5 @@
-"""Checks of a smooth wire between walls: what it takes to pass, what carries it, and that it does not leave."""
+"""Checks of a smooth wire between walls: the force of a passage, the force that supports it, and that it does not
+leave."""
 
 from __future__ import annotations
 

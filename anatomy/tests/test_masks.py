@@ -83,7 +83,7 @@ def test_a_region_is_chosen_by_its_number_and_all_are_listed() -> None:
 
 @pytest.mark.parametrize("label, threshold, expected", [
     (7.0, None, "--label 7: no voxel"), (None, 9.0, "--threshold 9: no voxel"), (None, -1.0, "every voxel"),
-    (None, None, "say --label N"),
+    (None, None, "give --label N"),
 ])
 def test_a_mask_without_the_label_is_one_line(label, threshold, expected) -> None:
     values = np.zeros((6, 6, 6))

@@ -1,4 +1,4 @@
-"""Random pushes, pulls and turns of wires in anatomies, judged from their logs by a search of its own.
+"""Random pushes, pulls and turns of wires in anatomies, judged from their logs by an independent search.
 
 ``python3 -m experiments.campaigns.anatomy_campaign FOLDER ... --runs 100 --keep DIR`` takes folders that
 ``guidewire.py anatomy`` wrote; each has so many runs. A seed draws the end that the wire starts at, its thickness (0.36

@@ -14,7 +14,7 @@ from analysis.wall_search import Walls
 SAME = 1e-9  # of the wire's radius
 OF_WAY = 1e-6  # of the way asked for: node 0 is on a stiff spring
 DEEPEST = 0.05  # of the radius, from which on a wire of xpbd in a wall is to be warned of
-WARNED = "a wall reached"
+WARNED = "the wire penetrated a wall"
 
 
 def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, radii: np.ndarray, walls: Walls

@@ -1,4 +1,4 @@
-"""A campaign of random pushes: each is run, and its log judged by a search of its own.
+"""A campaign of random pushes: each is run, and its log judged by an independent search.
 
 ``python3 -m experiments.campaigns.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run
 that breaks a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross
@@ -33,7 +33,7 @@ from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
 # What pbd and walls may do to a wire and its drive; whether they did is judged from the log.
-OF_ENDS = ("points of the wire passed a wall", "a wall reached", "the wire is ", "the drive fell short: ")
+OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", "the drive fell short: ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
 

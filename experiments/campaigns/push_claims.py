@@ -1,4 +1,4 @@
-"""What the log of a push between walls is held to, by a search of its own (`wall_search`): no passage, no frozen
+"""What the log of a push between walls is held to, by an independent search (`wall_search`): no passage, no frozen
 element, true figures in the summary."""
 
 from __future__ import annotations
@@ -14,7 +14,8 @@ from analysis.wall_search import ClosedForm, MeshSearch, Walls
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
 # Lines on the end of a run that make its result doubtful; others are of its parameters, or of a tip that left.
-DOUBTS = re.compile(r"\d+ points of the wire passed a wall|a wall reached |the wire is [\d.]+ % |the drive fell short: ")
+DOUBTS = re.compile(r"\d+ points of the wire passed a wall|the wire penetrated a wall by |the wire is [\d.]+ % |"
+                    r"the drive fell short: ")
 RIM = "the tip left the vessel by an open rim"
 SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ by
 

@@ -1,1 +1,1 @@
-"""What others take along: the Python wheel and the NuGet packages, built from what stands in the repository."""
+"""Builds the Python wheel and the NuGet packages from the repository."""

@@ -1,4 +1,4 @@
-"""What the wheel holds: file of the repository, and its place below `guidewire`."""
+"""Contents of the wheel: files of the repository, and their paths below `guidewire`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a program for Linux needs of the C library, read from the file itself (ELF, 64 bits, little-endian).
+"""The version of the C library that a Linux program needs, read from the file itself (ELF, 64 bits, little-endian).
 
 The layout is that of the System V ABI, and for the versions that of the Linux Standard Base ("Symbol Versioning"): a section
 of type SHT_GNU_verneed has an entry for each library, and each a list of the versions that are needed of it.

@@ -1,5 +1,5 @@
-"""Wires pushed, pulled and turned at random in anatomies, and steered to targets: what logs and summaries say, held
-against a search of its own."""
+"""Wires pushed, pulled and turned at random in anatomies, and steered to targets: what logs and summaries say, compared
+with an independent search."""
 
 import json
 import os

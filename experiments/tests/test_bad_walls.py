@@ -126,7 +126,7 @@ def test_a_mesh_that_goes_through_itself_is_warned_of_with_the_place(live, tmp_p
     file = write_obj(tmp_path / "through.obj", vertices, faces)
     scene = {**mesh(file), "guidewireOffset": 20.0, "guidewireLength": 20.0, "sphereRadius": 1.0}
     (warning,) = warnings_of(live, tmp_path, scene)
-    assert "through.obj: the mesh goes through itself" in warning
+    assert "through.obj: the mesh intersects itself" in warning
     place = [float(text) for text in warning.split("the first at (")[1].split(")")[0].split(",")]
     assert np.hypot(place[0], place[1]) == pytest.approx(20.0, rel=0.05)
 
@@ -152,7 +152,7 @@ def test_a_wire_wider_than_a_narrow_place_on_its_way_is_refused_with_the_place(l
     file = write_obj(tmp_path / "narrow.obj", *cylinder(radii, sides=32))
     scene = {**mesh(file), "drive": "push", "displacementPerStep": 1.0, "maxSimulationSteps": 60}
     code, (line,), out = run(live, tmp_path, scene)
-    found = re.search(r"sphereRadius = 5 is larger than the lumen on the wire's way: (\S+) units at \((.*)\)", line)
+    found = re.search(r"sphereRadius = 5 is larger than the lumen along the wire's path: (\S+) units at \((.*)\)", line)
     assert code == 2 and not out.exists() and found, line
     assert 3.9 < float(found[1]) <= 4.0  # the 32-sided ring's apothem is 3.98
     assert [float(text) for text in found[2].split(",")] == pytest.approx([0.0, 0.0, 25.0], abs=1.0)

@@ -134,7 +134,7 @@ def test_keys_of_other_methods_are_passed_over_in_a_file(hold, table, solver):
         summary, _ = hold(scene)
         assert summary["ignored"] == passed_over
         warnings = [line for line in summary["warnings"] if "does not take" in line]
-        assert warnings == [f"solver {solver} does not take {', '.join(passed_over)}: passed over"]
+        assert warnings == [f"solver {solver} does not take {', '.join(passed_over)}: ignored"]
 
     check()
 

@@ -1,4 +1,4 @@
-"""Wires pushed at random into vessels of twelve kinds: what each log says, found by a search of its own."""
+"""Wires pushed at random into vessels of twelve kinds: what each log says, found by an independent search."""
 
 import json
 import os
@@ -193,7 +193,7 @@ def test_the_judge_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(s
                 "maxPenetration": depth, **changed}
 
     deep = "the surface is in a wall"
-    wall, short = "a wall reached 0.12 units into the wire", "the drive fell short: of 5 units"
+    wall, short = "the wire penetrated a wall by 0.12 units", "the drive fell short: of 5 units"
     too_deep = [] if solver == "xpbd" else [deep, "maxPenetration"]
     assert judged(0.0, summary(0.0)) == []
     assert judged(0.09, summary(0.09)) == too_deep  # a twentieth of 2 is allowed with xpbd

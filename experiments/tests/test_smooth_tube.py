@@ -63,4 +63,4 @@ def test_a_corner_that_is_too_steep_for_an_arc_is_told(tmp_path, runner_command)
     scene = bent(20, True)
     scene["vessel"] |= {"knots": [[0, 0, -400], [0, 0, 30], [0, 8, 30.5], [0, 400, 31]], "radius": [3, 3, 10.9, 11]}
     done = run(runner_command, tmp_path / "one", scene)
-    assert done.returncode == 2 and "changes too steeply for an arc" in done.stderr and done.stderr.count("\n") == 1
+    assert done.returncode == 2 and "changes too fast for an arc" in done.stderr and done.stderr.count("\n") == 1

@@ -82,7 +82,7 @@ def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_
             ["press", "ArrowRight"], ["see", "viewer.shown.frames[0]"],
             ["see", "viewer.shown.go(1.6); viewer.shown.models.map((model) => [...model.tip])"],
             ["see", "document.getElementById('panes').children.length"], ["picture", str(tmp_path / "side.png")],
-            ["click", "one over the other"], ["see", "document.getElementById('panes').children.length"],
+            ["click", "superimposed"], ["see", "document.getElementById('panes').children.length"],
             ["see", "document.getElementById('panes').textContent"], ["picture", str(tmp_path / "over.png")],
             ["click", "play"], ["until", "viewer.shown.time > 1.65"],
         )["seen"]

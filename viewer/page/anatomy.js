@@ -1,6 +1,6 @@
 // @ts-check
 /**
- * A vessel as `viewer/anatomy.py` writes it, in mm: wall, ends, bad places. A click on an end makes it the inlet.
+ * A vessel as `viewer/anatomy.py` writes it, in mm: wall, ends, defects. A click on an end makes it the inlet.
  *
  * @typedef {object} End
  * @property {number} number

@@ -224,7 +224,7 @@ export class Live {
     if (!this.status) return "";
     if (this._back !== null) return "looking back";
     if (this.status.outcome) return "ended";
-    if (this._isGone(this.status)) return "the simulation has gone: start anew";
+    if (this._isGone(this.status)) return "the simulation has ended unexpectedly: start anew";
     if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
     if (this.status.isPaused) return "paused";
     return this.status.isSteered ? "" : "moved by its file's drive";
@@ -243,7 +243,7 @@ export class Live {
     pad.setAttribute("aria-label", "touch: up pushes, down pulls, sideways turns");
     this.steering.listen(pad);
     const save = make("button", { id: "save", onclick: () => this._save(), title: status.steered
-      || "the table moves the same scene again: key driveFile" }, "save steering");
+      || "the table repeats the motion: key driveFile" }, "save steering");
     save.disabled = status.steered !== "";
     const newest = (this.model?.recording.count ?? 1) - 1;
     const back = make("input", { type: "range", id: "back", min: 0, step: 1, max: newest, value: this._back ?? newest,
@@ -257,7 +257,7 @@ export class Live {
         make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));
     scenes.setAttribute("aria-label", "scene");
     paces.setAttribute("aria-label", "speed");
-    const hold = make("button", { id: "hold", onclick: () => this._holdNext(), title: "what the hand holds" },
+    const hold = make("button", { id: "hold", onclick: () => this._holdNext(), title: "the steered instrument" },
       status.instruments[status.held] ?? "", " ", make("kbd", {}, "I"));
     const isOurs = status.hand;
     const isOver = status.outcome !== "" || this._isGone(status);
@@ -301,7 +301,7 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, go on"], ["N", "one step"],
-  ["R", "start anew"], ["I", "hold the next instrument"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
+  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, continue"], ["N", "one step"],
+  ["R", "start anew"], ["I", "select the next instrument"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
   ["touch", "the round pad: up pushes, sideways turns"],
 ]);

@@ -31,7 +31,7 @@ const showHelp = (/** @type {boolean} */ isShown) => {
   byId("help").setAttribute("aria-expanded", String(isShown));
 };
 keys.replaceChildren(
-  make("h2", {}, what.isLive ? "You hold the wire at its hub" : "A replay"),
+  make("h2", {}, what.isLive ? "You steer the wire at its hub" : "A replay"),
   make("table", {}, ...[...(what.isLive ? LIVE_KEYS : REPLAY_KEYS), ["X-ray", "drag turns the C-arm, wheel zooms"],
     ["3D", "drag orbits, wheel zooms"], ["V", "both views, X-ray, 3D"], ["C", "colour of the wire"],
     ["F, T", "contact forces; keep the tip in view"], ["H", "this list"]].map(([key, text]) => make("tr", {},

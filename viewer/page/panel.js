@@ -69,7 +69,7 @@ export class Panel {
     const [model] = this.models;
     if (!model) return;
     const times = model.shownThickness;
-    byId("thicker").textContent = times > 1 ? `drawn ${brief(times, 2)} times its true radius` : "";
+    byId("thicker").textContent = times > 1 ? `drawn with ${brief(times, 2)} times its true radius` : "";
   }
 
   /** Takes the next of the colours. */

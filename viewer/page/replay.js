@@ -44,7 +44,7 @@ export class Replay {
     this._play = button("play", () => this.play(!this.isPlaying));
     this._over = button("", () => this.lay(!this.areOver));
     byId("bar").replaceChildren(button("|<", () => this.go(this._start), "to the start"),
-      button("<", () => this.step(-1), "one frame back"), this._play, button(">", () => this.step(1), "one frame on"),
+      button("<", () => this.step(-1), "previous frame"), this._play, button(">", () => this.step(1), "next frame"),
       this._slider, this._speed,
       ...(recordings.length > 1 ? [this._over] : []));
     this.lay(false);
@@ -59,10 +59,10 @@ export class Replay {
     return this.models.map(({ recording }) => recording.nearest(this.time));
   }
 
-  /** Side by side, or one over the other. @param {boolean} areOver */
+  /** Side by side, or superimposed. @param {boolean} areOver */
   lay(areOver) {
     this.areOver = areOver;
-    this._over.textContent = areOver ? "side by side" : "one over the other";
+    this._over.textContent = areOver ? "side by side" : "superimposed";
     this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));
     this._panel.set(this.models, areOver);
     this._desk.set(this.models.map(({ recording }) => recording));

@@ -4,11 +4,11 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Whether a wire and the catheters over it fit one another at their start.</summary>
+    /// <summary>Checks whether a wire and the catheters over it fit one another at the start.</summary>
     internal static class CoaxialStart
     {
-        private const string AlikeInBoth = "sections that bend alike in both directions, where two instruments are in"
-            + " one another: a strip has no angle to turn by in a lumen";
+        private const string AlikeInBoth = "sections of equal bending stiffness in both directions, where two "
+            + "instruments are in one another: in a lumen a strip cannot turn by an angle";
 
         /// <summary>What does not go with another one, and what it would need; or null.</summary>
         public static ParameterConflict? FindProblem(SimulationParameters parameters)
@@ -43,8 +43,8 @@ namespace Guidewire.Core
             if (!(lumen > widest))
             {
                 string inside = k == catheters.Count - 1 ? "the wire's" : "the inner catheter's";
-                return Of(k, "lumenRadius", "more than {0:G4} m, " + inside + " own radius where it is thickest (the"
-                    + " lumen has {1:G4} m)", widest, lumen);
+                return Of(k, "lumenRadius", "more than {0:G4} m, " + inside + " own largest radius (the "
+                    + "lumen has {1:G4} m)", widest, lumen);
             }
             foreach (CrossSection piece in new WireProfile(catheter.Material, catheter.Length).Pieces)
             {
@@ -72,18 +72,18 @@ namespace Guidewire.Core
             {
                 double most = scene.GuidewireLength - element;
                 return own.Start <= most ? null : most < 0.0
-                    ? new ParameterConflict("guidewireLength", Text("more than {0:G6} units: the wire has to reach"
-                        + " through the first element of the catheter", element))
-                    : Of(k, "start", "at most {0:G6} units, so that the wire reaches through the first element of the"
-                        + " catheter", most);
+                    ? new ParameterConflict("guidewireLength", Text("more than {0:G6} units: the wire has to "
+                        + "extend through the first element of the catheter", element))
+                    : Of(k, "start", "at most {0:G6} units, so that the wire extends through the first element of the "
+                        + "catheter", most);
             }
             if (own.Start > outermost.Start)
             {
                 return Of(k, "start", "at most {0:G6} units, that of the catheter around it", outermost.Start);
             }
             double least = outermost.Start + element - own.Length;
-            return own.Start >= least ? null : Of(k, "start", "at least {0:G6} units, so that it reaches through the"
-                + " first element of the catheter around it", least);
+            return own.Start >= least ? null : Of(k, "start", "at least {0:G6} units, so that it extends through the "
+                + "first element of the catheter around it", least);
         }
 
         // Of hubs whose motion is known before: each with the next one around it.

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the step of a run with a material, once, from its parameters.</summary>
+    /// <summary>Builds the stepper of a run with a material from its parameters.</summary>
     internal static class MaterialSetup
     {
         /// <summary>What makes the stepper of a scene, its rest shape found.</summary>
@@ -13,7 +13,7 @@ namespace Guidewire.Core
         internal delegate TimeStepper CreateStepper(SimulationParameters parameters, MaterialScene scene,
             RodTerms terms, SolverReport report);
 
-        /// <summary>Builds the wire at its start, in its rest shape where that is asked for, and its stepper.</summary>
+        /// <summary>Builds the wire at its start, in its rest shape where that is requested, and its stepper.</summary>
         public static MethodStart Build(SimulationParameters parameters, Scene prescribed, CreateStepper create)
         {
             var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Pbd.TotalMass,

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the wire of a run and what steps it: the one place where the method is chosen.</summary>
+    /// <summary>Builds the wire of a run and its time stepper; here alone the method is chosen.</summary>
     internal static class MethodBuilder
     {
         /// <summary>The wire at its start, and its stepper.</summary>

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>The lowest frequencies and shapes in which a wire with a material swings about its rest shape: K v =
+    /// <summary>The lowest natural frequencies and mode shapes of a wire with a material about its rest shape: K v =
     /// w^2 M v with K the second derivative of its energies and loads there and M its mass.</summary>
     /// <remarks>Inverse iteration on K^-1 M, each solution in O(n) by the factorisation that rest shapes and motions
     /// use; modes that are found are taken out, so that two of the same frequency are both found. The error of w^2 is
@@ -71,8 +71,8 @@ namespace Guidewire.Core
             ParameterConflict? conflict = ParameterConflict.Find(atRest);
             if (conflict != null && conflict.Key == "initialState")
             {
-                throw new ArgumentException("proximalEnd or distalEnd needs to be \"clamped\": modes are those about a"
-                    + " rest shape, and this wire has none");
+                throw new ArgumentException("proximalEnd or distalEnd needs to be \"clamped\": modes are vibrations "
+                    + "about a rest shape, and this wire has no unique one");
             }
             if (conflict != null)
             {
@@ -80,7 +80,8 @@ namespace Guidewire.Core
             }
             if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial)
             {
-                throw new ArgumentException("solver needs to be one for a material: a pbd wire has no frequencies");
+                throw new ArgumentException("solver needs to be one for a material: a pbd wire has no natural "
+                    + "frequencies");
             }
             if (count < 1 || count > 3 * ElementLayout.Count(atRest))
             {
@@ -90,8 +91,8 @@ namespace Guidewire.Core
             var terms = new RodTerms(scene.Rod, scene.Supports, atRest.Scene);
             if (!terms.HavePotential)
             {
-                throw new ArgumentException(terms.Followers.Keys + " needs to be 0: what turns with the tip has no"
-                    + " potential");
+                throw new ArgumentException(terms.Followers.Keys + " needs to be 0: a follower load has no "
+                    + "potential");
             }
             string? failure = new RestShape(scene, terms, 1e-10, 10 * atRest.Method.MaxNewtonIterations,
                 new SolverReport()).Find(scene.Shape);

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>How a run ended; one word everywhere.</summary>
+    /// <summary>How a run ended.</summary>
     public enum Outcome
     {
         /// <summary>It has not ended.</summary>

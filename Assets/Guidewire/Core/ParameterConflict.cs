@@ -3,7 +3,7 @@ using System.Linq;
 
 namespace Guidewire.Core
 {
-    /// <summary>A parameter that the method, or another parameter, does not go with.</summary>
+    /// <summary>A conflict of a parameter with the method or with another parameter.</summary>
     public sealed class ParameterConflict
     {
         // In the order in which they are reported. With pbd proximalEnd "held" is the default and says nothing, and
@@ -14,10 +14,10 @@ namespace Guidewire.Core
                 p => "one of \"" + string.Join("\", \"", Words(p.Traits)) + "\" with solver \"" + Word(p.Method.Solver)
                     + "\""),
             new Rule("vessel", p => !p.Traits.MeetsWalls && p.HasWalls,
-                "solver pbd, xpbd or direct: explicit meets no walls"),
+                "solver pbd, xpbd or direct: explicit does not support walls"),
             new Rule("initialState",
                 p => p.IsMaterial && p.HasWalls && p.Scene.InitialState == InitialState.Equilibrium,
-                "\"straight\" between walls: rest shapes are found without them"),
+                "\"straight\" between walls: the search for rest shapes does not support them"),
             new Rule("integrator",
                 p => p.HasFriction && p.Traits.HasBarriers && p.Method.Integrator != Integrator.ImplicitEuler,
                 "implicitEuler where a wall has a frictionCoefficient"),
@@ -31,14 +31,14 @@ namespace Guidewire.Core
                 + " (s)"),
             new Rule("materialDamping",
                 p => p.Material.MaterialDamping != 0.0 && p.Method.Solver != Solver.Direct && p.IsMaterial,
-                "solver direct: the others have no rates of strain"),
+                "solver direct: the others have no strain rates"),
             new Rule("tipMoment", p => !p.Traits.TakesTipMoment && p.Scene.TipMoment != Vector3d.Zero,
-                "solver direct or explicit: the others have no couples"),
+                "solver direct or explicit: the others do not support couples"),
             new Rule("bendLaw", p => !p.Traits.TakesDarbouxLaw && p.Material.BendLaw == BendLaw.Darboux,
-                "solver direct or explicit: xpbd has the rotation vector only"),
+                "solver direct or explicit: xpbd supports the rotation vector only"),
             new Rule("timeStepError", p => p.Method.TimeStepError > 0.0
                 && (p.Method.Integrator == Integrator.ImplicitEuler || p.Method.Integrator == Integrator.Bdf2),
-                "integrator trbdf2, esdirk3 or esdirk4: the others do not tell their error"),
+                "integrator trbdf2, esdirk3 or esdirk4: the others have no error estimate"),
 
             new Rule("proximalEnd", p => !p.IsMaterial && p.Scene.ProximalEnd == ProximalEnd.Free,
                 "\"held\" or \"clamped\" with solver pbd; drive \"force\" frees sphere 0"),
@@ -53,11 +53,11 @@ namespace Guidewire.Core
             new Rule("distalEnd", p => !p.IsMaterial && p.Scene.DistalEnd == DistalEnd.Held,
                 "\"free\" or \"clamped\" with solver pbd"),
             new Rule("distalRotation", p => p.Scene.DistalEnd == DistalEnd.Held && p.Scene.DistalRotation != 0.0,
-                "distalEnd \"clamped\" or \"sliding\": an end that is only held turns freely"),
+                "distalEnd \"clamped\" or \"sliding\": an end that is only held can rotate freely"),
             // The last joint takes a rotation at once for one by less than half a turn, in the shorter direction.
             new Rule("distalRotation", p => !p.Traits.WindsUpAtOnce && p.Scene.DistalEnd == DistalEnd.Clamped
                 && p.Scene.DistalRampTime == 0.0 && Math.Abs(p.Scene.DistalRotation) > 1.0,
-                "solver direct, or a distalRampTime > 0: turned at once by more than 1 rad"),
+                "solver direct, or a distalRampTime > 0, for a sudden rotation of more than 1 rad"),
             new Rule("twistPerStep", p => p.IsMaterial && p.Drive.TwistPerStep != 0.0 && !p.IsClamped,
                 "proximalEnd \"clamped\" in a run with a material"),
             new Rule("proximalEnd", p => p.IsMaterial && p.Scene.ProximalEnd == ProximalEnd.Free && p.MovesSphere0,
@@ -72,7 +72,7 @@ namespace Guidewire.Core
                 "0 with a rotationSpeed or a driveFile"),
             new Rule("driveFile", p => p.IsMaterial && p.Drive.Table != null
                 && (p.Drive.InsertionSpeed != 0.0 || p.Drive.RotationSpeed != 0.0),
-                "insertionSpeed and rotationSpeed to be 0: it has both"),
+                "insertionSpeed and rotationSpeed to be 0: the file contains both"),
             new Rule("driveFile", p => p.IsMaterial && p.Drive.Table != null && !p.IsClamped, ClampedByDrive),
             new Rule("rotationSpeed", p => p.IsMaterial && p.Drive.RotationSpeed != 0.0 && !p.IsClamped,
                 ClampedByDrive),
@@ -87,18 +87,18 @@ namespace Guidewire.Core
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
                 "an innerRadius less than the wireRadius everywhere"),
             new Rule("wireRadius", p => p.IsMaterial && !HasStiffness(p),
-                "a bending stiffness over guidewireLength^2 that is a number > 0, with youngsModulus and"
-                + " metresPerUnit"),
+                "a finite bending stiffness over guidewireLength^2 above 0 (see youngsModulus and "
+                + "metresPerUnit)"),
             new Rule("wireSections", p => ElementLayout.FindProblem(p.All) != null,
                 p => ElementLayout.FindProblem(p.All)!),
             new Rule("displacementDirection", p => p.Drive.DisplacementDirection.Length == 0.0,
                 "a length other than 0"),
             new Rule("startTurns", p => p.Scene.StartShape == StartShape.Helix
                 && 2.0 * Math.PI * Math.Abs(p.Scene.StartTurns) * p.Scene.StartRadius >= p.Scene.GuidewireLength,
-                "a helix shorter than guidewireLength: 2 pi startTurns startRadius is more"),
+                "a helix shorter than guidewireLength: 2 pi startTurns startRadius is larger"),
             new Rule("initialState", p => p.IsMaterial && p.Scene.InitialState == InitialState.Equilibrium
                 && !p.IsClamped && !p.HasDistalClamp && !p.IsHeldAtBothEnds,
-                "a clamped end, or both held: a wire that turns freely has no single rest shape"),
+                "a clamped end, or both held: a wire that can rotate freely has no unique rest shape"),
             new Rule("pointLoads", p => p.IsMaterial && Array.Exists(p.Scene.PointLoads,
                 load => load.At > p.Scene.GuidewireLength), "every \"at\" to be at most guidewireLength"),
         };
@@ -157,7 +157,7 @@ namespace Guidewire.Core
             OfCatheters(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
         };
 
-        private const string HubHoldsWithoutWalls = "a vessel or obstacles: without walls a hub holds its instrument";
+        private const string HubHoldsWithoutWalls = "a vessel or obstacles: without walls the hub does not slip";
         private const string ClampedByDrive = "proximalEnd \"clamped\", and no drive \"force\"";
         private const string MovingDrive = "drive \"displace\" or \"push\"";
 

@@ -4,8 +4,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is not as it should be at the end of a run, whatever the method: wire beyond walls, a wire of
-    /// another length, a drive that was held back.</summary>
+    /// <summary>Warnings at the end of a run with any method: points beyond walls, a wire of another length, a drive
+    /// that fell short.</summary>
     internal sealed class RunWarnings
     {
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
@@ -59,14 +59,14 @@ namespace Guidewire.Core
             _rims.Begin(state);
         }
 
-        /// <summary>A step has come to this state.</summary>
+        /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="time">s.</param>
         public void Update(RodState state, ContactRecord? contacts, double time)
         {
             _rims.Update(state, contacts, time);
         }
 
-        /// <summary>Writes or takes over what was seen.</summary>
+        /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
         public void Serialize(Snapshot snapshot, RodState state)
         {
@@ -82,7 +82,7 @@ namespace Guidewire.Core
             }
             if (contacts != null && contacts.MaxPenetration > _depth)
             {
-                lines.Add(Text("a wall reached {0:G3} units into the wire, {1:G3} units are allowed",
+                lines.Add(Text("the wire penetrated a wall by {0:G3} units, {1:G3} units are allowed",
                     contacts.MaxPenetration, _depth));
             }
             double change = LengthOf(state) / _length - 1.0;

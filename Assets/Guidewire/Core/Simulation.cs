@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>One run: a wire, the method that steps it and the rule that ends it. It knows no file and no clock; the
+    /// <summary>One run: a wire, the method that steps it and the rule that ends it. It uses no files and no clock; the
     /// same parameters give the same bits on the same runtime.</summary>
     public sealed class Simulation
     {
@@ -59,14 +59,13 @@ namespace Guidewire.Core
         /// runs.</summary>
         public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
 
-        /// <summary>What is not as it should be at the run's end, one line each; empty while it runs, and where no step
-        /// was made.</summary>
+        /// <summary>Warnings at the run's end, one line each; empty while it runs, and if no step was made.</summary>
         public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
             : _warnings.Of(State, Contacts, Coaxial());
 
-        /// <summary>Whether the run came to its end and nothing that it measures of itself says that its result is not
-        /// to be trusted: it has converged or finished, its reason holds no "but", nothing passed a wall or lay deeper
-        /// in one than the method allows, the wire has its length, and the drive was not held back.</summary>
+        /// <summary>Whether the result can be trusted, as far as the run can tell: it has converged or finished, its
+        /// reason has no "but", nothing passed a wall or penetrated one more than the method allows, the wire has kept
+        /// its length, and the drive did not fall short.</summary>
         public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
             && (StepCount == 0 || _warnings.AreNoDoubts(State, Contacts));
 
@@ -136,34 +135,34 @@ namespace Guidewire.Core
                 : SheathExit.FindProblem(parameters, new MaterialScene(parameters, scene));
         }
 
-        /// <summary>What the solver says of itself, for a run with a material; null with pbd.</summary>
+        /// <summary>The solver's report on its own work, for a run with a material; null with pbd.</summary>
         public SolverReport? Report()
         {
             return _stepper.Report();
         }
 
-        /// <summary>What the material feels along the wire as it is now; null with pbd. Each call writes the record
+        /// <summary>Strains and stresses along the wire at the current time; null with pbd. Each call writes the record
         /// anew.</summary>
         public StressRecord? Stress()
         {
             return _stepper.Stress();
         }
 
-        /// <summary>What is read off at the hub and at the tip as they are now; null where the method does not compute
-        /// it. Each call writes the record anew.</summary>
+        /// <summary>Results at the hub and the tip at the current time; null if the method does not compute them. Each
+        /// call overwrites the record.</summary>
         public HubRecord? Hub()
         {
             return _stepper.Hub();
         }
 
-        /// <summary>What is read off of the outermost catheter over the wire as it is now; null without one. Each call
+        /// <summary>Results of the outermost catheter at the current time; null without one. Each call
         /// writes the record anew.</summary>
         public CoaxialRecord? Coaxial()
         {
             return _stepper.Coaxial();
         }
 
-        /// <summary>What is read off of each catheter over the wire as it is now, outermost first; as
+        /// <summary>Results of each catheter at the current time, outermost first; as
         /// <see cref="Coaxial"/>.</summary>
         public IReadOnlyList<CoaxialRecord> Catheters()
         {
@@ -212,10 +211,11 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A run that goes on from where this one is, with the same parameters or with others. With the same
-        /// it takes the same steps, bit for bit, as this one would: loads, ramps, twists and drives go on in time, and
+        /// <summary>A run that continues from where this one is, with the same parameters or with others. With the same
+        /// it takes the same steps, bit for bit, as this one would: loads, ramps, twists and drives continue in time,
+        /// and
         /// what the method remembers of earlier steps is kept. What others make meaningless (a scheme's history under
-        /// another step size) begins anew.</summary>
+        /// another step size) starts again.</summary>
         /// <param name="parameters">For a wire of as many elements. Their <see cref="SceneParameters.Start"/>, <see
         /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are ignored: the start
         /// is over.</param>
@@ -226,17 +226,17 @@ namespace Guidewire.Core
             if (MethodTable.Of(parameters.Method.Solver).TakesMaterial != _hasMaterial)
             {
                 throw new ArgumentException("solver needs to be one for " + (_hasMaterial ? "a material" : "gains")
-                    + ": this run goes on with the wire that it has");
+                    + ": a run cannot change its wire");
             }
             if ((parameters.Scene.Sheath != null) != _hasSheath)
             {
-                throw new ArgumentException("sheath needs to be there, or not, as it was: this run goes on with the"
-                    + " wire that it has");
+                throw new ArgumentException("sheath: it cannot be added or removed, as a run cannot "
+                    + "change its wire");
             }
             if (parameters.Scene.Catheters.Count != _catheters.Length)
             {
-                throw new ArgumentException("catheters need to be as many as they were: this run goes on with those"
-                    + " that it has");
+                throw new ArgumentException("catheters: their number cannot change "
+                    + "during a run");
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);
@@ -278,7 +278,7 @@ namespace Guidewire.Core
                 int n = snapshot.Serialize(0);
                 if (n != ElementLayout.Count(parameters))
                 {
-                    throw new ArgumentException("what was saved is a wire of " + n + " elements");
+                    throw new ArgumentException("the saved state is that of a wire of " + n + " elements");
                 }
                 var start = new RodStart(new Vector3d[n + 1], new Quaterniond[n], new Vector3d[n + 1],
                     new Vector3d[n]);
@@ -298,7 +298,7 @@ namespace Guidewire.Core
             }
             catch (InvalidOperationException error)
             {
-                throw new ArgumentException("what was saved is no run of these parameters: " + error.Message, error);
+                throw new ArgumentException("the saved state does not fit these parameters: " + error.Message, error);
             }
         }
 

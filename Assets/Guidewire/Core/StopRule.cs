@@ -2,8 +2,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Decides after each step whether a run is at its end, and which end it is: what the method says of
-    /// itself (it gave up, lost the wire, came to a steady state), a number that is not finite, the last
+    /// <summary>Decides after each step whether a run has ended, and with which outcome: by the report of the method
+    /// (failed, diverged, steady state), a number that is not finite, the last
     /// step.</summary>
     internal sealed class StopRule
     {

@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>What a command line asks for.</summary>
+    /// <summary>A parsed command line.</summary>
     public sealed class CommandLine
     {
         /// <summary>The parameter file, or null for the defaults.</summary>

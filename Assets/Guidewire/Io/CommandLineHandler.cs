@@ -122,11 +122,10 @@ namespace Guidewire.Io
         {
             var text = new StringBuilder(usage);
             text.Append("\nA run:\n"
-                + "  -parameters FILE   JSON file with the parameters; without it the defaults count\n"
+                + "  -parameters FILE   JSON file with the parameters; without it the defaults apply\n"
                 + "  -out DIR           folder of the results (positions.json, parameters.json, summary.json)\n"
-                + "  -force             replaces a complete run of other parameters in that folder, once this one is"
-                + " complete\n"
-                + "  -repeat K          the run is timed, this is its K-th repeat\n"
+                + "  -force             replaces a complete run in that folder as soon as the new one is "
+                + "complete\n  -repeat K          the run is a timed one, repeat number K\n"
                 + "  -KEY VALUE         any parameter, instead of the file's, or a part of one: vessel.radius,\n"
                 + "                     obstacles[0].radius, wireSections[-1].youngsModulus (-1: the last)\n\n"
                 + "Parameters:\n");

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>The version of what files look like: parameter files, results of runs, saved states of sessions. Files
+    /// <summary>The version of the file formats: parameter files, results of runs, saved states of sessions. Files
     /// of every version up to this one are read; what has no number is of version 1.</summary>
     public static class FileFormat
     {

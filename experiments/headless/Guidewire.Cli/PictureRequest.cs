@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Cli
 {
-    /// <summary>Reads which picture of a session is asked for.</summary>
+    /// <summary>Reads which picture of a session is requested.</summary>
     internal static class PictureRequest
     {
         private const string Point = "[x, y, z], each a number from -1e9 to 1e9 (units)";

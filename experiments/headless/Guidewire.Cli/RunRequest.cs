@@ -53,7 +53,8 @@ namespace Guidewire.Cli
         /// <summary>What is to be done with a run that is stepped by requests, or null for a whole run.</summary>
         public string? Session { get; }
 
-        /// <summary>Whether requests steer it in place of the drive; null: wherever the method may be steered.</summary>
+        /// <summary>Whether requests steer it in place of the drive; null: wherever the method may be
+        /// steered.</summary>
         public bool? Hand { get; }
 
         /// <summary>Steps to make.</summary>

@@ -109,7 +109,7 @@ namespace Guidewire.Cli
             {
                 throw new ParameterException("request: the run has ended after step " + session.Simulation.StepCount
                     + " (" + session.Simulation.Outcome.ToString().ToLowerInvariant() + ": "
-                    + session.Simulation.Reason + "): reset or restore goes on from where it had not");
+                    + session.Simulation.Reason + "): reset or restore continues from an earlier state");
             }
             for (int k = 0; k < steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
             {

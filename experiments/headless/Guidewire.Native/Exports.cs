@@ -50,7 +50,8 @@ namespace Guidewire.Native
         /// <param name="numbers">Takes the state: step, time (s), 0 or 1 where the run has ended, prediction error
         /// (units), and then the arrays of an answer in their order.</param>
         /// <param name="capacity">How many numbers fit there, at least the first four.</param>
-        /// <returns>How many numbers the state has; arrays are not written where they do not fit. 0 where the steps were
+        /// <returns>How many numbers the state has; arrays are not written where they do not fit. 0 where the steps
+        /// were
         /// refused or failed.</returns>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_step")]
         public static int Step(long number, double push, double turn, int hub, int steps, double* numbers,

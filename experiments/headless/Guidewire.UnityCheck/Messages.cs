@@ -12,7 +12,7 @@ namespace Guidewire.UnityCheck
     internal sealed record AssemblyForm(string Name, string[] Files, string[] References, string[] Libraries,
         bool IsEditorOnly, bool IsTest, bool HasEngine, bool IsUnsafeAllowed);
 
-    /// <summary>What is asked for.</summary>
+    /// <summary>What is requested.</summary>
     /// <param name="Root">Folder of the project.</param>
     /// <param name="Assemblies">Its assemblies.</param>
     /// <param name="Changes">Sources with other text than the file has.</param>

@@ -1,6 +1,7 @@
 using System;
 
-// What this project does not call, and scripts in general do: names with the signatures of Unity's, for the checker, which
+// What this project does not call, and scripts in general do: names with the signatures of Unity's, for the checker,
+// which
 // compiles what users add.
 namespace UnityEngine
 {

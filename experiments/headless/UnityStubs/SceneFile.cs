@@ -135,7 +135,7 @@ namespace UnityStubs
         {
             foreach (KeyValuePair<string, string> pair in document.Values)
             {
-                // As in Unity, a name that the class does not have is passed over: finding it is the checker's work.
+                // As in Unity, a name that the class does not have is skipped: finding it is the checker's work.
                 FieldInfo field = target.GetType().GetField(pair.Key, Fields) ?? target.GetType().GetFields(Fields)
                     .FirstOrDefault(renamed => renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
                         .Any(former => former.oldName == pair.Key));

@@ -36,7 +36,7 @@ namespace Guidewire.Core
         /// <summary>Points of the wire, ten an element, that were inside before a step and outside after it.</summary>
         public long Passages { get; internal set; }
 
-        /// <summary>Largest depth by which the surface of a sphere or a rod element lay in a wall, at the start or
+        /// <summary>Largest penetration depth of the surface of a sphere or a rod element in a wall, at the start or
         /// after a step, units; see <see cref="WireDepth"/>.</summary>
         public double MaxPenetration { get; internal set; }
 

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Which spheres and, unless switched off, which rod elements come near the walls.</summary>
+    /// <summary>Searches for spheres and, unless switched off, rod elements near the walls.</summary>
     /// <remarks>One search an element tells whether anything is in range. Only then the two spheres are searched; where
     /// the element touches with an end, the sphere's own contact represents it and, where spheres leave gaps, the
     /// element's middle half is searched: a long element in a bend lies against the outer wall with its ends and

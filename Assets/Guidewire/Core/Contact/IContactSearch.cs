@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Tells which spheres and rod elements are near which wall, and where. It does nothing about it. One
-    /// implementation a rule of contact, chosen once.</summary>
+    /// <summary>Finds the spheres and rod elements near the walls, without any response. One implementation per contact
+    /// rule, chosen once.</summary>
     internal interface IContactSearch : IWallClearance
     {
         /// <summary>Whether spheres may not pass a wall, so that the swept test looks for points where they

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Counts points of the wire that are inside before a step and outside after it, ten an element (s = 0,
+    /// <summary>Counts points of the wire that are inside before a step and outside after it, ten per element (s = 0,
     /// 0.1, ... 0.9) and the last sphere. Leaving through an open rim is no passage.</summary>
     /// <remarks>Where a point left is decided in each part of a step: the straight line between a whole step's ends may
     /// cut the corner of a rim around which the wire really went. In a part, a point has left across a wall where it
@@ -61,7 +61,7 @@ namespace Guidewire.Core
             Array.Clear(_left, 0, _left.Length);
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, the passages so far.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, the passages so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Total = snapshot.Serialize(Total);

@@ -35,7 +35,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A step has come to this state.</summary>
+        /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="time">s.</param>
         public void Update(RodState state, ContactRecord? contacts, double time)
         {
@@ -55,7 +55,7 @@ namespace Guidewire.Core
             _passages = passages;
         }
 
-        /// <summary>Writes or takes over what was seen.</summary>
+        /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
         public void Serialize(Snapshot snapshot, RodState state)
         {

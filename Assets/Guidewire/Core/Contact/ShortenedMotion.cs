@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shortens a motion of the wire until it passes no wall, as the last resort: the motion of the spheres
-    /// that would, and of their elements, in the end to zero.</summary>
+    /// <summary>Shortens a displacement of the wire until it passes no wall, as a last resort: that of the spheres that
+    /// would pass, and of their elements, if necessary to zero.</summary>
     /// <remarks>First each is shortened to nine tenths of what is free. That turns elements, which may then pass
     /// elsewhere; so after <see cref="CutRounds"/> rounds the spheres of those that still would do not move. Each round
     /// leaves at least one more, and an element between two of them does not move. Only what a round changed is tested
@@ -29,7 +29,7 @@ namespace Guidewire.Core
             _isCut = new bool[sphereCount];
         }
 
-        /// <summary>Shortens one sphere's motion, in place, as far as the sphere itself requires.</summary>
+        /// <summary>Shortens one sphere's displacement, in place, as far as the sphere itself requires.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>
         /// <param name="to">Where they would go.</param>
         /// <param name="i">The sphere.</param>

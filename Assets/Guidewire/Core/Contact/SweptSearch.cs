@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a motion of the wire would pass a wall.</summary>
+    /// <summary>Finds where a displacement of the wire would pass a wall (swept tests).</summary>
     /// <remarks>The start of every motion is clear of the wall by induction: a motion is only accepted when the swept
     /// test finds it clear, and the wire does not move at all where nothing else is. An element whose distance at the
     /// start is known to exceed the displacement of its ends cannot meet the wall and is not swept.</remarks>

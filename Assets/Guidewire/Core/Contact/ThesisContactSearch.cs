@@ -3,8 +3,8 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Contacts as published (thesis 3.1.2): at the predicted state, every sphere and every rod element whose
-    /// core is within a sphere's radius of the wall. Nothing is guarded, and distances at the start of a motion are not
-    /// known.</summary>
+    /// core is within a sphere's radius of the wall. Passages are not prevented, and distances at the start of a
+    /// displacement are not known.</summary>
     internal sealed class ThesisContactSearch : IContactSearch
     {
         private readonly int[] _elementHint;

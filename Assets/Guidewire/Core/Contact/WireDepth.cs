@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How deep the wire lies in a wall: r less the least distance of a sphere's centre or of a rod element's
+    /// <summary>Penetration depth of the wire in a wall: r less the smallest distance of a sphere's centre or of a rod
+    /// element's
     /// core line from any wall, r the element's own. A core line that cuts a wall has distance 0; beyond a wall
     /// distances are negative.</summary>
     /// <remarks>Spheres and elements that are known to lie less deep than the depth found so far are skipped.</remarks>

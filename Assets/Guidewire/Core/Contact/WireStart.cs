@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire may start: with every element in the lumen and none across a wall, and in a lumen that is
-    /// wide enough for it as far as it is pushed.</summary>
+    /// <summary>Checks where a wire starts: every element has to be in the lumen and none across a wall, and the lumen
+    /// wide enough along the path of the push.</summary>
     public static class WireStart
     {
         // Whole vessels are 0.2 to 20 lengths of a wire, lumens 1.05 to 60 of its radii; metres taken for millimetres
@@ -45,7 +45,7 @@ namespace Guidewire.Core
                 if (fraction > OddLengths || fraction < 1.0 / OddLengths || width > OddRadii * radius)
                 {
                     return string.Format(CultureInfo.InvariantCulture,
-                        "the sizes of vessel and wire hardly belong together: the vessel is {0:G3} units long and its"
+                        "vessel and wire differ implausibly in size: the vessel is {0:G3} units long and its"
                         + " wall {1:G3} units from the wire's tip, the wire {2:G3} units long with a radius of {3:G3};"
                         + " scale and metresPerUnit change a vessel's size", box.Value.LargestSide, width, length,
                         radius);
@@ -74,7 +74,7 @@ namespace Guidewire.Core
                 if (lumen.IsTooNarrow(x, DistanceAhead(parameters)))
                 {
                     return string.Format(CultureInfo.InvariantCulture,
-                        "sphereRadius = {0} is larger than the lumen on the wire's way: {1:G4} units at ({2:G4},"
+                        "sphereRadius = {0} is larger than the lumen along the wire's path: {1:G4} units at ({2:G4},"
                         + " {3:G4}, {4:G4})", parameters.Contact.SphereRadius, lumen.Width, lumen.Centre.X,
                         lumen.Centre.Y, lumen.Centre.Z);
                 }

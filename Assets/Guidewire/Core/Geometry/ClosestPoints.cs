@@ -254,7 +254,7 @@ namespace Guidewire.Core
             PointEdge(p, v2, v0, 2, ref best, ref point, ref feature);
 
             // Gram and Schmidt, modified: what lies along the first edge is taken out of p before its small part across
-            // is asked for, whose direction has few digits.
+            // is requested, whose direction has few digits.
             Vector3d u = v1 - v0;
             double skew = Vector3d.Dot(v2 - v0, u) / u.LengthSquared;
             Vector3d across = v2 - v0 - skew * u;

@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>A cone or a cylinder in the wire's path: all points within a radius of an axis that changes linearly
-    /// along it. A cone ends in balls of its two radii; a cylinder has no end.</summary>
+    /// along it. A cone has spherical ends of its two radii; a cylinder is infinite.</summary>
     /// <remarks>With z along the axis, h from it and the radius R(y) = R0 + k y, the distance is the least of
     /// sqrt(h^2 + (z - y)^2) - R(y) over the axis: y = z + k h/sqrt(1 - k^2), or the end of the axis nearest to it. The
     /// body is convex and so is the distance along a segment, whose least value is where its slope n.u changes

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A wall that the wire can touch: a vessel, whose inside is the lumen, or an obstacle in it. What is
-    /// free for the wire has positive distance; normals point from the wall into it. Lengths in units.</summary>
+    /// <summary>A wall that the wire can touch: a vessel, whose inside is the lumen, or an obstacle in it. Distances
+    /// are positive on the free side; normals point from the wall into it. Lengths in units.</summary>
     /// <remarks>One virtual call per element and step: some 2 ns beside the 100 to 1000 ns of a distance.</remarks>
     public abstract class ContactShape
     {

@@ -36,8 +36,8 @@ namespace Guidewire.Core
             return new Extents(low, high);
         }
 
-        /// <summary>The box around a wall, of a tube without what goes on beyond its open ends; null for a plane, which
-        /// has no end.</summary>
+        /// <summary>The box around a wall, for a tube without the continuation beyond its open ends; null for a plane,
+        /// which is infinite.</summary>
         public static Extents? Of(ContactShape wall)
         {
             switch (wall)

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Caches the features of a wall about the points of a lattice, each found once. The nodes of a wire that
-    /// is pushed pass the same positions one after another.</summary>
+    /// <summary>Caches the features of a wall near the points of a lattice. The successive nodes of a wire that is
+    /// pushed pass the same positions.</summary>
     /// <remarks>One slot in the table for each hash: a new entry replaces the old one, and the whole table is cleared
     /// when the lists have grown long. Nothing is allocated after construction unless a wire needs longer
     /// lists.</remarks>

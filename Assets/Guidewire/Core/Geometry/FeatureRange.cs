@@ -46,7 +46,7 @@ namespace Guidewire.Core
             Moved = moved;
         }
 
-        /// <summary>Whether the features near are known; if not, the range is empty and says nothing.</summary>
+        /// <summary>Whether the features nearby are known; if not, the range is empty and meaningless.</summary>
         public bool IsKnown => _features != null;
 
         /// <summary>First index.</summary>

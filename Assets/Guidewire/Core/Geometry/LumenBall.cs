@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The widest ball in a lumen across a direction, for walks along a vessel. In units.</summary>
+    /// <summary>The largest sphere in a lumen centred in a plane across a direction, for walks along a vessel. In
+    /// units.</summary>
     internal sealed class LumenBall
     {
         private const double Golden = 0.6180339887498949;

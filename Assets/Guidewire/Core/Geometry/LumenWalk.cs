@@ -3,7 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Walks along a lumen, in both directions from a point, to where it is narrowest and widens again.
+    /// <summary>Walks along a lumen, in both directions from a point, to its narrowest cross-section, beyond which it
+    /// widens again.
     /// Lengths in units.</summary>
     /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
     /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How wide a vessel's lumen is along a path: the radius of the widest ball across the path at each
-    /// position. Lengths in units.</summary>
+    /// <summary>Width of a vessel's lumen along a path: the radius of the largest sphere centred in the plane across
+    /// the path at each position. Lengths in units.</summary>
     /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the path is followed ball by ball, each
     /// centred across the path by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
     /// width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire

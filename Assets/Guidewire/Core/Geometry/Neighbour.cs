@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The result of a neighbour query of a node or an element, and where it was made. Lengths in
+    /// <summary>The result of a neighbour query for a node or an element, and the position at which it was made.
+    /// Lengths in
     /// units.</summary>
     internal struct Neighbour
     {
@@ -61,13 +62,13 @@ namespace Guidewire.Core
             return MayReach(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
         }
 
-        /// <summary>The same of its first end alone.</summary>
+        /// <summary>The same for its first end alone.</summary>
         public readonly bool MayReachA(in Vector3d a, double range)
         {
             return MayReach((a - _a).LengthSquared, range);
         }
 
-        /// <summary>The same of its second end.</summary>
+        /// <summary>The same for its second end.</summary>
         public readonly bool MayReachB(in Vector3d b, double range)
         {
             return MayReach((b - _b).LengthSquared, range);

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a vessel stands: x -> position + R (scale x), with the scale along the vessel's own
+    /// <summary>Placement of a vessel: x -> position + R (scale x), with the scale along the vessel's own
     /// axes.</summary>
     public readonly struct Placement
     {

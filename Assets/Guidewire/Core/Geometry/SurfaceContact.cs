@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod element (or a sphere, an element of no length) comes nearest to a wall.</summary>
+    /// <summary>The closest points of a rod element (or a sphere, an element of zero length) and a wall.</summary>
     public readonly struct SurfaceContact
     {
         /// <summary>Position along the element, 0 at its first sphere, 1 at its second; 0 for a sphere.</summary>

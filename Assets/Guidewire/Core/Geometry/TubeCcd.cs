@@ -41,7 +41,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>A fraction of the motion of segment a b from (a0, b0) to (a1, b1) during which it has at least a
-        /// clearance, units; <see cref="ContactShape.NoImpact"/> for all of it, 0 where nothing is proven.</summary>
+        /// clearance, units; <see cref="ContactShape.NoImpact"/> for all of it, 0 where none can be proven.</summary>
         /// <param name="guess">A piece near the start of the first end.</param>
         public double SafeFraction(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             int guess)

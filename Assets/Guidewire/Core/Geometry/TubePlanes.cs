@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The planes through a tube's knots that halve its bends: what lies between two of them, and near its
-    /// piece, belongs to that piece.</summary>
+    /// <summary>The bisecting planes at a tube's knots: points between two of them, and near their piece, belong to
+    /// that piece.</summary>
     /// <remarks>In a tube whose radius does not change a bend's two pieces meet in the plane; in one that narrows or
     /// widens they meet near it.</remarks>
     internal sealed class TubePlanes
@@ -24,7 +24,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How far x is past the plane of knot k, units.</summary>
+        /// <summary>Distance of x beyond the plane of knot k, units.</summary>
         public double Past(int k, in Vector3d x)
         {
             return Vector3d.Dot(_across[k], x - _knots[k]);

@@ -22,7 +22,7 @@ namespace Guidewire.Core
         private TubePlanes? _planes;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
-        /// units). It ends in half spheres; an open end goes on straight, with the radius of its last knot.</summary>
+        /// units). It ends in half spheres; an open end continues straight with the radius of its last knot.</summary>
         /// <exception cref="ArgumentException">Fewer than 2 knots, unequal counts, a value that is not finite, a radius
         /// that is not positive, or a piece that lies inside the sphere of one of its ends.</exception>
         public TubeShape(Vector3d[] knots, double[] radii, bool openStart, bool openEnd)
@@ -380,7 +380,8 @@ namespace Guidewire.Core
                 }
                 if (i > 0 && !(Vector3d.Distance(knots[i - 1], knots[i]) > Math.Abs(radii[i] - radii[i - 1])))
                 {
-                    return "knots " + (i - 1) + " and " + i + " of the tube are nearer than their radii differ";
+                    return "knots " + (i - 1) + " and " + i + " of the tube are closer together than their radii "
+                        + "differ";
                 }
             }
             return null;

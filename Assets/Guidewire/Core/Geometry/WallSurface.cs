@@ -3,8 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>A wall as triangles, for pictures: what a mesh has, and flat patches, rings and balls for the shapes
-    /// that are given by numbers. Nothing here takes part in a step.</summary>
+    /// <summary>A wall as triangles, for pictures: the triangles of a mesh, or flat patches, rings and spheres for
+    /// analytic shapes. Nothing here takes part in a step.</summary>
     public sealed class WallSurface
     {
         private const int Sides = 32;

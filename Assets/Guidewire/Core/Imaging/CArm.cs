@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a fluoroscopic picture is taken from: the angles of a C-arm about the patient, parallel rays
-    /// through a point, and the square that the picture shows.</summary>
+    /// <summary>The view of a fluoroscopic picture: the angles of a C-arm about the patient, a centre, parallel rays,
+    /// and the field of view.</summary>
     /// <remarks>The patient lies with the head towards +z, the chest towards +x and the left side towards +y, because
     /// wires enter scenes along +z. The detector is in front of the chest at 0 and 0; a left anterior oblique angle
     /// (LAO) moves it to the patient's left, a cranial one towards the head; RAO and caudal are negative. The picture

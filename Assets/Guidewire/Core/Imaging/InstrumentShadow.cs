@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Adds instruments to a picture of optical depths: minus the logarithm of what part of a pixel's rays
-    /// passes them.</summary>
+    /// <summary>Adds instruments to a picture of optical depths: minus the logarithm of the transmitted fraction of a
+    /// pixel's rays.</summary>
     /// <remarks><para>A straight piece of length L, outer radius r and lumen radius a at the angle theta to the rays is
     /// a strip of length L sin theta: at the distance s from its axis in the picture a ray's length in the wall is
     /// 2 (sqrt(r^2 - s^2) - sqrt(a^2 - s^2))/sin theta. A pixel is a square: across the strip its area is distributed
@@ -139,7 +139,7 @@ namespace Guidewire.Core
             return (int)Math.Min(Math.Max(at - 0.5, 0.0), isFirst ? _pixels : _pixels - 1.0);
         }
 
-        // Columns of a row whose middles are within the strip.
+        // Columns of a row whose pixel centres are within the strip.
         private bool Columns(double start, double y, double ux, double uy, double beyond, double shown, double outer,
             out int first, out int end)
         {

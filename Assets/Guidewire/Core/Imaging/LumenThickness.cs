@@ -3,9 +3,9 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>How far the ray through each pixel's middle goes inside a vessel: the sum over the triangles that it
-    /// passes of their depths, those of the far wall negative. Open rims are closed by a fan of triangles about their
-    /// middle, or a ray that enters through one would be counted from infinity.</summary>
+    /// <summary>Length inside a vessel of the ray through each pixel's centre: the sum over the triangles that it
+    /// crosses of their depths, those of the far wall negative. Open rims are closed by a fan of triangles about their
+    /// centre; otherwise a ray that enters through one would be counted from infinity.</summary>
     internal sealed class LumenThickness
     {
         private readonly Vector3d[] _vertices;

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What picture of a run is asked for. Lengths are in mm where no other unit stands.</summary>
+    /// <summary>The view of a run's picture, as requested. Lengths are in mm unless stated otherwise.</summary>
     public sealed class PictureView
     {
         /// <summary>LAO, degrees; RAO is negative.</summary>
@@ -21,7 +21,7 @@ namespace Guidewire.Core
         /// <summary>Linear attenuation coefficient of all instruments, 1/mm; null: by their materials.</summary>
         public double? Attenuation { get; set; }
 
-        /// <summary>What is shown, with mm in place of units.</summary>
+        /// <summary>The settings of the picture, with mm in place of units.</summary>
         public FluoroscopySettings Settings { get; } = new FluoroscopySettings();
     }
 }

@@ -3,8 +3,8 @@ using System.Numerics;
 
 namespace Guidewire.Core
 {
-    /// <summary>Blurs a picture as a tube's spot does whose brightness is a normal distribution: rows, then columns.
-    /// Beyond the picture's border it goes on as at the border.</summary>
+    /// <summary>Blurs a picture by a Gaussian focal spot of the X-ray tube: rows, then columns. Beyond its border the
+    /// picture is continued with the values at the border.</summary>
     internal sealed class SpotBlur
     {
         private const double Extent = 3.0;    // standard deviations

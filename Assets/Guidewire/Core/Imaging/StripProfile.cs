@@ -37,7 +37,7 @@ namespace Guidewire.Core
             _other = other;
         }
 
-        /// <summary>Distance from the axis beyond which nothing is seen of the piece.</summary>
+        /// <summary>Distance from the axis beyond which the piece is invisible.</summary>
         public double HalfWidth => _r + 0.5 * (_one + _other);
 
         /// <summary>Integral up to x of the convolution of two boxes of these widths, above 0, and of area 1.</summary>

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The frame of a clamp that a start does not state, from the elements beside it.</summary>
+    /// <summary>Extrapolates the frame of a clamp that a start does not state from the elements next to it.</summary>
     /// <remarks>With k_i = theta_i/L_i, theta_i the rotation at joint i and L_i the length it stands for, the
     /// curvature at the clamp is 2 k_1 - k_2, and the clamp's own joint turns by L_0 times that. The L_i are those of
     /// the clamp's rule in a shape that a run found, which then is at rest; in one sampled from a smooth curve, its

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What contact adds to the energy of a rod, by a method whose walls are part of it.</summary>
+    /// <summary>Contact as part of a rod's energy, for methods that treat walls in that way.</summary>
     internal abstract class ContactTerms
     {
         /// <summary>The terms that act.</summary>
@@ -15,7 +15,7 @@ namespace Guidewire.Core
         /// <summary>Force of the support on node 0, N.</summary>
         public abstract Vector3d SupportForce(RodShape shape);
 
-        /// <summary>Writes or takes over what friction keeps from step to step.</summary>
+        /// <summary>Writes or restores what friction keeps from step to step.</summary>
         public abstract void SerializeFriction(Snapshot snapshot);
     }
 }

@@ -2,8 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The wire at one position: how stiff and heavy its cross-section is, and how it is bent at
-    /// rest.</summary>
+    /// <summary>Cross-section of the wire at one position: stiffness, mass per length and rest curvature.</summary>
     internal struct CrossSection
     {
         /// <summary>EA, N.</summary>
@@ -73,8 +72,8 @@ namespace Guidewire.Core
             return Of(area, 0.25 * area * (square + hollow), youngsModulus, shearModulus, density);
         }
 
-        /// <summary>The wire of these parameters at a position, units from the proximal end: of the sections there the
-        /// last one that says something counts.</summary>
+        /// <summary>The wire of these parameters at a position, units from the proximal end: if sections overlap, the
+        /// last one with a value applies.</summary>
         public static CrossSection At(MaterialParameters material, double position)
         {
             var wire = new WireSection { AxialStiffness = material.AxialStiffness };

@@ -3,8 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds a motion that has blown up: the wire moves with more energy than was ever put into
-    /// it.</summary>
+    /// <summary>Detects an unstable motion: the wire has more kinetic energy than was ever put into it.</summary>
     /// <remarks>With T of motion and V of the strains, T + V is at most what it was at the start plus the work W of
     /// loads and held ends; damping and implicit steps only take from it. V is no less than 0, so T never exceeds the
     /// largest sum that start and W have had. T alone is compared: strains left by too few iterations hold energy on
@@ -65,7 +64,7 @@ namespace Guidewire.Core
             _before.CopyFrom(_shape);
             double motion = Motion();
             double putIn = _start + _loadWork + _ends.MostWork;
-            // A NaN fails every comparison, so the question is asked for the good case.
+            // A NaN fails every comparison, so the condition states the good case.
             if (motion <= Allowance * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
@@ -88,7 +87,7 @@ namespace Guidewire.Core
             _start = Motion() + _terms.StoredEnergy(_shape);
         }
 
-        /// <summary>Writes or takes over the energies so far. A reader's wire is placed already; where it is heavier or
+        /// <summary>Writes or restores the energies so far. A reader's wire is placed already; where it is heavier or
         /// stiffer than the writer's was, the same motion in the same shape holds more, and that was put in.</summary>
         public void Serialize(Snapshot snapshot)
         {
@@ -106,7 +105,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that <see cref="Blowup"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The tangent K of a rod under a couple and a force that turn with its tip, plus a drag: K + d M,
+    /// <summary>Tangent stiffness K of a rod under a follower couple and a follower force, plus a drag: K + d M,
     /// factorised and solved in O(n).</summary>
     /// <remarks>K is the symmetric second derivative S of the terms plus the part that no energy carries. That part
     /// acts between the turn theta of the last element and the position x of the last node only: [m]/2 on (theta,

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Kinetic energy by the mass matrix, of the nodes that are not held: how fast a support moves says
-    /// nothing of the wire.</summary>
+    /// <summary>Kinetic energy, by the mass matrix, of the free nodes only: the speed of a support is
+    /// prescribed.</summary>
     internal sealed class FreeInertia : IKineticEnergy
     {
         private readonly RodMass _mass;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Puts the held ends of a material rod and the clamps' frames where the schedule wants them, and counts
-    /// the work that this does on the wire.</summary>
+    /// <summary>Moves the held ends of a material rod and the clamps' frames to where the schedule prescribes them, and
+    /// sums the work done on the wire.</summary>
     internal sealed class HeldEnds
     {
         private readonly RodTerms _terms;
@@ -151,14 +151,14 @@ namespace Guidewire.Core
             MostWork = Math.Max(MostWork, Work + _carried);
         }
 
-        /// <summary>Writes or takes over the turns that the frames have made.</summary>
+        /// <summary>Writes or restores the turns that the frames have made.</summary>
         public void SerializeTurns(Snapshot snapshot)
         {
             snapshot.Serialize(ref _proximalTurn);
             snapshot.Serialize(ref _distalTurn);
         }
 
-        /// <summary>Writes or takes over the work.</summary>
+        /// <summary>Writes or restores the work.</summary>
         public void SerializeWork(Snapshot snapshot)
         {
             Work = snapshot.Serialize(Work);
@@ -166,7 +166,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _carried);
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
             SerializeTurns(snapshot);

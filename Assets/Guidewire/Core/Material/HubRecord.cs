@@ -2,8 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is read off at the hub and at the tip of a wire with a material, at one moment, in SI
-    /// units.</summary>
+    /// <summary>Results at the hub and the tip of a wire with a material at one time, in SI units.</summary>
     /// <remarks>The hub is the proximal support; its axis is that of the clamp. Force and torque are those of the hub
     /// on the wire: a thrust and a turn to the right, as seen from the hub, are positive.</remarks>
     public sealed class HubRecord
@@ -23,10 +22,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How far the hub has gone along its axis since the start, m.</summary>
+        /// <summary>Insertion of the hub since the start, m.</summary>
         public double Insertion { get; private set; }
 
-        /// <summary>How far it has turned since the start, rad; more than one turn counts.</summary>
+        /// <summary>Rotation of the hub since the start, rad, also beyond one turn.</summary>
         public double Turn { get; private set; }
 
         /// <summary>Its force on the wire along its axis, N.</summary>

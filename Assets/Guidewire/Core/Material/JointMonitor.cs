@@ -4,7 +4,8 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds a joint that is turned so far that the wire is about to lose a turn, or has lost it.</summary>
+    /// <summary>Detects a joint that is rotated so far that the wire is about to lose a turn, or has lost
+    /// one.</summary>
     /// <remarks>A joint's couple follows from its orientation alone, which is the same after a turn by a as after one
     /// by a - 2 pi: beyond half a turn it pulls in the opposite sense, and 2 pi of twist are lost. Already before, at
     /// an angle a, a joint has (a/2) cot(a/2) of its stiffness left against turns about its other axes; at 0.98 pi,
@@ -91,11 +92,11 @@ namespace Guidewire.Core
             double ahead = _supports.HasProximalJoint && _supports.HasDistalJoint
                 ? _schedule.TurnAhead(time, _end) / done : 1.0;
             return string.Format(CultureInfo.InvariantCulture,
-                "joint {0} is turned by {1:G4} rad{2}; from {3:G3} rad on its sense is ambiguous, and the wire would"
-                + " lose the turn; {4}", worst, angle, PositionOf(worst), Limit,
-                IsAlone(shape, worst, angle) ? "the joints beside it are turned by less than half of that: shorter"
-                    + " elements distribute the turn only where they are shorter than what bends there, such as a soft"
-                    + " section, which may have a numberRodElements of its own"
+                "joint {0} is turned by {1:G4} rad{2}; beyond {3:G3} rad the sense of its rotation is ambiguous, and "
+                    + "the wire would lose a turn; {4}", worst, angle, PositionOf(worst), Limit,
+                IsAlone(shape, worst, angle) ? "the neighbouring joints are turned by less than half of that: "
+                    + "shorter elements distribute the rotation only if they are shorter than what bends there, such "
+                    + "as a soft section, which may have a numberRodElements of its own"
                 : Advice(Math.Max(1.0, ahead) * angle));
         }
 
@@ -122,8 +123,8 @@ namespace Guidewire.Core
                 return null;
             }
             return string.Format(CultureInfo.InvariantCulture,
-                "restCurvature turns joint {0} by {1:G4} rad at rest, with elements of l = {2:G4} m; from {3:G3} rad on"
-                + " its sense is ambiguous; {4}", worst, most,
+                "restCurvature turns joint {0} by {1:G4} rad at rest, with elements of l = {2:G4} m; beyond {3:G3} "
+                    + "rad the sense of its rotation is ambiguous; {4}", worst, most,
                 _rod.Length[Math.Min(worst, _rod.ElementCount - 1)], limit, Advice(most));
         }
 
@@ -139,8 +140,8 @@ namespace Guidewire.Core
                 longest = Math.Max(longest, length);
             }
             return string.Format(CultureInfo.InvariantCulture, longest > (1.0 + Even) * shortest
-                ? "elements there of {1:G3} of their length would do (numberRodElements, of the section where it has"
-                    + " one)"
+                ? "elements there of {1:G3} of their length would suffice (numberRodElements, or that of the "
+                    + "section)"
                 : "numberRodElements = {0} would do",
                 Math.Ceiling(_rod.ElementCount * angle / (FractionOfLimit * Limit)), FractionOfLimit * Limit / angle);
         }

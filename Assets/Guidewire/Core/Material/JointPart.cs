@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What is beyond a cut of the wire that a joint stands for, and what the rest of it holds.</summary>
+    /// <summary>The part beyond a cut of the wire that a joint stands for, and the energy of the rest.</summary>
     internal struct JointPart
     {
         /// <summary>Length beyond the cut, m, weighed by the joint's hat function.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What a joint sees of the element on one side of it: the even element that would bend and twist as much
+    /// <summary>The element on one side of a joint: the uniform element that would bend and twist as much
     /// there.</summary>
     internal struct JointSide
     {

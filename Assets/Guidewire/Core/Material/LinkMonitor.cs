@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds a wire between two clamps that has lost whole turns of its twist by passing through
+    /// <summary>Detects a wire between two clamps that has lost whole turns of twist by passing through
     /// itself.</summary>
     /// <remarks>The wire does not meet itself. Wound up beyond the couple at which it stays straight (couples of 2
     /// sqrt(EI T) under a tension T) it bends into a loop; a loop that passes through the wire, or over an end, takes
@@ -40,9 +40,10 @@ namespace Guidewire.Core
                 return null;
             }
             return string.Format(CultureInfo.InvariantCulture,
-                "of {0:G4} turns between its clamps the wire has lost {1}: in loops it has passed through itself,"
-                + " because it does not meet itself; fewer turns (distalRotation, twistPerStep) or a pull (axialForce,"
-                + " distalDisplacement) keep it straight", Math.Abs(turn) / (2.0 * Math.PI), Math.Abs(lost));
+                "of {0:G4} turns between its clamps the wire has lost {1}: it has formed loops and passed through "
+                + "itself, as there is no self-contact; fewer turns (distalRotation, twistPerStep) or a pull "
+                + "(axialForce, distalDisplacement) keep it "
+                + "straight", Math.Abs(turn) / (2.0 * Math.PI), Math.Abs(lost));
         }
 
         /// <summary>psi from clamp to clamp, radians, joint by joint; false where an element does not point

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, as
-    /// user steering, a table or the drive's speeds have it.</summary>
+    /// <summary>Prescribes the motion of node 0 of a material rod and the turn of its clamp within the next step, from
+    /// user steering, a table or the drive's speeds.</summary>
     internal sealed class MaterialDrive
     {
         private const double Nothing = 1e-12;  // m, a displacement left by rounding of times in a table
@@ -62,11 +62,11 @@ namespace Guidewire.Core
         /// <summary>The hub that it moves.</summary>
         public HubMotion Hub { get; }
 
-        /// <summary>How far the drive has moved node 0 along its direction since the start, m; negative where it has
+        /// <summary>Displacement of node 0 by the drive along its direction since the start, m; negative where it has
         /// pulled.</summary>
         public double Insertion { get; private set; }
 
-        /// <summary>How far the drive has turned the clamp since the start, rad.</summary>
+        /// <summary>Rotation of the clamp by the drive since the start, rad.</summary>
         public double Turn { get; private set; }
 
         /// <summary>Direction of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
@@ -82,8 +82,7 @@ namespace Guidewire.Core
         /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
 
-        /// <summary>How far node 0 is beyond the displacement that it may be moved to, m; negative where it is
-        /// not.</summary>
+        /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
         public double BeyondLimit => Insertion - _mostInsertion;
 
         /// <summary>Largest displacements of node 0 from its present position, m.</summary>
@@ -95,7 +94,7 @@ namespace Guidewire.Core
             _mostInsertion = Insertion + forward;
         }
 
-        /// <summary>In the steps that follow node 0 moves by this, m, whatever is asked; null: as is asked.</summary>
+        /// <summary>Displacement of node 0 in the following steps, m, instead of that asked; null: as asked.</summary>
         public void Give(double? displacement)
         {
             _given = displacement;
@@ -133,7 +132,7 @@ namespace Guidewire.Core
             Insertion += speed * _timeStep;
         }
 
-        /// <summary>How far it will move node 0 in the step that begins at this time, m.</summary>
+        /// <summary>Displacement of node 0 in the step that begins at this time, m.</summary>
         public double NextMove(double time)
         {
             return _direction == null ? 0.0 : Limited(_given ?? SpeedAt(time) * _timeStep);
@@ -164,7 +163,7 @@ namespace Guidewire.Core
             return _sense * (Insertion - insertion);
         }
 
-        /// <summary>Writes or takes over how far the hub has come.</summary>
+        /// <summary>Writes or restores how far the hub has come.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Insertion = snapshot.Serialize(Insertion);
@@ -173,7 +172,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _sense);
         }
 
-        /// <summary>Writes or takes over all that a step may touch, what it prescribes among it, for a
+        /// <summary>Writes or restores all that a step may touch, what it prescribes among it, for a
         /// <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>A scene whose wire is a material, in SI units: the rod and how it is held, beside what is simulated.
-    /// Every method for a material begins here.</summary>
+    /// <summary>A scene with a wire that has a material, in SI units: the rod and its supports in addition to the
+    /// scene. The input of every method for a material.</summary>
     internal sealed class MaterialScene
     {
         private readonly Scene _scene;

@@ -2,7 +2,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a wire with a material may start: no element touches a wall with its surface.</summary>
+    /// <summary>Checks where a wire with a material starts: the surface of no element may touch a wall.</summary>
     internal static class MaterialStart
     {
         private const string Wire = "the wire";
@@ -44,7 +44,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same of the wire from a position on, units, which is in an element, with its whole
+        /// <summary>The same for the wire from a position on, units, which is in an element, with its whole
         /// radius.</summary>
         public static string? FindProblemFrom(MaterialScene scene, int element, in Vector3d position,
             string name = Wire)
@@ -54,7 +54,7 @@ namespace Guidewire.Core
             return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0, name);
         }
 
-        /// <summary>The same of the elements before one, exclusive.</summary>
+        /// <summary>The same for the elements before one, exclusive.</summary>
         /// <param name="fraction">Of the radius, that has to be free.</param>
         /// <param name="name">What the phrase calls it.</param>
         public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0,

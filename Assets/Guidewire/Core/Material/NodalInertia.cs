@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Inverse masses of nodes and inverse inertias of elements, for the methods that need them one by
-    /// one.</summary>
+    /// <summary>Inverse masses of nodes and inverse inertias of elements, for methods that need them
+    /// individually.</summary>
     internal sealed class NodalInertia : IKineticEnergy
     {
         /// <summary>Those of a rod; 0 for a held node.</summary>

@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Decides whether a wire with a material is at rest, by how fast it moves and by the forces that are out
-    /// of balance, whatever the method and its time step.</summary>
+    /// <summary>Decides whether a wire with a material is at rest, from its speed and its unbalanced forces,
+    /// independent of the method and its time step.</summary>
     /// <remarks>With K the second derivative of all terms at the current shape, g their gradient and M the mass, a wire
     /// near its rest shape moves by M u'' + K u = 0 about it. Three lengths must be below the threshold: 1. |K^-1 g|,
     /// the Newton step to the rest shape: how far the wire is from it, also at a turning point, where nothing moves. K
@@ -113,7 +113,7 @@ namespace Guidewire.Core
                 away / _scene.Metres, Math.Max(swing, speed * _time) / _scene.Metres, _threshold / _scene.Metres);
         }
 
-        /// <summary>Writes or takes over the time of the next check.</summary>
+        /// <summary>Writes or restores the time of the next check.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _nextCheck);

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How the mass of a rod acts on its nodes and elements: the one place where it is distributed.</summary>
+    /// <summary>Distribution of a rod's mass over its nodes and elements.</summary>
     internal sealed class RodMass
     {
         /// <summary>The mass of a rod under one rule.</summary>
@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// <summary>kg.</summary>
         public double Total { get; }
 
-        /// <summary>What each node weighs, kg, n+1: half of each element beside it, or an equal part.</summary>
+        /// <summary>Mass of each node, kg, n+1: half of each neighbouring element, or an equal part.</summary>
         public double[] Nodal { get; }
 
         /// <summary>Diagonal of the mass matrix, kg, n+1.</summary>

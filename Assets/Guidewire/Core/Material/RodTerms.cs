@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>All that stores energy in a material rod or does work on it: the one list of energy terms. Rest shapes,
-    /// motions, explicit forces, energies and reactions are made of what stands here.</summary>
+    /// <summary>The list of all energy terms of a material rod, elastic and of loads. Rest shapes, motions, explicit
+    /// forces, energies and reactions all use it.</summary>
     /// <remarks>A new load or a new kind of energy is a class of its own and one entry in the list. Elastic terms store
     /// energy, 0 or more, in the wire; loads act on it from outside. The compliant solver has constraints instead of
     /// stretch and bending, and takes the loads from here.</remarks>
@@ -207,7 +207,7 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
-        /// <summary>Writes or takes over the state of the terms between steps.</summary>
+        /// <summary>Writes or restores the state of the terms between steps.</summary>
         public void Serialize(Snapshot snapshot)
         {
             foreach (EnergyTerm term in All)

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The largest values that a wire came to in a run of the direct solver, in SI units: at the start and
-    /// after every step. NaN where nothing is there to be measured.</summary>
+    /// <summary>The largest values in a run of the direct solver, in SI units, taken at the start and after every step.
+    /// NaN for quantities that do not exist.</summary>
     public sealed class RunExtremes
     {
         private Vector3d[] _turns = Array.Empty<Vector3d>();      // of the joints, rad
@@ -42,8 +42,8 @@ namespace Guidewire.Core
         /// <summary>Largest of these forces over the element's length and diameter, Pa; NaN without walls.</summary>
         public double WallPressure { get; private set; } = double.NaN;
 
-        /// <summary>Largest power of the slip against friction in a step, W: friction turns energy into heat, and it is
-        /// never above 0. NaN where no wall has friction.</summary>
+        /// <summary>Largest power of friction in a step, W: friction dissipates energy, so it is never positive. NaN
+        /// where no wall has friction.</summary>
         public double FrictionPower { get; private set; } = double.NaN;
 
         /// <summary>Work of friction on what slips, J, minus the heat of all steps; NaN where no wall has friction.
@@ -134,7 +134,7 @@ namespace Guidewire.Core
             FrictionWork = (double.IsNaN(FrictionWork) ? 0.0 : FrictionWork) - heat;
         }
 
-        /// <summary>Writes or takes over all of it.</summary>
+        /// <summary>Writes or restores all of it.</summary>
         internal void Serialize(Snapshot snapshot)
         {
             _curvatureSquared = snapshot.Serialize(_curvatureSquared);

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where a sheath ends, and what is in it.</summary>
+    /// <summary>The end of a sheath, and the nodes and elements in it.</summary>
     internal class SheathEnd
     {
         /// <summary>An end.</summary>
@@ -29,7 +29,7 @@ namespace Guidewire.Core
             return inside;
         }
 
-        /// <summary>How far a node is out of the sheath, m; negative inside.</summary>
+        /// <summary>Distance of a node beyond the exit of the sheath, m; negative inside.</summary>
         public double Outside(in Vector3d node)
         {
             return Vector3d.Dot(node - Exit, Axis);

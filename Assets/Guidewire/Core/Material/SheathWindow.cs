@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the sheathed part is to the elements of a wire that are simulated, from one on: the springs that
-    /// it has along and about its axis, and where it ends.</summary>
+    /// <summary>The sheathed part as seen by the simulated elements: an axial and a torsional spring, and the position
+    /// of the exit.</summary>
     internal sealed class SheathWindow : SheathEnd
     {
         private readonly (double Stretch, double Twist)[] _sheathed;  // EA and GJ of the elements up to the first
@@ -50,7 +50,7 @@ namespace Guidewire.Core
         /// <summary>The joints of the window; joint 0 twists as all of the sheathed part with it.</summary>
         public Joint[] Joints { get; }
 
-        /// <summary>The length that each stands for, m.</summary>
+        /// <summary>The length of wire that each represents, m.</summary>
         public double[] JointLengths { get; }
 
         /// <summary>Sum of l/EA in the sheath, m/N.</summary>

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What a wire's material feels along the wire and what energy it has at one moment, in SI units: for logs
-    /// and pictures, never for a step.</summary>
+    /// <summary>Strains, stresses and energies along a wire at one time, in SI units: for logs and pictures
+    /// only.</summary>
     /// <remarks>Forces and couples are those that the piece towards the tip exerts on the piece towards the proximal
     /// end, along the world's axes, by the law of the material in this shape.</remarks>
     public sealed class StressRecord

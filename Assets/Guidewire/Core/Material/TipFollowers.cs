@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>The loads at the wire's end that turn with it: a couple and a force, along the axes of the end, each
-    /// times a factor over time.</summary>
+    /// <summary>The follower loads at the wire's end: a couple and a force along the axes of the end, each times a
+    /// factor over time.</summary>
     /// <remarks>The end is half an element beyond the middle of the last one, whose axes the terms know. Over that half
     /// the wire turns by l/2 times its mean curvature, rest + B^-1 (m + l/4 e3 x f), which is as constant along these
     /// axes as m and f are; so along the element's axes both are turned by it. Without this turn they would point

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the wire is made of along its length: even pieces between the borders of its sections, and their
+    /// <summary>Material of the wire along its length: piecewise constant between the borders of its sections, and its
     /// mean over an element.</summary>
     /// <remarks>Over an element that holds a border, compliances (1/EA, 1/GA), masses and rotary inertia are averaged
     /// by length. A joint turns the element after it against the one before it, each a straight line that stands for

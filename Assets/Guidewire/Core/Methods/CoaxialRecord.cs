@@ -2,9 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is read off of a catheter over a wire at one moment: of the catheter all, of the wire what its hub
-    /// feels; and what the model of one shared centreline leaves out between the catheter and the next instrument
-    /// inside it.</summary>
+    /// <summary>Results of a catheter over a wire at one time: those of the catheter, the force at the wire's hub, and
+    /// the play neglected by the shared centreline between the catheter and the next instrument inside it.</summary>
     /// <remarks>Force and torque are those of a hub on its instrument: a thrust and a turn to the right, as seen from
     /// the hub, are positive. Those of inner instruments are derivatives of the energy in their hubs' positions and
     /// turns, the outermost one's the chain's reaction less those.
@@ -17,7 +16,7 @@ namespace Guidewire.Core
         /// <summary>Play angle in degrees from which on a warning is due.</summary>
         public const double LargePlay = 15.0;
 
-        /// <summary>The same of a over the overlap.</summary>
+        /// <summary>The same for a over the overlap.</summary>
         public const double LargeLength = 0.1;
 
         private const double LostAtTip = 0.66;
@@ -50,7 +49,7 @@ namespace Guidewire.Core
             _lumen = lumenRadius;
         }
 
-        /// <summary>What is read off of the catheter in this one; null where the wire is next.</summary>
+        /// <summary>Results of the catheter inside this one; null if the wire is next.</summary>
         public CoaxialRecord? Inside { get; internal set; }
 
         /// <summary>The catheter's n + 1 nodes, units.</summary>
@@ -59,10 +58,10 @@ namespace Guidewire.Core
         /// <summary>Its n elements.</summary>
         public Quaterniond[] Orientations { get; }
 
-        /// <summary>How far the catheter's hub has gone along its axis since the start, m.</summary>
+        /// <summary>Insertion of the catheter's hub since the start, m.</summary>
         public double Insertion { get; private set; }
 
-        /// <summary>How far it has turned since the start, rad.</summary>
+        /// <summary>Rotation of the catheter's hub since the start, rad.</summary>
         public double Turn { get; private set; }
 
         /// <summary>Force of the catheter's hub, N.</summary>
@@ -101,7 +100,7 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint of both, 1/m.</summary>
         public double LargestCurvature { get; private set; }
 
-        /// <summary>How far the tip of the next instrument inside is beyond the catheter's, m; negative
+        /// <summary>Distance of the tip of the next instrument inside beyond the catheter's tip, m; negative
         /// inside.</summary>
         public double Extension { get; private set; }
 
@@ -140,8 +139,8 @@ namespace Guidewire.Core
                 bool isSharp = PlayAngle > LargePlay;
                 bool isLong = PlayLength > LargeLength * Overlap;
                 return isSharp || isLong ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                    "the {4} has {0:G3} mm of play in the {5}, which is not simulated: it may leave it at up to"
-                    + " {1:G3} degrees from its axis, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
+                    "the {4} has {0:G3} mm of play in the {5}, which is not simulated: at the tip their axes may "
+                    + "differ by up to {1:G3} degrees, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
                     1e3 * _play, PlayAngle, 1e3 * LengthLost, 1e3 * Overlap,
                     Inside == null ? "wire" : "inner catheter or wire",
                     Inside != null ? "outer catheter" : _instrument > 0 ? "inner catheter" : "catheter") : null;
@@ -223,7 +222,7 @@ namespace Guidewire.Core
 
         /// <summary>Counts a step that both drives have prepared.</summary>
         /// <param name="from">Insertion of the catheter's hub before it, m.</param>
-        /// <param name="wireFrom">The same of the wire's.</param>
+        /// <param name="wireFrom">The same for the wire's.</param>
         internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
         {
             _asked += drive.Asked;

@@ -1,11 +1,11 @@
 namespace Guidewire.Core
 {
-    /// <summary>What every method for a material needs to go on, laid out the same for all of them, so that each can
-    /// read what another wrote: time, shape, frames, velocities, and how far the prescribed motions have come. After it
+    /// <summary>The state that every method for a material needs to continue, in one common layout, so that each can
+    /// read the state of another: time, shape, frames, velocities, and the progress of the prescribed motions. After it
     /// each method writes the turns of both clamps' frames, then one section of its own.</summary>
     internal static class MaterialSnapshot
     {
-        /// <summary>Writes or takes over the wire's motion.</summary>
+        /// <summary>Writes or restores the wire's motion.</summary>
         /// <param name="velocities">m/s.</param>
         /// <param name="spins">rad/s along the elements' axes.</param>
         /// <param name="time">s.</param>

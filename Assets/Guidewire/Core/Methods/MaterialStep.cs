@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What the steps of all methods for a material share: the wire, the monitors that end a run, and the
+    /// <summary>Common base of the steps of all methods for a material: the wire, the monitors that end a run, and the
     /// stress.</summary>
     internal abstract class MaterialStep : TimeStepper
     {
@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// <param name="inertia">How its motion counts against the energy that is put in.</param>
         /// <param name="velocities">Of the nodes, m/s, now and after each step.</param>
         /// <param name="spins">Of the elements along their own axes, rad/s.</param>
-        /// <param name="results">What the solver says of itself.</param>
+        /// <param name="results">The solver's report on its own work.</param>
         /// <param name="contacts">Forces of walls that are not among the terms, or null.</param>
         protected MaterialStep(MaterialScene scene, RodTerms terms, IKineticEnergy inertia, Vector3d[] velocities,
             Vector3d[] spins, MethodParameters method, SolverReport results, EnergyTerm? contacts = null)
@@ -53,7 +53,7 @@ namespace Guidewire.Core
         /// <summary>dt, s.</summary>
         protected double TimeStep { get; }
 
-        /// <summary>What the solver says of itself.</summary>
+        /// <summary>The solver's report on its own work.</summary>
         protected SolverReport Results { get; }
 
         /// <summary>Work of the supports.</summary>

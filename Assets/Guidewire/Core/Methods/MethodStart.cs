@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>A run as a method has built it, before its first step.</summary>
+    /// <summary>A run as built by a method, before its first step.</summary>
     internal sealed class MethodStart
     {
         /// <summary>A wire and what steps it.</summary>

@@ -1,6 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>What a solver for a material says of itself at the end of a run. A number that does not apply is NaN, a
+    /// <summary>Results of a solver for a material about its own work, at the end of a run. A number that does not
+    /// apply is NaN, a
     /// force or couple that the method does not compute null.</summary>
     public sealed class SolverReport
     {
@@ -49,7 +50,7 @@ namespace Guidewire.Core
         public double TimeStepError { get; internal set; } = double.NaN;
 
         /// <summary>Steps that were taken within the logged ones, which end at jumps of loads and are cut where an
-        /// error is asked for.</summary>
+        /// error is requested.</summary>
         public long InnerSteps { get; internal set; }
 
         /// <summary>Longest substep, s, with which explicit steps are stable about the wire's rest shape.</summary>
@@ -73,7 +74,7 @@ namespace Guidewire.Core
         /// <summary>Largest values of the run; null with xpbd and explicit.</summary>
         public RunExtremes? Extremes { get; internal set; }
 
-        /// <summary>Writes or takes over what the rest shape of the start left here, and the run's extremes; the
+        /// <summary>Writes or restores what the rest shape of the start left here, and the run's extremes; the
         /// rest is stated anew by each report.</summary>
         internal void Serialize(Snapshot snapshot)
         {

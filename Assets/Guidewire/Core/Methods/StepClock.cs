@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Counts steps and tells the time, t = t_0 + (k - k_0) dt, where k_0 is the step at which dt was last
+    /// <summary>Counts steps and gives the time, t = t_0 + (k - k_0) dt, where k_0 is the step at which dt was last
     /// changed.</summary>
     internal sealed class StepClock
     {

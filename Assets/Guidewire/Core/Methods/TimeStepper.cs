@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>A method at work: takes a wire from one moment to the next, and says how that went. One implementation
-    /// a method; which one a run has is chosen once, when it is built.</summary>
+    /// <summary>Advances a wire in time by steps of one method, and reports their success. One implementation per
+    /// method, chosen when a run is built.</summary>
     internal abstract class TimeStepper
     {
         /// <summary>Distance in units between the last sphere's prediction and where the constraints left it in the
@@ -41,7 +41,7 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>What is read off of the outermost catheter over the wire, and of the one in it; null without
+        /// <summary>Results of the outermost catheter, and of the one inside it; null without
         /// one.</summary>
         public virtual CoaxialRecord? Coaxial()
         {
@@ -51,13 +51,13 @@ namespace Guidewire.Core
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 
-        /// <summary>What the solver says of itself after the steps so far; null with pbd.</summary>
+        /// <summary>The solver's report on its own work after the steps so far; null with pbd.</summary>
         public virtual SolverReport? Report()
         {
             return null;
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, all that the next step depends on besides the
+        /// <summary>Writes into a snapshot, or restores from one, all that the next step depends on besides the
         /// <see cref="RodState"/>: history, predictors, counters, what is prescribed.</summary>
         public virtual void Serialize(Snapshot snapshot)
         {

@@ -2,7 +2,7 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>How the runtime is asked to compile a method.</summary>
+    /// <summary>Compilation hints for the runtime.</summary>
     internal static class Compiled
     {
         /// <summary>In full at the first call: AggressiveOptimization, which netstandard2.1 knows by number

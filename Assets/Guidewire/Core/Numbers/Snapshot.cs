@@ -4,7 +4,7 @@ using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>All that a run depends on at one moment, as bits: a run that goes on from it takes the same steps, bit
+    /// <summary>All that a run depends on at one time, as bits: a run that goes on from it takes the same steps, bit
     /// for bit, as one that was not interrupted.</summary>
     /// <remarks>What belongs together is listed once, in a method that takes a snapshot and passes it each number by
     /// reference, or takes each property back from it: the same list writes a snapshot and reads one, so the two cannot
@@ -251,7 +251,8 @@ namespace Guidewire.Core
                 content(this);
                 if (_at != next)
                 {
-                    throw new InvalidOperationException("section " + key + " is read otherwise than it was written");
+                    throw new InvalidOperationException("section " + key + " is read differently from how it was "
+                        + "written");
                 }
             }
             _at = (int)next;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Small dense matrices without symmetry: inverse, and on which side of a line their eigenvalues
-    /// lie.</summary>
+    /// <summary>Small dense matrices without symmetry: inverse, and the number of eigenvalues on one side of a
+    /// line.</summary>
     /// <remarks>The sign of a matrix has its eigenvectors and the eigenvalues +1 and -1, as the real parts are above or
     /// below 0 (Roberts 1980). Newton's iteration S := (S + S^-1)/2 finds it, and its trace is the difference of their
     /// numbers. Scaling S by |det S|^(-1/n) first prevents eigenvalues of unlike size from taking turns (Byers

@@ -3,8 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>A list of structs that is filled anew again and again: its memory grows where it must and is kept, so
-    /// that filling it allocates nothing once it has been as long before.</summary>
+    /// <summary>A list of structs that is refilled repeatedly: its memory grows as needed and is reused, so that
+    /// refilling it to an earlier length allocates nothing.</summary>
     internal sealed class StructList<T>
         where T : struct
     {

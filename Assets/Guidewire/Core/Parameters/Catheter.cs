@@ -10,7 +10,7 @@ namespace Guidewire.Core
         /// <summary>n.</summary>
         public int Elements { get; set; } = 30;
 
-        /// <summary>How far its hub is ahead of the wire's at the start, units.</summary>
+        /// <summary>Distance of its hub ahead of the wire's at the start, units.</summary>
         public double Start { get; set; }
 
         /// <summary>Coefficient of friction of its outside with all walls; NaN: those of the walls.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>How long a piece of rod the spring between a clamp's frame and the first element stands for.</summary>
+    /// <summary>Length of rod that the spring between a clamp's frame and the first element represents.</summary>
     public enum ClampRule
     {
         /// <summary>Gregory's end weights 3/8, 7/6 and 23/24 of an element for the clamp's spring and the next two

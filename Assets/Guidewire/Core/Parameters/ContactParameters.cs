@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>How the wire touches walls, for methods that meet them.</summary>
+    /// <summary>Contact with walls, for methods that support them.</summary>
     public sealed class ContactParameters
     {
         /// <summary>r in units.</summary>

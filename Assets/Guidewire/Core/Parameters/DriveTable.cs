@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a hub is over time: how far it has gone along its axis and how far it has turned about it. Only
-    /// differences count.</summary>
+    /// <summary>Motion of a hub over time: insertion along its axis and rotation about it. Only differences
+    /// matter.</summary>
     public sealed class DriveTable
     {
         /// <summary>A table of both.</summary>
@@ -14,8 +14,8 @@ namespace Guidewire.Core
         {
             if (insertion.HasJumps || rotation.HasJumps)
             {
-                throw new ArgumentException("a hub cannot be at two places at one time: times have to increase from row"
-                    + " to row");
+                throw new ArgumentException("the hub cannot be at two positions at one time: times have to increase "
+                    + "from row to row");
             }
             Insertion = insertion;
             Rotation = rotation;

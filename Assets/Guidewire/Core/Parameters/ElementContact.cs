@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What touches a wall besides the spheres.</summary>
+    /// <summary>Contact of rod elements with walls, in addition to that of spheres.</summary>
     public enum ElementContact
     {
         /// <summary>Rod elements; the correction is split between their two spheres by the lever rule.</summary>

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a held end of the wire is over time, in all six degrees of freedom: its displacement, and the
-    /// rotation vector of its frame, both in the world's axes and against the start. Linear between rows, at rest after
+    /// <summary>Motion of a held end of the wire over time, in all six degrees of freedom: its displacement, and the
+    /// rotation vector of its frame, both in world axes and relative to the start. Linear between rows, at rest after
     /// the last.</summary>
     public sealed class EndMotion
     {
@@ -54,7 +54,7 @@ namespace Guidewire.Core
             return RateOf(_displacements, time);
         }
 
-        /// <summary>Rotation of the frame against the start at this time.</summary>
+        /// <summary>Rotation of the frame at this time, relative to the start.</summary>
         public Quaterniond RotationAt(double time)
         {
             return RotationVector.Exp(At(_rotations, time));

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What makes a wire of a material (solvers xpbd, direct, explicit), in SI units except for positions
+    /// <summary>Material of the wire (solvers xpbd, direct, explicit), in SI units except for positions
     /// along the wire, which are in units of length.</summary>
     public sealed class MaterialParameters
     {

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What every method takes, once.</summary>
+    /// <summary>The features and keys that each method supports.</summary>
     public static class MethodTable
     {
         // Planes of contact are used again until the wire has moved some distance, and iterations leave a residual.

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What a method takes: one row of the <see cref="MethodTable"/>.</summary>
+    /// <summary>The features and keys that a method supports: one row of the <see cref="MethodTable"/>.</summary>
     public sealed class MethodTraits
     {
         /// <summary>The method.</summary>
@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// spring.</summary>
         public bool HasBarriers { get; internal set; }
 
-        /// <summary>How far contact may let a wall into the wire, in its radii.</summary>
+        /// <summary>Largest penetration depth allowed by its contact, in radii of the wire.</summary>
         public double DepthInRadii { get; internal set; }
 
         /// <summary>Whether a user may steer it.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>What makes a pbd wire: it has no material, and its mass is given as a whole.</summary>
+    /// <summary>Properties of a pbd wire, which has no material and whose mass is given as a whole.</summary>
     public sealed class PbdParameters
     {
         /// <summary>k_A, pbd stiffness of the stretch constraint, dimensionless: at 2 the iteration diverges.</summary>

@@ -45,7 +45,7 @@ namespace Guidewire.Core
         /// (<see cref="ClampExtrapolation"/>). With pbd a clamp holds the first element itself.</summary>
         public Quaterniond? ProximalFrame { get; set; }
 
-        /// <summary>The same of the distal clamp and the last elements.</summary>
+        /// <summary>The same for the distal clamp and the last elements.</summary>
         public Quaterniond? DistalFrame { get; set; }
 
         /// <summary>n + 1 velocities in unit/s.</summary>
@@ -93,13 +93,13 @@ namespace Guidewire.Core
                 if (along == Vector3d.Zero)
                 {
                     return string.Format(CultureInfo.InvariantCulture,
-                        "positions[{0}] and positions[{1}] are one place: element {0} has no length", j, j + 1);
+                        "positions[{0}] and positions[{1}] coincide: element {0} has no length", j, j + 1);
                 }
                 if (!(angle <= LargestShear))
                 {
                     return string.Format(CultureInfo.InvariantCulture, "orientations[{0}] is {1:0} degrees off the line"
-                        + " from positions[{0}] to positions[{2}], at most {3:0} are meant: it turns z, [0, 0, 1], into"
-                        + " the direction of its element", j, angle, j + 1, LargestShear);
+                        + " from positions[{0}] to positions[{2}], at most {3:0} are allowed: it must rotate z, [0, "
+                        + "0, 1], into the direction of its element", j, angle, j + 1, LargestShear);
                 }
             }
             return null;

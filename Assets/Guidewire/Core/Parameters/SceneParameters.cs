@@ -3,7 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is simulated, whatever the method: the wire's length and start, how its ends are held, what acts
+    /// <summary>What is simulated, independent of the method: the wire's length and start, how its ends are held, what
+    /// acts
     /// on it, and the walls around it. Lengths are in units; loads are in mass units, units and seconds with pbd, in SI
     /// units with a material.</summary>
     public sealed class SceneParameters
@@ -24,7 +25,7 @@ namespace Guidewire.Core
         /// <summary>Length of one unit, m.</summary>
         public double MetresPerUnit { get; set; } = 1e-3;
 
-        /// <summary>The shape it sets out from.</summary>
+        /// <summary>The shape it starts from.</summary>
         public StartShape StartShape { get; set; } = StartShape.Straight;
 
         /// <summary>Radius of a helix to start from, units.</summary>
@@ -70,7 +71,7 @@ namespace Guidewire.Core
         /// <summary>Force per length of the wire at rest, N/m.</summary>
         public Vector3d DistributedForce { get; set; }
 
-        /// <summary>Forces at places of the wire.</summary>
+        /// <summary>Forces at points of the wire.</summary>
         public PointLoad[] PointLoads { get; set; } = Array.Empty<PointLoad>();
 
         /// <summary>Factor on all <see cref="PointLoads"/> over time, or null.</summary>
@@ -106,7 +107,7 @@ namespace Guidewire.Core
         /// <summary>Force along the axis of a sliding distal end, N; a pull is positive.</summary>
         public double AxialForce { get; set; }
 
-        /// <summary>The vessel and what stands in it, placed; none costs nothing.</summary>
+        /// <summary>The vessel and the obstacles, placed; an empty list is free of cost.</summary>
         public ContactShape[] Walls { get; set; } = Array.Empty<ContactShape>();
 
         /// <summary>The sheath from which the wire is fed into the vessel, or null.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Everything that one run is told, as typed values in groups. The initial values are the defaults of the
+    /// <summary>All parameters of a run, as typed values in groups. The initial values are the defaults of the
     /// thesis (table 4.1). Text, units, allowed ranges and the methods that take each stand in the parameter table of
     /// Guidewire.Io.</summary>
     public sealed class SimulationParameters

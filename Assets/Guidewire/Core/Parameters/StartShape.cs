@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>The shape from which a run with a material sets out.</summary>
+    /// <summary>The initial shape of a run with a material.</summary>
     public enum StartShape
     {
         /// <summary>Along z.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>User steering of the wire: set between two steps by whoever steers, read in the next.</summary>
+    /// <summary>User steering of the wire: set between two steps, read in the next.</summary>
     public sealed class Steering
     {
         /// <summary>Motion of sphere 0 along the first element in the next step (thesis eq. 3.6), units; negative

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod is: positions x_0 .. x_n of its nodes, orientations q_0 .. q_(n-1) of its elements,
+    /// <summary>Shape of a rod: positions x_0 .. x_n of its nodes, orientations q_0 .. q_(n-1) of its elements,
     /// and the frames to which its two ends may be clamped.</summary>
     internal sealed class RodShape
     {

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A wire of n rod elements and n + 1 spheres at one moment: what a step reads and writes.</summary>
+    /// <summary>A wire of n rod elements and n + 1 spheres at one time: what a step reads and writes.</summary>
     /// <remarks>Element j joins spheres j and j + 1. Its orientation q takes the body's z axis to the third director d3
     /// = q e3 q*, which lies along the element where nothing shears it. Arrays are made once; at the end of a step
     /// previous, current and predicted ones are swapped, so take them from the properties anew each step.</remarks>

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the wire's material feels, sphere by sphere: for pictures and logs, never for a step.</summary>
+    /// <summary>Stretch, bending and twist of the wire at each sphere: for pictures and logs only.</summary>
     public static class RodStrain
     {
         /// <summary>Length over rest length, less 1, of the elements at sphere i; the mean of both where there are two.

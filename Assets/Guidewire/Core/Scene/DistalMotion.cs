@@ -94,7 +94,7 @@ namespace Guidewire.Core
                 && (_motion == null || double.IsInfinity(_motion.NextRow(time)));
         }
 
-        /// <summary>Writes or takes over where it began.</summary>
+        /// <summary>Writes or restores where it began.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _position);

@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>How long each rod element is: L/n, but in sections with a number of elements of their own.</summary>
+    /// <summary>Length of each rod element: L/n, but in sections with a number of elements of their own.</summary>
     /// <remarks>Such a section is cut into its own number of equal elements. What lies between these sections is the
     /// rest of the wire; its elements are numberRodElements altogether, at least one in each piece, the others
     /// distributed out by length with the largest remainders first. Where nothing is left of the wire, that number does

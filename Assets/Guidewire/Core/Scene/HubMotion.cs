@@ -140,7 +140,7 @@ namespace Guidewire.Core
                 && _velocity == Vector3d.Zero && _twistRate == 0.0;
         }
 
-        /// <summary>Writes or takes over what a drive prescribes anew before every step, for a
+        /// <summary>Writes or restores what a drive prescribes anew before every step, for a
         /// <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
@@ -152,7 +152,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _turnOriginTime);
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, where the hub is at this time. Its rate stays its
+        /// <summary>Writes into a snapshot, or restores from one, where the hub is at this time. Its rate stays its
         /// own: a twist at another rate goes on from the present turn, and node 0 stays where a drive has brought it
         /// until a drive takes it on.</summary>
         public void Serialize(Snapshot snapshot, double time)

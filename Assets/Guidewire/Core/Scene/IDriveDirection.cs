@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>The direction in which a drive moves sphere 0, whatever the method: how far is the method's to say, in
-    /// its own lengths.</summary>
+    /// <summary>The direction in which a drive moves sphere 0, independent of the method, which determines the
+    /// displacement in its own units of length.</summary>
     internal interface IDriveDirection
     {
         /// <summary>A unit vector.</summary>

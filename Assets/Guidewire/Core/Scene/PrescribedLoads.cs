@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The loads on a wire over time: weight, forces on its ends and force per length. None of them ever
-    /// changes but with time, so several motions may share them.</summary>
+    /// <summary>The loads on a wire over time: weight, forces on its ends and force per length. They are functions of
+    /// time only, so several motions may share them.</summary>
     internal sealed class PrescribedLoads
     {
         private readonly Vector3d _gravity;           // m/s^2
@@ -72,7 +72,7 @@ namespace Guidewire.Core
             return Factor(_distributedForceTable, time) * _distributedForce;
         }
 
-        /// <summary>Forces at places of the wire, at lengths in m, without their factor.</summary>
+        /// <summary>Point loads on the wire, at arc lengths in m, without their factor.</summary>
         public ReadOnlySpan<PointLoad> PointLoads => _pointLoads;
 
         /// <summary>Factor on them at this time.</summary>
@@ -97,7 +97,7 @@ namespace Guidewire.Core
                 + points;
         }
 
-        /// <summary>The first time after this one, s, at which a load jumps: the tip force is let go, or a table has
+        /// <summary>The first time after this one, s, at which a load jumps: the tip force is released, or a table has
         /// two rows of one time. Infinite where none does.</summary>
         public double NextJump(double time)
         {

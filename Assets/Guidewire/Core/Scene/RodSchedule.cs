@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is prescribed of one wire in time: its loads, the motion of its hub and that of a held distal
+    /// <summary>What is prescribed over time for one wire: its loads, the motion of its hub and that of a held distal
     /// end.</summary>
     internal sealed class RodSchedule
     {
@@ -34,7 +34,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The first time after this one, s, at which a load or the velocity of a support jumps: the tip force
-        /// is let go, a table of a load has two rows of one time, the distal end comes to rest. Infinite where none
+        /// is released, a table of a load has two rows of one time, the distal end comes to rest. Infinite where none
         /// does.</summary>
         public double NextJump(double time)
         {
@@ -79,8 +79,8 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>The largest turn between the two frames from a time to an end, s, over that at the time; 1 where
-        /// there is none yet.</summary>
+        /// <summary>The largest rotation between the two frames in the interval from a time to an end, s, relative to
+        /// that at its start; 1 if that is zero.</summary>
         public double TurnAhead(double time, double end)
         {
             double now = Math.Abs(Distal.TurnAt(time) - Hub.TurnAt(time));
@@ -118,7 +118,7 @@ namespace Guidewire.Core
             return SpinOf(Hub.Motion, Hub.FrameTurned(Hub.FrameTurnAt(time)), Hub.FrameTwistRate, time);
         }
 
-        /// <summary>The same of the distal frame.</summary>
+        /// <summary>The same for the distal frame.</summary>
         public Vector3d DistalSpinAt(double time)
         {
             return SpinOf(Distal.Motion, Distal.FrameAt(time), Distal.TwistRateAt(time), time);
@@ -136,7 +136,7 @@ namespace Guidewire.Core
                 motion.AngularVelocityAt(time));
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, where the prescribed motions began and how far they
+        /// <summary>Writes into a snapshot, or restores from one, where the prescribed motions began and how far they
         /// have come at this time. Loads, ramps and rates stay this schedule's own.</summary>
         public void Serialize(Snapshot snapshot, double time)
         {

@@ -115,7 +115,7 @@ namespace Guidewire.Io
                 ?? throw Wrong(name, "an object {" + string.Join(", ", names) + "}"), names);
         }
 
-        /// <summary>Checks that basis and source are said.</summary>
+        /// <summary>Checks that basis and source are given.</summary>
         public void CheckOrigin()
         {
             Word("basis", Bases);

@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>The keys of a parameter file that an instrument stands for.</summary>
+    /// <summary>The parameter keys that an instrument sets.</summary>
     /// <remarks>The tip stands at the end of the wire, whatever its length: a shorter wire has a shorter shaft. Each
     /// piece of a taper is a section of one element, whose EI has the compliance of the taper over it: for EI linear
     /// from a to b its mean is 1/EI = ln(b/a)/(b - a). Bends are rest curvatures about d1.</remarks>

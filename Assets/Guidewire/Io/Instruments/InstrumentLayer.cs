@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Puts the keys of the instrument that a run names beneath what else is given.</summary>
+    /// <summary>Adds the keys of a run's instrument with lower precedence than all other given keys.</summary>
     /// <remarks>An instrument that a file names lies beneath all keys of the file and of the command line. One that the
     /// command line names replaces the wire of the file, but not its length and number of elements, which belong to the
     /// scene: with them stands where the tip starts.</remarks>

@@ -4,7 +4,7 @@ using System.Globalization;
 
 namespace Guidewire.Io
 {
-    /// <summary>What a number of an instrument's file measures.</summary>
+    /// <summary>The physical quantity of a number in an instrument's file.</summary>
     internal enum Dimension
     {
         /// <summary>A length, m.</summary>

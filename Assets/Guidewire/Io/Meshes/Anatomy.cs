@@ -6,8 +6,8 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>Ends and centreline of a vessel: a tree of points, each with the radius of the sphere that fits into
-    /// the lumen there. Lengths in units of the scene, the vessel placed.</summary>
+    /// <summary>Ends and centreline of a vessel: a tree of points, each with the radius of the largest inscribed
+    /// sphere. Lengths in units of the scene, the vessel placed.</summary>
     internal sealed class Anatomy
     {
         /// <summary>A point near the middle of each open rim, in the mesh file's own units and frame.</summary>
@@ -43,7 +43,7 @@ namespace Guidewire.Io
             return Ends.OrderBy(end => Vector3d.Distance(end.Centre, point)).First();
         }
 
-        /// <summary>The ends as an error line lists them, with number and place.</summary>
+        /// <summary>The ends as listed in an error line, with number and position.</summary>
         public string List()
         {
             return string.Join(", ", Ends.Take(12).Select(end => string.Format(CultureInfo.InvariantCulture,

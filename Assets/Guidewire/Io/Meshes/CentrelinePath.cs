@@ -5,8 +5,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Distances along a vessel's centreline from the inlet, and where on it a point of the lumen
-    /// is.</summary>
+    /// <summary>Distances along a vessel's centreline from the inlet, and the position on it nearest to a point of the
+    /// lumen.</summary>
     /// <remarks>A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, the power of p: not
     /// to the nearest centre, because beside a wide vessel the middle of a narrow one may be nearer to points of the
     /// wide one. The centreline is a tree: of a loop of vessels it has the shorter sides.</remarks>
@@ -53,7 +53,7 @@ namespace Guidewire.Io
         /// <summary>Where distances begin.</summary>
         public VesselEnd Inlet { get; }
 
-        /// <summary>Where the tip is to come: a point of the centreline; -1 where nothing is asked.</summary>
+        /// <summary>Target of the tip: a point of the centreline; -1 without a target.</summary>
         public int Target { get; set; } = -1;
 
         /// <summary>The target as it is called.</summary>

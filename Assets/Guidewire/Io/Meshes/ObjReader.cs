@@ -23,7 +23,7 @@ namespace Guidewire.Io
             }
             if (!TextLines.IsText(bytes))
             {
-                return "is not text, which OBJ is";
+                return "is not a text file, as OBJ must be";
             }
             var lines = new TextLines(bytes);
             while (lines.Next())

@@ -7,7 +7,7 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Io
 {
     /// <summary>Makes walls of the keys vessel and obstacles. A vessel is placed by position, scale and rotation;
-    /// obstacles stand where their numbers say.</summary>
+    /// obstacles have absolute coordinates.</summary>
     internal static class WallReader
     {
         /// <summary>All walls of a scene.</summary>
@@ -45,8 +45,8 @@ namespace Guidewire.Io
             if (count > 0)
             {
                 warnings.Add(string.Format(CultureInfo.InvariantCulture,
-                    "{0}: the mesh goes through itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
-                    + " {4:G6}); what is inside there is not defined", file, count, position.X, position.Y,
+                    "{0}: the mesh intersects itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
+                    + " {4:G6}); there the inside is not defined", file, count, position.X, position.Y,
                         position.Z));
             }
         }
@@ -100,7 +100,7 @@ namespace Guidewire.Io
             double size = Math.Abs(scene.Scale.X);
             if (Math.Abs(scene.Scale.Y) != size || Math.Abs(scene.Scale.Z) != size)
             {
-                throw fields.Refused("a tube's scale needs three equal factors, so that it stays round");
+                throw fields.Refused("a tube's scale needs three equal factors, so that its section stays circular");
             }
             Vector3d[] knots = fields.Vectors("knots");
             double[] radii = fields.Numbers("radius", knots.Length);
@@ -123,8 +123,8 @@ namespace Guidewire.Io
             }
             catch (ArgumentException)
             {
-                throw fields.Refused("smooth = true: near a corner the radius changes too steeply for an arc: false,"
-                    + " or knots with radii that change less");
+                throw fields.Refused("smooth = true: near a corner the radius changes too fast for an arc; set it "
+                    + "to false, or let the radii change less");
             }
         }
 

@@ -155,7 +155,7 @@ namespace Guidewire.Io
                     property.Value.ToString(Formatting.None), "a number >= 0" + unit);
         }
 
-        // An error says which catheter it is of, and calls keys as a catheter does.
+        // An error names the catheter, and its keys by their names in a catheter.
         private static ParameterHandler Load(List<(string Key, JToken Value, string Source)> given, string where)
         {
             try

@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>What a file and overrides say: values by key, parts of such values, and who said it.</summary>
+    /// <summary>The values given by a file and overrides: by key, or for parts of a key, with their source.</summary>
     internal sealed class GivenParameters
     {
         private const int LongestValue = 80;    // characters that are repeated in a refusal
@@ -52,25 +52,25 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>What is said of a key, and who said it; false where nobody did.</summary>
+        /// <summary>The value of a key and its source; false if it is not given.</summary>
         public bool TryGet(string key, out (JToken Value, string Source) given)
         {
             return _wholes.TryGetValue(key, out given);
         }
 
-        /// <summary>Whether something is said of a key.</summary>
+        /// <summary>Whether a key is given.</summary>
         public bool Has(string key)
         {
             return _wholes.ContainsKey(key);
         }
 
-        /// <summary>Takes back what is said of a key.</summary>
+        /// <summary>Removes the value of a key.</summary>
         public void Remove(string key)
         {
             _wholes.Remove(key);
         }
 
-        /// <summary>Who said what stands at a path, or a part of it; nobody: an empty text.</summary>
+        /// <summary>The source of the value at a path, or of a part of it; empty if none is given.</summary>
         public string SourceOf(string path)
         {
             for (int k = _parts.Count - 1; k >= 0; k--)

@@ -6,7 +6,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads the keys inlet and target: lays the wire, and its sheath, at an end of the vessel.</summary>
+    /// <summary>Reads the keys inlet and target: places the wire, and its sheath, at an end of the vessel.</summary>
     internal static class InletReader
     {
         // A point names an end from so many of its radii.

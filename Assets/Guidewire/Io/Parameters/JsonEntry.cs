@@ -3,7 +3,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>An object or a list that a reader of its own takes apart, or null for none.</summary>
+    /// <summary>An object or a list with its own reader, or null for none.</summary>
     internal sealed class JsonEntry : ValueEntry<JToken?>
     {
         private readonly JTokenType _type;

@@ -4,8 +4,8 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>What a key that is not known most likely meant: one of nearly the same spelling, or what is called
-    /// otherwise here.</summary>
+    /// <summary>Suggests what an unknown key most likely meant: a key of similar spelling, or the name used
+    /// here.</summary>
     public static class KeyHint
     {
         // What it may be called elsewhere, and the keys for it, of which a solver takes one.
@@ -26,8 +26,8 @@ namespace Guidewire.Io
         private static readonly Dictionary<string, string> Absent =
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase)
             {
-                ["selfContact"] = "a wire does not meet itself: there is no such key",
-                ["selfCollision"] = "a wire does not meet itself: there is no such key",
+                ["selfContact"] = "there is no self-contact, and no such key",
+                ["selfCollision"] = "there is no self-contact, and no such key",
             };
 
         /// <summary>The end of a line on a key that is not known.</summary>

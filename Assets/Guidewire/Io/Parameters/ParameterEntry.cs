@@ -34,8 +34,8 @@ namespace Guidewire.Io
         /// passed over, with a line that says so, in a file.</summary>
         public IReadOnlyList<Solver> Methods { get; internal set; } = Array.Empty<Solver>();
 
-        /// <summary>Whether a method that does not take the key refuses it in a file too, where it asks for something:
-        /// a run without the wall or the load that it names would answer another question.</summary>
+        /// <summary>Whether a method that does not take the key refuses it in a file too, if it has an effect: a run
+        /// without its wall or load would simulate something else.</summary>
         public bool IsRefusedElsewhere { get; internal set; }
 
         /// <summary>The keys that say it for the other methods, or null.</summary>

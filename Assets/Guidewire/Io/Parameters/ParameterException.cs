@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Io
 {
-    /// <summary>Something that the user wrote cannot be run. The message is one line that names the file or the command
+    /// <summary>An error in the user's input. The message is one line that names the file or the command
     /// line, the key, the value and what is allowed.</summary>
     public sealed class ParameterException : Exception
     {

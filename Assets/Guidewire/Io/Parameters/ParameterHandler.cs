@@ -244,7 +244,7 @@ namespace Guidewire.Io
             }
             if (_ignored.Count > 0)
             {
-                AddWarning("solver {0} does not take {1}: passed over", ChoiceEntry<Solver>.Word(Method.ToString()),
+                AddWarning("solver {0} does not take {1}: ignored", ChoiceEntry<Solver>.Word(Method.ToString()),
                     string.Join(", ", _ignored));
             }
         }
@@ -386,7 +386,7 @@ namespace Guidewire.Io
             {
                 if (_given.TryGet(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
                 {
-                    AddWarning("{0}: {1} = {2} is an older word and means \"{3}\"", given.Source, entry.Key,
+                    AddWarning("{0}: {1} = {2} is an older name and means \"{3}\"", given.Source, entry.Key,
                         given.Value.ToString(Formatting.None), newer);
                 }
             }
@@ -395,14 +395,15 @@ namespace Guidewire.Io
             WarnOfSections(simulation);
             if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
-                AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}, which counts",
+                AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}; the latter "
+                    + "is used",
                     length.Source, (double)length.Value, l);
             }
             if (Method == Solver.Direct && _given.TryGet("frictionSpeed", out var speed)
                 && (double)speed.Value != ContactEntries.DefaultFrictionSpeed)
             {
-                AddWarning("{0}: frictionSpeed is of no effect: contact sticks at any speed, elastically up to"
-                    + " elasticSlip", speed.Source);
+                AddWarning("{0}: frictionSpeed has no effect: contacts stick at any speed, elastically up to "
+                    + "elasticSlip", speed.Source);
             }
             if (Method != Solver.Pbd)
             {
@@ -410,12 +411,12 @@ namespace Guidewire.Io
             }
             if (simulation.Pbd.StretchStiffness >= 2.0)
             {
-                AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion breaks down",
+                AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion becomes unstable",
                     simulation.Pbd.StretchStiffness);
             }
             if (simulation.Pbd.BendStiffness > l)
             {
-                AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending breaks down",
+                AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending becomes unstable",
                     simulation.Pbd.BendStiffness, l);
             }
         }
@@ -433,8 +434,8 @@ namespace Guidewire.Io
                 }
                 else if (fraction < 0.5)
                 {
-                    AddWarning("wireSections[{0}] from {1} to {2} is {3:G3} of an element long: it acts as a part of"
-                        + " that element; give it a numberRodElements of its own", k, sections[k].From,
+                    AddWarning("wireSections[{0}] from {1} to {2} is {3:G3} of an element long and only contributes "
+                        + "to the average of that element; give it a numberRodElements of its own", k, sections[k].From,
                         sections[k].To, fraction);
                 }
             }

@@ -8,8 +8,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>SHA-256 of all effective values but output paths: of files what they hold, not what they are
-    /// called.</summary>
+    /// <summary>SHA-256 of all effective values but output paths: for files their contents, not their names.</summary>
     internal static class ParameterHash
     {
         /// <summary>The hash, in hex.</summary>

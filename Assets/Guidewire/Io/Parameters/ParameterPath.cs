@@ -5,7 +5,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Where a value stands: a key, or a part of what a key holds, such as <c>vessel.radius</c>,
+    /// <summary>Path of a value: a key, or a part of its value, such as <c>vessel.radius</c>,
     /// <c>obstacles[0].radius</c>, <c>wireSections[-1].youngsModulus</c> or <c>gravity[1]</c>. A negative index counts
     /// from a list's end.</summary>
     internal sealed class ParameterPath
@@ -69,7 +69,7 @@ namespace Guidewire.Io
         /// <param name="root">What the key holds; changed, unless the path is the key alone.</param>
         /// <param name="value">The part.</param>
         /// <returns>What the key holds now.</returns>
-        /// <exception cref="ParameterException">The path leads nowhere: one line without a source.</exception>
+        /// <exception cref="ParameterException">The path does not exist: one line without a source.</exception>
         public JToken Lay(JToken root, JToken value)
         {
             if (Depth == 0)
@@ -91,7 +91,7 @@ namespace Guidewire.Io
                         break;
                     }
                     holder = map[_names[k]]
-                        ?? throw new ParameterException(Text + " leads nowhere: there is no " + reached);
+                        ?? throw new ParameterException(Text + " does not exist: there is no " + reached);
                 }
                 else
                 {
@@ -121,7 +121,7 @@ namespace Guidewire.Io
                     + reached + "[0]" + (list.Count > 1 ? " to " + reached + "[" + (list.Count - 1) + "]" : "")
                 : holder is JObject ? "an object: " + reached + ".NAME"
                 : holder.Type == JTokenType.Null ? "null, give the whole of it" : "one value without parts";
-            return new ParameterException(Text + " leads nowhere: " + reached + " is " + there);
+            return new ParameterException(Text + " does not exist: " + reached + " is " + there);
         }
 
         private static int EndOfName(string text, int start)

@@ -4,8 +4,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>Where the parameters of a run come from, beside its overrides: a file, or what a host program has in
-    /// its place, such as an asset and the meshes of a scene.</summary>
+    /// <summary>Where the parameters of a run come from, beside its overrides: a file, or its replacement in a host
+    /// program, such as an asset and the meshes of a scene.</summary>
     public sealed class ParameterSource
     {
         private readonly JObject? _content;
@@ -21,7 +21,7 @@ namespace Guidewire.Io
         /// for in its folder.</summary>
         public string? Name { get; }
 
-        /// <summary>Walls beside those that the keys state, in units of the wire.</summary>
+        /// <summary>Walls in addition to those of the keys, in units of the wire.</summary>
         public ContactShape[] Walls { get; }
 
         /// <summary>A file on disk.</summary>

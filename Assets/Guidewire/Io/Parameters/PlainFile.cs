@@ -4,8 +4,8 @@ using System.Text;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads a file that a parameter or an argument names, of <see cref="LargestMebibytes"/> at most: what has
-    /// no end, as a device, is refused in one line like what is not there.</summary>
+    /// <summary>Reads a file that a parameter or an argument names, of <see cref="LargestMebibytes"/> at most: an
+    /// endless device is refused in one line, as is a missing file.</summary>
     internal static class PlainFile
     {
         /// <summary>Largest file that is read, MiB.</summary>

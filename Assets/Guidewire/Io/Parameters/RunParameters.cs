@@ -35,7 +35,7 @@ namespace Guidewire.Io
             Simulation = SimulationParameters.DefaultsOf(solver);
         }
 
-        /// <summary>What Core is told.</summary>
+        /// <summary>The parameters of Core.</summary>
         public SimulationParameters Simulation { get; }
 
         /// <summary>Folder of the results; empty where the command line must name it.</summary>
@@ -44,13 +44,13 @@ namespace Guidewire.Io
         /// <summary>File with a start other than the straight wire; empty for none.</summary>
         public string StartFile { get; set; } = "";
 
-        /// <summary>The same as its key has it, or null.</summary>
+        /// <summary>The same as given by its key, or null.</summary>
         public JToken? Start { get; set; }
 
         /// <summary>When the run ends, s, instead of its largest number of steps; null once that is known.</summary>
         public double? Duration { get; set; }
 
-        /// <summary>The forces at places of the wire as their key has them, or null.</summary>
+        /// <summary>The point loads as given by their key, or null.</summary>
         public JToken? PointLoads { get; set; }
 
         /// <summary>Name of the instrument that the wire is; empty for none.</summary>
@@ -74,13 +74,13 @@ namespace Guidewire.Io
         /// <summary>The vessel's Euler angles in degrees, about z, then x, then y, as in Unity.</summary>
         public Vector3d Rotation { get; set; }
 
-        /// <summary>The vessel as its key has it, or null.</summary>
+        /// <summary>The vessel as given by its key, or null.</summary>
         public JToken? Vessel { get; set; }
 
         /// <summary>The obstacles as their key has them, or null.</summary>
         public JToken? Obstacles { get; set; }
 
-        /// <summary>The sheath as its key has it, or null.</summary>
+        /// <summary>The sheath as given by its key, or null.</summary>
         public JToken? Sheath { get; set; }
 
         /// <summary>The catheters as their key has them, or null.</summary>
@@ -89,10 +89,10 @@ namespace Guidewire.Io
         /// <summary>Of all that makes the catheters, a line each.</summary>
         internal string CatheterHashes { get; set; } = "";
 
-        /// <summary>The end at which the wire starts as its key has it, or null.</summary>
+        /// <summary>The end at which the wire starts as given by its key, or null.</summary>
         public JToken? Inlet { get; set; }
 
-        /// <summary>Where the tip is to come as its key has it, or null.</summary>
+        /// <summary>Where the tip is to come as given by its key, or null.</summary>
         public JToken? Target { get; set; }
 
         /// <summary>Ends and centreline of the vessel as it is placed, or null where no file says them.</summary>
@@ -110,7 +110,7 @@ namespace Guidewire.Io
         /// <summary>The file with the proximal end's motion in six degrees of freedom; empty for none.</summary>
         public string ProximalMotionFile { get; set; } = "";
 
-        /// <summary>The same of the distal end.</summary>
+        /// <summary>The same for the distal end.</summary>
         public string DistalMotionFile { get; set; } = "";
 
         /// <summary>Every k-th step is logged.</summary>

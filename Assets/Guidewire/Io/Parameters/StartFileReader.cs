@@ -80,7 +80,7 @@ namespace Guidewire.Io
                 if (positions[j] == positions[j + 1])
                 {
                     throw new ParameterException(string.Format(CultureInfo.InvariantCulture,
-                        "{0}: positions[{1}] and positions[{2}] are one place: element {1} has no length", file, j,
+                        "{0}: positions[{1}] and positions[{2}] coincide: element {1} has no length", file, j,
                         j + 1));
                 }
             }

@@ -76,7 +76,7 @@ namespace Guidewire.Io
                 && given.TryGet(other, out (JToken Value, string Source) against) && said.Source == against.Source)
             {
                 throw new ParameterException(string.Format(CultureInfo.InvariantCulture,
-                    "{0}: {1} = {2} and {3} = {4} disagree, which with the wire's radius makes {5:G6} {6}: give one of"
+                    "{0}: {1} = {2} and {3} = {4} disagree: with the wire's radius it makes {5:G6} {6}: give one of"
                     + " the two", said.Source, key, stiffness, other, modulus, modulus * shape, unit));
             }
             return difference <= SameNumber * stiffness.Value ? modulus : stiffness.Value / shape;

@@ -18,7 +18,7 @@ namespace Guidewire.Io
         Keep,
     }
 
-    /// <summary>A run that a folder holds: how it ended, and whether it is the one that is asked for.</summary>
+    /// <summary>A run that a folder holds: how it ended, and whether it is the one that is requested.</summary>
     internal sealed class EarlierRun
     {
         private const int DifferencesShown = 2;
@@ -39,7 +39,7 @@ namespace Guidewire.Io
         /// <summary>Why, in one line.</summary>
         public string Reason => (string?)_summary["reason"] ?? "";
 
-        /// <summary>Whether nothing that it measured of itself speaks against its result.</summary>
+        /// <summary>Whether its result can be trusted, as far as the run could tell.</summary>
         public bool IsReliable => (bool?)_summary["reliable"] == true;
 
         /// <summary>The run that a folder holds from its start to its own end, or null where there is none: what was

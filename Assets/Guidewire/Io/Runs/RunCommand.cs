@@ -26,7 +26,7 @@ namespace Guidewire.Io
         /// <summary>Asked before every step; true ends the run as interrupted.</summary>
         public Func<bool>? StopRequested { get; set; }
 
-        /// <summary>Told after every step, with the wall time in ms since the run's start.</summary>
+        /// <summary>Called after every step, with the wall time in ms since the run's start.</summary>
         public Action<Simulation, double>? Progress { get; set; }
 
         /// <summary>The folder of the results, once it is known: where the trace of an internal error
@@ -58,7 +58,7 @@ namespace Guidewire.Io
             string ending = result.Word + (isDone && !result.IsReliable ? ", not reliable: " : ": ") + result.Reason;
             if (result.KeptEarlier)
             {
-                ending += "; the complete run that " + run.Folder + " held before is kept, the log of this one is "
+                ending += "; the complete run that " + run.Folder + " held before is kept, the log of the new one is "
                     + RunFolder.PartialLogOf(handler);
             }
             if (result.Outcome == Outcome.Failed)

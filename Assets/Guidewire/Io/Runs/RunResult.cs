@@ -25,7 +25,7 @@ namespace Guidewire.Io
         /// <summary>Why, in one line.</summary>
         public string Reason { get; }
 
-        /// <summary>Whether nothing that it measures of itself speaks against its result; see <see
+        /// <summary>Whether the result can be trusted, as far as the run can tell; see <see
         /// cref="Simulation.IsReliable"/>.</summary>
         public bool IsReliable { get; }
 

@@ -176,7 +176,7 @@ namespace Guidewire.Io
             };
         }
 
-        /// <summary>What is read off of a catheter, as summaries and answers have it.</summary>
+        /// <summary>Results of a catheter in the format of summaries and answers.</summary>
         public static JObject Catheter(CoaxialRecord catheter)
         {
             Vector3d[] nodes = catheter.Positions;

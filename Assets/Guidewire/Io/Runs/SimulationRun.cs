@@ -34,7 +34,7 @@ namespace Guidewire.Io
         /// thread.</summary>
         public Func<bool>? StopRequested { get; set; }
 
-        /// <summary>Told after every step, with the wall time in ms since the run's start.</summary>
+        /// <summary>Called after every step, with the wall time in ms since the run's start.</summary>
         public Action<Simulation, double>? Progress { get; set; }
 
         /// <summary>The folder of the results.</summary>
@@ -58,7 +58,7 @@ namespace Guidewire.Io
             {
                 throw new ParameterException("out = " + _folder + " holds a complete run already ("
                     + earlier.Difference(_handler, _repeat)
-                    + "): give another folder, or --force to replace that run once this one is complete");
+                    + "): give another folder, or --force to replace that run once the new one is complete");
             }
             long before = Stopwatch.GetTimestamp();
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);

@@ -90,7 +90,7 @@ namespace Guidewire.Io
             if (isSteered == true && !traits.TakesSteering)
             {
                 throw new ParameterException((file ?? CommandLineHandler.Source) + ": a wire of solver "
-                    + Get(handler, "solver") + " is not steered by hand: its file's drive moves it");
+                    + Get(handler, "solver") + " is not steered interactively: its file's drive moves it");
             }
             method.StatesReactions |= CanStateReactions(method);
             return new SimulationSession(ParameterSource.OfFile(file), given, handler,
@@ -132,7 +132,7 @@ namespace Guidewire.Io
                 }
                 if (from.Walls.Length > 0)
                 {
-                    session.Note("with walls that no file states");
+                    session.Note("with walls that are in no file");
                 }
             }
             return session;
@@ -158,7 +158,7 @@ namespace Guidewire.Io
                 : InstrumentCount > 2 ? "catheter " + instrument : "catheter";
         }
 
-        /// <summary>Names that can stand for an instrument: those of the folder beside the parameter file, then the
+        /// <summary>Names of instruments that can replace one: those of the folder beside the parameter file, then the
         /// program's; for a catheter only catheters. Empty where the run's method takes no instrument.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
         public IReadOnlyList<string> ChoicesOf(int instrument)
@@ -266,7 +266,7 @@ namespace Guidewire.Io
             if (head.Length == here.Length && head[0] == Magic && int.TryParse(head[1], NumberStyles.None,
                     CultureInfo.InvariantCulture, out int format) && format > FileFormat.Version)
             {
-                throw new ParameterException("what is to be restored is of format " + format + ": guidewire "
+                throw new ParameterException("the snapshot has format " + format + ": guidewire "
                     + ProgramVersion.Number + " reads versions 1 to " + FileFormat.Version);
             }
             // Of another build the parameters may have had fewer keys: their hash says nothing then.
@@ -274,8 +274,8 @@ namespace Guidewire.Io
             if (head.Length != here.Length || head[0] != Magic || (isOfThisBuild && head[2] != here[2])
                 || head[4] != here[4] || head[5] != here[5])
             {
-                throw new ParameterException("what is to be restored was not saved by a session of these parameters,"
-                    + " or is not whole");
+                throw new ParameterException("the snapshot was not saved by a session with these parameters, "
+                    + "or is incomplete");
             }
             try
             {
@@ -283,8 +283,8 @@ namespace Guidewire.Io
             }
             catch (Exception error) when (!isOfThisBuild && error is ArgumentException)
             {
-                throw new ParameterException("what is to be restored was saved by another build, and does not fit this"
-                    + " one: " + error.Message);
+                throw new ParameterException("the snapshot was saved by another build and is not "
+                    + "compatible: " + error.Message);
             }
         }
 
@@ -303,14 +303,14 @@ namespace Guidewire.Io
             return string.Join(" ", Magic, FileFormat.Version, _handler.Hash, RunSummary.CoreBuild, holds, sum) + "\n";
         }
 
-        /// <summary>Changes a parameter; the wire goes on from where it is.</summary>
+        /// <summary>Changes a parameter; the wire continues from its current state.</summary>
         /// <exception cref="ParameterException">The value is not allowed; nothing has changed.</exception>
         public void Set(string key, JToken value)
         {
             Set(new[] { new KeyValuePair<string, JToken>(key, value) });
         }
 
-        /// <summary>Changes parameters; the wire goes on from where it is.</summary>
+        /// <summary>Changes parameters; the wire continues from its current state.</summary>
         /// <exception cref="ParameterException">A value is not allowed; nothing has changed.</exception>
         /// <exception cref="ArgumentException">This wire cannot go on with them; nothing has changed.</exception>
         public void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)

@@ -34,7 +34,7 @@ namespace Guidewire.Io
         /// <exception cref="IOException">The disk is full or gone; what was logged stays readable.</exception>
         public abstract void Close();
 
-        /// <summary>Lets go of the file as it is.</summary>
+        /// <summary>Closes the file as it is.</summary>
         public abstract void Dispose();
     }
 }

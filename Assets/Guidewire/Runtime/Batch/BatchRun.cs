@@ -26,7 +26,7 @@ namespace Guidewire.Runtime
             try
             {
                 string[] arguments = Own(commandLine) ?? throw new ParameterException("command line: " + Marker
-                    + " is missing; behind it stand -parameters FILE, -out DIR and -KEY VALUE");
+                    + " is missing; it is followed by -parameters FILE, -out DIR and -KEY VALUE");
                 var command = new RunCommand(logFileIsOurs: false)
                 {
                     Say = line => Debug.Log("guidewire: " + line),

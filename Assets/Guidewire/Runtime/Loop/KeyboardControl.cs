@@ -9,9 +9,8 @@ namespace Guidewire.Runtime
         /// <summary>The keys, one a line, as the HUD shows them.</summary>
         public const string Help = "W / S  or up / down: push / pull\nA / D  or left / right: turn\n"
             + "space: pause     N: one step     R: reset     M: pbd or material\n"
-            + "I: hold the next instrument\n"
-            + "C: colour     B: spheres     G: directors\nF: contact forces     H: this text\n"
-            + "right mouse button: orbit     wheel: zoom     T: look at the tip";
+            + "I: select the next instrument\nC: colour     B: spheres     G: directors\nF: contact forces     H: this "
+            + "text\nright mouse button: orbit     wheel: zoom     T: look at the tip";
 
         [SerializeField] private SimulationLoop _loop = null!;
         [SerializeField] private WireView _wire = null!;

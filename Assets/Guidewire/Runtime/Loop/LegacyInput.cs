@@ -7,7 +7,7 @@ namespace Guidewire.Runtime
     /// alone, every call of Unity's Input throws.</summary>
     internal static class LegacyInput
     {
-        /// <summary>Asks once; the setting cannot change while the project plays.</summary>
+        /// <summary>Checked once; the setting cannot change while the project plays.</summary>
         public static bool IsThere()
         {
             try

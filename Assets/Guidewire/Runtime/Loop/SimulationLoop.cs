@@ -25,39 +25,39 @@ namespace Guidewire.Runtime
         [Tooltip("Parameter file as an asset, instead of the file.")]
         [SerializeField] private TextAsset? _parameterAsset;
 
-        [Tooltip("Vessels of the scene, beside what the parameters state.")]
+        [Tooltip("Vessels of the scene, in addition to those of the parameters.")]
         [SerializeField] private SceneVessel[] _vessels = Array.Empty<SceneVessel>();
 
-        [Tooltip("KEY=VALUE, one a line: parameters that count instead of the file's.")]
+        [Tooltip("KEY=VALUE, one per line: parameters that override those of the file.")]
         [SerializeField] private string[] _overrides = Array.Empty<string>();
 
-        [Tooltip("Folder that takes positions.json, parameters.json and summary.json; empty: the run is not logged.")]
+        [Tooltip("Folder for positions.json, parameters.json and summary.json; empty: the run is not logged.")]
         [SerializeField] private string _logFolder = "";
 
-        [Tooltip("Parameter file that a key swaps with this one, and back; empty: none.")]
+        [Tooltip("Parameter file to which a key switches, and back; empty: none.")]
         [SerializeField] private string _alternativeFile = "";
 
-        [Tooltip("KEY=VALUE, one a line: parameters that count instead of that file's.")]
+        [Tooltip("KEY=VALUE, one per line: parameters that override those of that file.")]
         [SerializeField] private string[] _alternativeOverrides = Array.Empty<string>();
 
         [Header("Pace")]
-        [Tooltip("In-game seconds a second of real time.")]
+        [Tooltip("Simulated seconds per second of real time.")]
         [SerializeField, Range(0.01f, 10f)] private float _pace = 1f;
 
-        [Tooltip("Steps a frame at most.")]
+        [Tooltip("Largest number of steps per frame.")]
         [SerializeField, Range(1, 1000)] private int _stepsPerFrame = 100;
 
-        [Tooltip("Wall time a frame for steps at most, in ms; at least one step is made.")]
+        [Tooltip("Largest wall time of the steps of a frame, in ms; at least one step is made.")]
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
         [Header("Steering")]
         [Tooltip("Whether keys push and turn the wire, instead of the parameter file's drive.")]
         [SerializeField] private bool _isSteered;
 
-        [Tooltip("Speed of sphere 0 while a push or pull key is down, in units a second of in-game time.")]
+        [Tooltip("Speed of sphere 0 while a push or pull key is down, in units per second of simulated time.")]
         [SerializeField, Range(0f, 500f)] private float _pushSpeed = 40f;
 
-        [Tooltip("Speed of turning while a turn key is down, in degrees a second of in-game time.")]
+        [Tooltip("Rotation speed while a turn key is down, in degrees per second of simulated time.")]
         [SerializeField, Range(0f, 720f)] private float _turnSpeed = 180f;
 
         [Header("Parameters while it runs")]
@@ -71,7 +71,7 @@ namespace Guidewire.Runtime
         /// <summary>The run, or null where it could not be built.</summary>
         public SimulationSession? Session { get; private set; }
 
-        /// <summary>Counts the runs built, so that views know when to build anew.</summary>
+        /// <summary>Counts the runs built, so that views know when to rebuild.</summary>
         public int Generation { get; private set; }
 
         /// <summary>What stopped the loop, in one line; empty where nothing did.</summary>
@@ -130,7 +130,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Names what the next <see cref="Load"/> takes instead of a file.</summary>
         /// <param name="parameters">Text of a parameter file; null: the file.</param>
-        /// <param name="vessels">Vessels of the scene, beside what the parameters state.</param>
+        /// <param name="vessels">Vessels of the scene, in addition to those of the parameters.</param>
         public void Choose(TextAsset? parameters, params SceneVessel[] vessels)
         {
             _parameterAsset = parameters;
@@ -161,7 +161,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Takes the alternative's parameters instead of the present ones, and builds the wire anew; does
+        /// <summary>Takes the alternative's parameters instead of the present ones, and rebuilds the wire; does
         /// nothing where there is no alternative.</summary>
         public void TakeAlternative()
         {
@@ -175,7 +175,7 @@ namespace Guidewire.Runtime
             Load();
         }
 
-        /// <summary>Holds the next instrument: wire, catheters, wire again.</summary>
+        /// <summary>Selects the next instrument to steer: wire, catheters, wire again.</summary>
         public void HoldNext()
         {
             Held = Session == null ? 0 : (Held + 1) % Session.InstrumentCount;
@@ -207,7 +207,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Builds the wire anew from the parameter file.</summary>
+        /// <summary>Rebuilds the wire from the parameter file.</summary>
         public void Load()
         {
             Close();
@@ -239,7 +239,7 @@ namespace Guidewire.Runtime
             Generation++;
         }
 
-        /// <summary>Simulates what a frame asks for.</summary>
+        /// <summary>Makes the steps of a frame.</summary>
         /// <param name="seconds">Real time since the last frame in s.</param>
         public void Advance(float seconds)
         {

@@ -12,10 +12,10 @@ namespace Guidewire.Runtime
 
         [SerializeField] private SimulationLoop _loop = null!;
 
-        [Tooltip("Material that the marks are made from.")]
+        [Tooltip("Material of the marks.")]
         [SerializeField] private Material _material = null!;
 
-        [Tooltip("Length of the longest stick, in units.")]
+        [Tooltip("Length of the longest force line, in units.")]
         [SerializeField] private float _length = 40f;
 
         private Mesh _ball = null!;

@@ -157,7 +157,7 @@ namespace Guidewire.Runtime
             {
                 Append("walls: force {0:0.00e+0}, user: force {1:0.00e+0} {2}", contacts.Total.Length,
                     contacts.Reaction.Length, HasMaterial(session) ? "N" : "mass unit unit/s\u00b2");
-                Append("asked of sphere 0: {0:0.0} units, not given: {1:0.0}   passages {2}", contacts.DriveAsked,
+                Append("drive: {0:0.0} units, shortfall: {1:0.0}   passages {2}", contacts.DriveAsked,
                     contacts.DriveShortfall, contacts.Passages);
             }
             HubRecord? hub = simulation.Hub();

@@ -8,7 +8,7 @@ namespace Guidewire.Runtime
     {
         [SerializeField] private SimulationLoop _loop = null!;
 
-        [Tooltip("Point in the middle of the picture, in units.")]
+        [Tooltip("Point at the centre of the view, in units.")]
         [SerializeField] private Vector3 _target;
 
         [Tooltip("Distance from it, in units.")]
@@ -20,7 +20,7 @@ namespace Guidewire.Runtime
         [Tooltip("Angle above the horizontal plane, in degrees.")]
         [SerializeField, Range(-89f, 89f)] private float _pitch = 20f;
 
-        [Tooltip("Degrees a pixel of mouse motion.")]
+        [Tooltip("Degrees per pixel of mouse motion.")]
         [SerializeField] private float _turnSpeed = 0.3f;
 
         private Vector3 _lastMouse;

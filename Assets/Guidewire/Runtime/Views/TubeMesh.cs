@@ -72,7 +72,7 @@ namespace Guidewire.Runtime
             return Write(state.Positions, state.Orientations[0], radius, colours);
         }
 
-        /// <summary>The same of spheres that are not a wire's.</summary>
+        /// <summary>The same for spheres that are not a wire's.</summary>
         /// <param name="x">Where they are, units.</param>
         /// <param name="first">Orientation of the first element.</param>
         /// <param name="radius">Units.</param>

@@ -14,7 +14,7 @@ namespace Guidewire.Runtime
         [Tooltip("Material of the walls.")]
         [SerializeField] private Material _material = null!;
 
-        [Tooltip("How far from the middle of the wire a wall without end is drawn, in units.")]
+        [Tooltip("Distance from the middle of the wire up to which an infinite wall is drawn, in units.")]
         [SerializeField] private float _reach = 150f;
 
         private readonly List<Mesh> _meshes = new List<Mesh>();

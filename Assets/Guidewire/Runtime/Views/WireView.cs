@@ -15,13 +15,13 @@ namespace Guidewire.Runtime
         [Tooltip("Material of the tube; its texture becomes the colour map.")]
         [SerializeField] private Material _material = null!;
 
-        [Tooltip("Transparent material of catheters, so that the wire in them is seen.")]
+        [Tooltip("Transparent material of catheters, so that the wire inside is visible.")]
         [SerializeField] private Material _catheterMaterial = null!;
 
-        [Tooltip("Rings an element.")]
+        [Tooltip("Rings per element.")]
         [SerializeField, Range(1, 16)] private int _ringsPerElement = 4;
 
-        [Tooltip("Corners of a ring.")]
+        [Tooltip("Vertices per ring.")]
         [SerializeField, Range(3, 32)] private int _sides = 12;
 
         private const double ThinnestOfLength = 1.0 / 300.0;
@@ -31,13 +31,13 @@ namespace Guidewire.Runtime
 
         [SerializeField] private Colouring _colouring = Colouring.Plain;
 
-        [Tooltip("Stretch of the last colour, dimensionless.")]
+        [Tooltip("Stretch at the end of the colour scale, dimensionless.")]
         [SerializeField] private float _stretchRange = 0.02f;
 
-        [Tooltip("Curvature of the last colour, in 1/unit.")]
+        [Tooltip("Curvature at the end of the colour scale, in 1/unit.")]
         [SerializeField] private float _bendingRange = 0.02f;
 
-        [Tooltip("Twist of the last colour, in rad/unit.")]
+        [Tooltip("Twist at the end of the colour scale, in rad/unit.")]
         [SerializeField] private float _twistRange = 0.02f;
 
         private TubeMesh _tube = null!;

@@ -79,7 +79,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The nearest points of all triangles, edges and corners, less those that cancel each other: feet
-        /// inside faces, and what of edges and corners is left over; see <see cref="MeshContactPoints"/>. All have the
+        /// inside faces, and what of edges and corners is left; see <see cref="MeshContactPoints"/>. All have the
         /// sign of the nearest. On an edge or corner itself, at distance 0, no curvature is stated.</summary>
         internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)

@@ -200,8 +200,9 @@ namespace Guidewire.Core
             if (clashes > 0 || surfaces > 1)
             {
                 throw new MeshException(
-                    clashes > 0 ? "the surface has one side only (" + clashes + " edges cannot be turned to agree)"
-                    : "the mesh has " + surfaces + " separate surfaces; a vessel is one");
+                    clashes > 0 ? "the surface is not orientable (" + clashes + " edges cannot be oriented "
+                        + "consistently)"
+                    : "the mesh has " + surfaces + " separate surfaces; a vessel must be one");
             }
             Report.TurnedTriangles = Math.Min(turnedCount, count - turnedCount);
             for (int t = 0; t < count; t++)

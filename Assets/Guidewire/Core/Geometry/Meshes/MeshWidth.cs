@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How narrow the lumen of a mesh is: at the narrowest position found by walks along it (<see
+    /// <summary>Smallest width of the lumen of a mesh, found by walks along it (<see
     /// cref="LumenWalk"/>) that start from balls touching the wall.</summary>
     /// <remarks>The balls are those of the shrinking ball (Ma, Bae and Choi 2012): starting with one that is too large,
     /// the wall point q nearest to its centre gives the ball through p and q with the same normal, of radius |p -

@@ -51,8 +51,8 @@ namespace Guidewire.Core
             Feature = feature;
         }
 
-        /// <summary>False when the node is farther than the best so far, by its box against the segment's box or by its
-        /// slab against the segment. The bound is the larger squared distance of the two.</summary>
+        /// <summary>False when the node is farther than the best so far, by its box and the segment's box or by its
+        /// slab and the segment. The bound is the larger squared distance of the two.</summary>
         /// <remarks>No branches except the result: which bound is larger cannot be predicted, and a mispredicted branch
         /// costs more than both.</remarks>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

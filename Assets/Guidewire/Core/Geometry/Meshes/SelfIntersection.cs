@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a mesh's wall goes through itself: edges that pierce triangles with which they share no
-    /// vertex. What only touches, to <see cref="RelativeDepth"/>, does not count.</summary>
+    /// <summary>Self-intersections of a mesh: edges that pierce triangles with which they share no vertex. Mere
+    /// contact, to <see cref="RelativeDepth"/>, does not count.</summary>
     internal static class SelfIntersection
     {
         // How far both ends of an edge lie off a triangle's plane at least, over the mesh's size.

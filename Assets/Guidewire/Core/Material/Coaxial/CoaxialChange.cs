@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What nodes and elements of a chain of coaxial instruments were in another one, where nodes have come in
-    /// beyond tips or have gone there.</summary>
+    /// <summary>Maps nodes and elements of a chain of coaxial instruments to those of another chain, after nodes have
+    /// emerged from tips or were withdrawn.</summary>
     internal sealed class CoaxialChange
     {
         private readonly double[] _oldStation;   // m, by the new leads
@@ -41,7 +41,7 @@ namespace Guidewire.Core
         /// <summary>The chain that is.</summary>
         public CoaxialJoints Joints { get; }
 
-        /// <summary>What each node was, -1 where it comes in.</summary>
+        /// <summary>Former index of each node, -1 for a new one.</summary>
         public int[] Node { get; }
 
         /// <summary>The element that each one goes on from: that which ended at the same node, else the one in which

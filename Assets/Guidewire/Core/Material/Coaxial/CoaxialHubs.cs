@@ -31,13 +31,13 @@ namespace Guidewire.Core
         /// <summary>Those of the others.</summary>
         public HubMotion[] Inner { get; }
 
-        /// <summary>How far one is behind the outermost one at a time, m.</summary>
+        /// <summary>Distance of one behind the outermost one at a time, m.</summary>
         public double LeadAt(int instrument, double time)
         {
             return Vector3d.Dot(_hub[0].PositionAt(time) - _hub[instrument].PositionAt(time), _axis);
         }
 
-        /// <summary>How far all are behind the outermost one at a time, m.</summary>
+        /// <summary>Distance of all behind the outermost one at a time, m.</summary>
         public double[] LeadsAt(double time)
         {
             var leads = new double[_hub.Length];
@@ -48,19 +48,19 @@ namespace Guidewire.Core
             return leads;
         }
 
-        /// <summary>How fast one goes along the axis against another one, m/s.</summary>
+        /// <summary>Axial speed of one relative to another, m/s.</summary>
         public double SlideOf(int instrument, int other)
         {
             return Vector3d.Dot(_hub[instrument].Velocity - _hub[other].Velocity, _axis);
         }
 
-        /// <summary>How far the outermost one is from the exit of a sheath at a time, m; 0 without one.</summary>
+        /// <summary>Distance of the outermost one from the exit of a sheath at a time, m; 0 without one.</summary>
         public double SheathedAt(double time)
         {
             return _sheath == null ? 0.0 : Math.Max(0.0, -_sheath.Outside(Outer.PositionAt(time)));
         }
 
-        /// <summary>How far one is turned against the outermost one, radians.</summary>
+        /// <summary>Rotation of one relative to the outermost one, radians.</summary>
         public double TwistAt(int instrument, double time)
         {
             return _hub[instrument].TurnAt(time) - _hub[0].TurnAt(time);

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>One of several coaxial instruments, as if it were alone.</summary>
+    /// <summary>One of several coaxial instruments, described as if it were alone.</summary>
     internal sealed class CoaxialInstrument
     {
         /// <summary>An instrument.</summary>

@@ -58,7 +58,7 @@ namespace Guidewire.Core
                 + moment1 * turned.X + moment2 * turned.Y;
             if (joint.Twist > 0.0)
             {
-                // Springs about one axis: one about their mean, and what they hold against one another.
+                // Springs about one axis: one about their mean, and the energy of their difference.
                 double inner = joint.RestTwist - (part.After - part.Before);
                 double before = Joint.Twist;
                 Joint.Twist += joint.Twist;

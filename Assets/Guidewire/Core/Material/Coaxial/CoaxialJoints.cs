@@ -112,7 +112,7 @@ namespace Guidewire.Core
             return _tip[instrument];
         }
 
-        /// <summary>How far the hub of an instrument is behind the outermost one's, m.</summary>
+        /// <summary>Distance of an instrument's hub behind the outermost one's, m.</summary>
         public double LeadOf(int instrument)
         {
             return _lead[instrument];
@@ -132,7 +132,7 @@ namespace Guidewire.Core
             return _end[instrument];
         }
 
-        /// <summary>How far the tip of an instrument is beyond that of another, m; negative inside.</summary>
+        /// <summary>Distance of an instrument's tip beyond that of another, m; negative inside.</summary>
         public double ExtensionOf(int instrument, int outer)
         {
             return _instrument[instrument].Profile.Length - _lead[instrument] - _end[outer];

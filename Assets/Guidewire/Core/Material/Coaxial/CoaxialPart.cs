@@ -3,7 +3,7 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What an instrument with an angle t of its own against a joint's frame adds to the joint
+    /// <summary>Contribution to a joint of an instrument that is rotated by an angle t against the joint's frame
     /// (<see cref="CoaxialJoint"/>).</summary>
     internal struct CoaxialPart
     {

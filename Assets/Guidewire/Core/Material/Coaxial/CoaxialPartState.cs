@@ -2,7 +2,7 @@ using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What a joint's energy says of one instrument with an angle of its own
+    /// <summary>Derivatives of a joint's energy for one instrument with an angle of its own
     /// (<see cref="CoaxialPart"/>).</summary>
     internal struct CoaxialPartState
     {

@@ -45,7 +45,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Begins at a place along the chain.</summary>
+        /// <summary>Begins at a position along the chain.</summary>
         /// <param name="carrier">The outermost instrument there.</param>
         /// <param name="from">m.</param>
         /// <param name="leads">How far each hub is behind the outermost one's, m.</param>
@@ -124,7 +124,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Goes on to a place along the chain, m.</summary>
+        /// <summary>Advances to a position along the chain, m.</summary>
         public void Advance(double at, double[] leads)
         {
             for (int i = _carrier; i < _piece.Length; i++)

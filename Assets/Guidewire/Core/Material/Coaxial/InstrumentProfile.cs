@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What an instrument is made of along its length, from its hub: even pieces between borders.</summary>
+    /// <summary>Material of an instrument along its length, from its hub: piecewise constant between borders.</summary>
     internal sealed class InstrumentProfile
     {
         private readonly double[] _border;      // m from the hub; first 0, last the length

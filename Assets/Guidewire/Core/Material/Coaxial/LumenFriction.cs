@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Coulomb friction along the axis between an instrument and the lumen it is in, at its hub.</summary>
+    /// <summary>Axial Coulomb friction between an instrument and the lumen around it, as a force at its hub.</summary>
     /// <remarks>Where a force T passes along the inner instrument it lies against the lumen with |T kappa| per length,
     /// and with P = 2 B_r dk/a at each end of the overlap, a = sqrt(12 play/dk). So as it slides its force changes by
     /// mu P at either end and by dT/ds = mu |T kappa| between. With theta the angle of the overlap and F the hub's
@@ -48,7 +48,7 @@ namespace Guidewire.Core
                 : _used * (Pushed(-force, angle, end) + force);
         }
 
-        /// <summary>Writes or takes over what is used.</summary>
+        /// <summary>Writes or restores what is used.</summary>
         public void Serialize(Snapshot snapshot)
         {
             if (Coefficient > 0.0)

@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// where an end has no joint.</summary>
         public abstract void Measure(RodShape shape, Vector3d[] turns);
 
-        /// <summary>The same of joint k alone.</summary>
+        /// <summary>The same for joint k alone.</summary>
         public abstract Vector3d TurnOf(RodShape shape, int k);
 
         /// <summary>Joint k is this one from now on.</summary>

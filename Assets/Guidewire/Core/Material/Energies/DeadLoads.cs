@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Forces on the nodes of constant direction in the world: weight, force per length, forces at
-    /// places, tip force, axial force. Energy -sum f_i . x_i.</summary>
+    /// <summary>Forces on the nodes of constant direction in the world: weight, force per length, point loads, tip
+    /// force, axial force. Energy -sum f_i . x_i.</summary>
     internal sealed class DeadLoads : EnergyTerm
     {
         private readonly RodMass _mass;

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is asked of a list of energy terms as a whole.</summary>
+    /// <summary>Sums over a list of energy terms: value, gradient, blocks, largest step.</summary>
     internal static class EnergySum
     {
         /// <summary>The sum of the energies, J.</summary>

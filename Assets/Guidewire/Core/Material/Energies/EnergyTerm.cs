@@ -80,7 +80,7 @@ namespace Guidewire.Core
             return 1.0;
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, the term's state between steps.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, the term's state between steps.</summary>
         public virtual void Serialize(Snapshot snapshot)
         {
         }

@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the terms measured while they added their gradients, over all of them and all ranges.</summary>
+    /// <summary>Quantities that the terms measure while they add their gradients, combined over all terms and
+    /// ranges.</summary>
     internal struct GradientMeasures
     {
         /// <summary>The largest force in an element, N.</summary>

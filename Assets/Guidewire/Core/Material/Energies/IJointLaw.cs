@@ -1,7 +1,8 @@
 namespace Guidewire.Core
 {
-    /// <summary>How a joint between two frames a and b answers to their relative rotation r = conj(q_a) q_b.
-    /// Implemented by structs and used as a type argument, so that the loops over joints pay for no call.</summary>
+    /// <summary>Constitutive law of a joint between two frames a and b: its couple as a function of their relative
+    /// rotation r = conj(q_a) q_b. Implemented by structs and used as a type argument, so that loops over joints have
+    /// no virtual calls.</summary>
     internal interface IJointLaw
     {
         /// <summary>The turn from a to b at which the joint is free of couples.</summary>

@@ -2,7 +2,7 @@ using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
 {
-    /// <summary>What one node and the element after it hold of a symmetric matrix over (x_0, theta_0, x_1, theta_1,
+    /// <summary>The block of one node and the element after it in a symmetric matrix over (x_0, theta_0, x_1, theta_1,
     /// ...): 48 numbers, six lines of cache, column by column of the matrix from its diagonal down.</summary>
     /// <remarks>A = (x, x), B = (theta, x), C = (theta, theta), and against the next node
     /// D = (x+, x), E = (x+, theta), F = (theta+, theta). Row index first; of A and C the lower triangle. The pair

@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Holds a wire straight in its sheath: of the wire that a joint stands for only what is beyond the exit
-    /// bends. It cuts the joints of <see cref="BendTwistTerm"/> where the exit is, and has the energy of what is kept
-    /// straight.</summary>
+    /// <summary>Energy of a wire held straight in its sheath: only the part of a joint's wire beyond the exit bends. It
+    /// cuts the joints of <see cref="BendTwistTerm"/> at the exit, and has the energy of the straightened
+    /// part.</summary>
     /// <remarks>With a and f compliance and turn at rest beyond the exit (<see cref="JointPieces"/>), and W the energy
     /// of what is before it, a joint has |theta - f|^2/(2 a) + W. The exit lies at a position along the wire that
     /// follows from the hub's, not from the nodes: so the energy depends on the hub, and its slope, -sum over joints of

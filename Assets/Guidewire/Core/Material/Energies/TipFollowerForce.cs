@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// is the symmetric half of the true tangent, d(-F)/dtheta = R [f]: half of it on (x, theta), half on (theta, x).
     /// The other half, R [f]/2 less its transpose, no energy carries: rest shapes put it in exactly (<see
     /// cref="FollowerTangent"/>); the stages of a motion leave it to Newton's iteration, which finds the force anew for
-    /// each iterate and is judged by what is then out of balance.</remarks>
+    /// each iterate and is judged by what is then unbalanced.</remarks>
     internal sealed class TipFollowerForce : EnergyTerm
     {
         private Vector3d _anchorPosition;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The linear system of a rod: n+1 blocks over (x_i, theta_i), the last theta a place holder. Assembles
-    /// the terms, takes the supports out, factorises by LDL^T and solves, all in O(n).</summary>
+    /// <summary>The linear system of a rod: n+1 blocks over (x_i, theta_i), the last theta a placeholder. Assembles the
+    /// terms, eliminates the supports, factorises by LDL^T and solves, all in O(n).</summary>
     /// <remarks>A long rod is assembled and eliminated piece by piece, so that a block is still in the cache when it is
     /// eliminated. At a support the fixed direction's row and column become those of the unit matrix. Nodes and
     /// elements before the first active node take no part: they are neither assembled nor eliminated, and do not

@@ -7,8 +7,8 @@ using System.Runtime.Intrinsics.X86;
 namespace Guidewire.Core
 {
     /// <summary><see cref="RodStep"/> for four successive elements at once, with its formulas in its order: the same
-    /// bits. False where nothing is done, because one of them turns by more than the series can take or the processor
-    /// has no such registers.</summary>
+    /// bits. False where nothing is done, because a rotation exceeds the range of the series or the processor lacks
+    /// such registers.</summary>
     internal static class StepLanes
     {
 #if NET8_0_OR_GREATER

@@ -159,7 +159,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over the multipliers; where they act is found anew.</summary>
+        /// <summary>Writes or restores the multipliers; where they act is found again.</summary>
         public void Serialize(Snapshot snapshot)
         {
             StoreImpulses();
@@ -398,7 +398,7 @@ namespace Guidewire.Core
                 return Couple(q, FrictionImpulse);
             }
 
-            /// <summary>The same of another f.</summary>
+            /// <summary>The same for another f.</summary>
             public readonly Vector3d Couple(in Quaterniond q, in Vector3d friction)
             {
                 return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(friction, Normal));

@@ -145,7 +145,7 @@ namespace Guidewire.Core
             ContactRecord record = walls.Record;
             Vector3d inertia = (Terms.Mass.Nodal[0] / TimeStep) * (Velocities[0] - velocity);
             record.Reaction = inertia + (1.0 / _substeps) * _supportForce - record.Forces[0];
-            // A drive continues from where node 0 is; a held node is asked for until it has arrived.
+            // A drive continues from where node 0 is; a held node keeps a displacement until it has arrived.
             Vector3d position = Schedule.Hub.PositionAt(_time);
             if (Drive.Axis == Vector3d.Zero)
             {
@@ -162,8 +162,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            Results.Method = "Gauss-Seidel with compliance; each substep is one of implicit Euler where it has"
-                + " converged";
+            Results.Method = "Gauss-Seidel with compliance; each converged substep is one of "
+                + "implicit Euler";
             Results.LargestError = _convergence.LargestError;
             Results.StepsNotConverged = _convergence.StepsAbove;
             Results.ContactStiffness = _walls == null || _contactStiffness == 0.0 ? double.NaN : _contactStiffness;

@@ -35,7 +35,7 @@ namespace Guidewire.Core
             System.Array.Clear(_multiplier, 0, _multiplier.Length);
         }
 
-        /// <summary>Writes or takes over the multipliers.</summary>
+        /// <summary>Writes or restores the multipliers.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(_multiplier);

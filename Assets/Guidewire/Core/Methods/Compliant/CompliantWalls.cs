@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Walls around the substeps of a wire with compliance: finds contacts, lets no substep pass a wall, and
-    /// takes down what contact came to.</summary>
+    /// <summary>Walls for the substeps of xpbd: finds contacts, prevents passages, and records the contact
+    /// forces.</summary>
     /// <remarks>Contacts are found where a step begins, and again where a node has moved farther than <see
     /// cref="Reuse"/> of the wire's radius since; a substep is much shorter than a search needs. What is nearer than
     /// half a radius to touching is found. Until a node has gone as far as the core line of any element was from the
@@ -100,7 +100,7 @@ namespace Guidewire.Core
             Contacts.Begin(old, predicted, substep);
         }
 
-        /// <summary>A substep has come to this shape, which is taken back where it would pass a wall.</summary>
+        /// <summary>Accepts the shape of a substep, and reverts what would pass a wall.</summary>
         public void EndSubstep(RodShape shape)
         {
             SetUnits(shape, _to);
@@ -125,7 +125,7 @@ namespace Guidewire.Core
             Contacts.AddMultipliers(Record.Forces, Record.WallForces);
         }
 
-        /// <summary>The step has come to its end.</summary>
+        /// <summary>The step has ended.</summary>
         /// <param name="substep">h, s.</param>
         /// <param name="substeps">How many they were.</param>
         public void EndStep(double substep, int substeps)
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             Record.SetTotal(total);
         }
 
-        /// <summary>Writes or takes over what was counted.</summary>
+        /// <summary>Writes or restores what was counted.</summary>
         public void Serialize(Snapshot snapshot)
         {
             _passages.Serialize(snapshot);

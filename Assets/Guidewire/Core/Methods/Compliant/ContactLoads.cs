@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The contact forces on a wire with compliance at the end of the last substep, for the search of a rest
-    /// shape near it: forces that stay, each on a stiff spring along its normal.</summary>
+    /// <summary>The contact forces on a wire with compliance at the end of the last substep, for the search for a
+    /// nearby rest shape: constant forces, each with a stiff spring along its normal.</summary>
     /// <remarks>The spring is the contact's own, or where that is rigid 10 EA/l of the stiffest element, as that on
     /// which <see cref="SupportSpring"/> holds a node. Friction is a force alone.</remarks>
     internal sealed class ContactLoads : EnergyTerm

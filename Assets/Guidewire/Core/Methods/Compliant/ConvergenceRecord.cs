@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>How far the iterations of a run were from convergence.</summary>
+    /// <summary>Records the convergence of a run's iterations.</summary>
     /// <remarks>After any number of iterations the wire has moved by exactly the impulses lambda, that is by the forces
     /// lambda/h^2 = -(C - r)/alpha with the residual r = C + alpha lambda/h^2: it moved as a wire whose shape at rest
     /// differs by r (and whose pulls have directions that are off by <see cref="DirectionError"/>). Bends, turns and
@@ -88,7 +88,7 @@ namespace Guidewire.Core
             Add(Contact, step.Contact, 1.0);
         }
 
-        /// <summary>Writes or takes over the steps so far.</summary>
+        /// <summary>Writes or restores the steps so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(_classes);

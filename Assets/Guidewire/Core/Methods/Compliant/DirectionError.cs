@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the iterations of a substep got wrong in the directions of their impulses: each moved the wire
-    /// along the gradient of C where it was just then, and implicit Euler wants that of the final shape, x - x~ = M^-1
+    /// <summary>Error in the directions of the impulses of a substep: each iteration moved the wire along the gradient
+    /// of C in the shape of the moment, whereas implicit Euler requires that of the final shape, x - x~ = M^-1
     /// grad C^T lambda.</summary>
     /// <remarks>The difference d of the two sides is what forces M d/h^2 and couples J d/h^2 from nowhere would do.
     /// Their moment about joint k, summed from the distal end, over the joint's stiffness is an angle that counts like

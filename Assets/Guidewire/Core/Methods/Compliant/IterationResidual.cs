@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the iterations of a substep left undone, besides the strain that the wire holds. Sums over the
+    /// <summary>Residual of the iterations of a substep, in addition to the elastic strain. Sums over the
     /// whole wire: radians for bending and twist, m for stretch and shear; of contacts the largest.</summary>
     internal struct IterationResidual
     {

@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What rounding of the positions leaves in the balance of a rod's forces, N: one unit in the last place
+    /// <summary>Residual force that rounding of the positions causes in a rod's equilibrium, N: one unit in the last
+    /// place
     /// times EA/l of an element and M/h^2.</summary>
     /// <remarks>The largest of all elements is added to what may be unbalanced, as long as it is less than any force
     /// that matters. In a rod so stiff that it is more (EA about a thousand times that of a wire of steel) it would

@@ -36,7 +36,7 @@ namespace Guidewire.Core
                 friction?.SetCoefficient(i == 0 ? 0 : coaxial.TipOf(i - 1), coaxial.TipOf(i),
                     catheters[i].FrictionCoefficient);
             }
-            // Looked for where it is asked for: the rule measures how narrow a vessel is, all of it.
+            // Searched for on demand: the rule measures the narrowest width of the whole vessel.
             ContactParameters given = parameters.Contact;
             Func<string?>? advice = null;
             if (given.ContactDistance != 0.0 || given.ContactStiffness != 0.0)

@@ -8,9 +8,9 @@ namespace Guidewire.Core
     internal sealed class DirectStep : MaterialStep
     {
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
-        private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may do";
+        private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may help";
         private const string Limit = "; a hubForceLimit lets the hub slip";
-        private const string Iterations = "; maxNewtonIterations is below its default, which may do";
+        private const string Iterations = "; maxNewtonIterations is below its default, which may suffice";
 
         private const int MostSlips = 60;
         private const double OfElement = 0.01;     // by which a hub may be past its end
@@ -275,12 +275,12 @@ namespace Guidewire.Core
             "the hub fell short by {0:G3} m: it slipped at hubForceLimit, or the wire reached an end of its"
             + " sheath", Drive.Slip)
             : _dynamics.Solver.RoundingOfSupports > 0.0 ? string.Format(CultureInfo.InvariantCulture,
-            "rounding of positions makes the forces at both ends uncertain by {0:G2} N: the wire is too stiff"
-            + " (youngsModulus, wireRadius) for elements so short", _dynamics.Solver.RoundingOfSupports)
+            "rounding of positions makes the forces at both ends uncertain by {0:G2} N: the wire is too stiff "
+            + "(youngsModulus, wireRadius) for such short elements", _dynamics.Solver.RoundingOfSupports)
             : _spinLoss == null || _spinLoss.Expected <= MostSpinLoss ? null : string.Format(
             CultureInfo.InvariantCulture, "the free wire turned by up to {0:G2} rad a step, which changes its"
-            + " angular momentum by some {1:G2} % (docs/verification.md); a shorter timeStep keeps it, or another"
-            + " integrator", _spinLoss.LargestTurn, 100.0 * _spinLoss.Expected);
+            + " angular momentum by some {1:G2} % (docs/verification.md); a shorter timeStep or another integrator "
+            + "conserves it better", _spinLoss.LargestTurn, 100.0 * _spinLoss.Expected);
 
         /// <inheritdoc/>
         public override SolverReport? Report()
@@ -326,7 +326,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {
@@ -346,7 +346,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over what was counted, whatever the number of elements.</summary>
+        /// <summary>Writes or restores what was counted, whatever the number of elements.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
             snapshot.Serialize(ref _startFactorisations);
@@ -409,9 +409,9 @@ namespace Guidewire.Core
             double force = Terms.Walls()!.SupportForce(Shape).Length;
             double most = Scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
-                "the walls do not let sphere 0 to where the drive has it at t = {0:G6} s, {1:G3} units on: the hub"
-                + " would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion (displacementPerStep,"
-                + " insertionSpeed, maxSimulationSteps) may do, or a hubForceLimit", Time,
+                "the walls keep sphere 0 from the position of the drive at t = {0:G6} s, {1:G3} units away: the "
+                + "hub would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion "
+                + "(displacementPerStep, insertionSpeed, maxSimulationSteps) may help, or a hubForceLimit", Time,
                 Contacts.DriveShortfall, force, most, _jam!.Text(Shape));
         }
 

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What the searches for a minimum of a sum of energies share: the factorised second derivative with a
+    /// <summary>Common part of the searches for a minimum of a sum of energies: the factorised second derivative with a
     /// multiple of the metric added where it is not positive definite, the bounds on a step, and its line
     /// search.</summary>
     internal sealed class NewtonDescent

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A clamp's turn at once is made in parts, each solved before the next: a rod is then wound up, and not
-    /// turned through the smaller angle.</summary>
+    /// <summary>Divides a sudden rotation of a clamp into increments, each solved before the next, so that a rod is
+    /// wound up instead of rotating through the smaller angle.</summary>
     internal static class Winding
     {
         private const double LargestTurn = 0.5;   // radians a part

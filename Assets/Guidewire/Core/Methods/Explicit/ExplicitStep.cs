@@ -38,7 +38,7 @@ namespace Guidewire.Core
             double part = method.TimeStep / _substeps / _stable;
             Energy.Allowance = part < 1.0
                 ? Math.Max(EnergyMonitor.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyMonitor.LeastAllowance;
-            _remedy = Text(": a substep of {0:G4} s, in its rest shape stable below {1:G4} s; raise substeps");
+            _remedy = Text(": a substep of {0:G4} s, stable in its rest shape below {1:G4} s; raise substeps");
             Contacts = record;
         }
 

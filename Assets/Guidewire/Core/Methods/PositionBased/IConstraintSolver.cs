@@ -1,13 +1,13 @@
 namespace Guidewire.Core
 {
-    /// <summary>Corrects a predicted state until its constraints hold as well as the method achieves.</summary>
+    /// <summary>Corrects a predicted state towards its constraints.</summary>
     internal interface IConstraintSolver
     {
         /// <summary>Corrects <see cref="RodState.PredictedPositions"/> and
         /// <see cref="RodState.PredictedOrientations"/> in place.</summary>
         void Solve(RodState state);
 
-        /// <summary>Writes into a snapshot, or takes over from one, its state between steps.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, its state between steps.</summary>
         void Serialize(Snapshot snapshot);
     }
 }

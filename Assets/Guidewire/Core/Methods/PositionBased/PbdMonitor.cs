@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Decides after each step of a pbd wire whether it is lost, or in a steady state.</summary>
+    /// <summary>Decides after each step of a pbd wire whether it has diverged or is in a steady state.</summary>
     /// <remarks>Steady state: the prediction error has stayed below epsilon for a number of steps in a row, after it
     /// was once above (it oscillates, and is 0 before the disturbance arrives at the last sphere). Lost: a sphere
     /// farther than 10 L from the start, or elements that are wrong in length and do not recover. The last finds pbd
@@ -73,7 +73,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, what has been seen so far.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, what has been seen so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _origin);
@@ -150,8 +150,8 @@ namespace Guidewire.Core
             }
             if (shortLost || longLost)
             {
-                return Text("elements are up to {0:0.#} % wrong in length and do not recover (step {1}): a gain"
-                    + " beyond its limit, or a load that so few iterations do not carry",
+                return Text("elements are up to {0:0.#} % wrong in length and do not recover (step {1}): a pbd "
+                    + "stiffness beyond its limit, or too few iterations for the load",
                     100.0 * (shortLost ? _shortMonitor : _longMonitor).Largest, _step);
             }
             return null;

@@ -19,7 +19,7 @@ namespace Guidewire.Core
         /// <summary>The largest strain of the window that ended last, dimensionless.</summary>
         public double Largest { get; private set; }
 
-        /// <summary>Writes into a snapshot, or takes over from one, the windows so far.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, the windows so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Largest = snapshot.Serialize(Largest);

@@ -2,7 +2,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds a joint of a pbd wire that has gone over half a turn: it then unwinds in the other direction, and
+    /// <summary>Detects a joint of a pbd wire that has rotated beyond half a turn: it then unwinds in the other
+    /// direction, and
     /// the wire has lost a turn.</summary>
     /// <remarks>What a joint is given back goes as the sine of its angle: the most at a quarter of a turn, nothing at
     /// half of one. Orientations follow the double cover of the rotations, so that Re(q_j* q_{j+1}) = cos(angle/2)
@@ -25,8 +26,8 @@ namespace Guidewire.Core
 
         /// <summary>The first joint that lost a turn, when, and what would help, in one line; or null.</summary>
         public string? Warning => _joint < 0 ? null : string.Format(CultureInfo.InvariantCulture,
-            "joint {0} was turned over half a turn in step {1}, and the wire lost a turn: more constraintSolverSteps,"
-            + " or less twistPerStep, keep it", _joint, _step);
+            "joint {0} was turned over half a turn in step {1}, and the wire lost a turn: more constraintSolverSteps, "
+            + "or less twistPerStep, avoid that", _joint, _step);
 
         /// <summary>Takes the wire after a step.</summary>
         /// <param name="state">The wire.</param>
@@ -43,7 +44,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, what has been seen so far.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, what has been seen so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _joint);

@@ -15,9 +15,9 @@ namespace Guidewire.Io
         {
             new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r") { Methods = Takers.Pbd },
             new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
-                "gap between the wire's surface and a wall below which the contact force acts; 0: chosen as the larger"
-                + " of a tenth of the wire's radius and a twentieth of the drive's motion per step, at most half of the"
-                + " narrowest clearance, and in a mesh 0.3 radii") { Methods = Takers.Only(Solver.Direct) },
+                "gap between the wire's surface and a wall below which the contact force acts; 0: the larger of a "
+                + "tenth of the wire's radius and a twentieth of the drive's displacement per step, at most half of "
+                + "the narrowest clearance and, in a mesh, 0.3 radii") { Methods = Takers.Only(Solver.Direct) },
             new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
                 "stiffness k of a contact; direct: the normal force is 1.19 k contactDistance at half that gap, 0:"
                 + " chosen as EI/(90 r)^2 over contactDistance, or more where the walls straighten the wire; xpbd: the"
@@ -30,8 +30,8 @@ namespace Guidewire.Io
                 + " frictionCoefficient times the normal force over elasticSlip; 0: a hundredth of the wire's"
                 + " radius") { Methods = Takers.Only(Solver.Direct) },
             new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
-                "in older files, the slip speed below which a contact crept; no longer used, as contacts now stick"
-                + " at any speed (see elasticSlip); a warning says so")
+                "in older files, the slip speed below which a contact crept; no effect, as contacts now stick "
+                + "at any speed (see elasticSlip); gives a warning")
             {
                 Getter = p => DefaultFrictionSpeed,
                 Setter = (p, v) => { },
@@ -44,8 +44,8 @@ namespace Guidewire.Io
             new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
                 "k_C, stiffness of the contact constraint per iteration") { Methods = Takers.Pbd },
             new ChoiceEntry<ElementContact>("elementContact",
-                "what touches a wall besides the spheres: rod elements by the lever rule, nothing, or rod elements by"
-                + " the thesis's rule")
+                "contact of rod elements, in addition to spheres: with forces by the lever rule, none, or by "
+                + "the thesis's rule")
             {
                 OlderWords = new Dictionary<string, ElementContact> { ["seed"] = ElementContact.Thesis },
                 Methods = Takers.Pbd,

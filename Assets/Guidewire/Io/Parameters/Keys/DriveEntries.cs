@@ -13,7 +13,7 @@ namespace Guidewire.Io
                 "what moves sphere 0: hold: one displacement at the start, then held; displace: each step along a"
                 + " fixed axis; push: each step along the first element; force: externalForce on a free sphere 0"
                 + " (with a material, proximalEnd \"free\")") { Property = nameof(DriveParameters.Kind) },
-            new SwitchEntry("SteadyState", "older word for drive: true is \"hold\", false is \"displace\", by"
+            new SwitchEntry("SteadyState", "older name of drive: true is \"hold\", false is \"displace\", by"
                 + " displacement each step where displacementPerStep is not given")
             {
                 Getter = p => p.Simulation.Drive.Kind == Drive.Hold,
@@ -25,8 +25,8 @@ namespace Guidewire.Io
             new NumberEntry("displacementPerStep", "units per step", NumberRange.Any,
                 "motion of sphere 0 with drive \"displace\" or \"push\""),
             new NumberEntry("twistPerStep", "radians per step", NumberRange.Any,
-                "rotation of element 0 about its own axis, with a material that of its clamp; with pbd, a value other"
-                + " than 0 also holds the element's frame"),
+                "rotation of element 0 about its own axis, with a material that of its clamp; with pbd, a value other "
+                + "than 0 also fixes the element's frame"),
             new NumberEntry("insertionSpeed", "m/s", NumberRange.Any,
                 "speed of sphere 0 with drive \"displace\" or \"push\", instead of displacementPerStep;"
                 + " negative values pull") { Methods = Takers.Material },
@@ -36,14 +36,14 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp,"
-                + " instead of the speeds: linear between rows, at rest before the first and after the last;"
-                + " only differences count; the path is relative to the parameter file's folder")
+                + " instead of the speeds: linear between rows, at rest before the first and after the last; "
+                + "only differences matter; the path is relative to the parameter file's folder")
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("hubForceLimit", "N", NumberRange.NotNegative,
-                "between walls: axial force at which the hub slips, so that it pushes and pulls no harder; the lost"
-                + " displacement is driveShortfall; 0: it never slips") { Methods = Takers.Only(Solver.Direct) },
+                "between walls: axial force at which the hub slips, the largest with which it pushes or pulls; the "
+                + "lost displacement is driveShortfall; 0: it never slips") { Methods = Takers.Only(Solver.Direct) },
             new VectorEntry("externalForce", "mass unit * unit/s^2", true,
                 "force on sphere 0 with drive \"force\"")
             {

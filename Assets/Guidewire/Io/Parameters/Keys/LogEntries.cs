@@ -17,8 +17,8 @@ namespace Guidewire.Io
             new SwitchEntry("logStrains",
                 "whether each log entry also has \"stress\": curvature and twist (rad/m) and couple (N m) at the n + 1"
                 + " joints, strain (shear, shear, stretch) and force (N) of the n elements, their angular velocities"
-                + " (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples are those of"
-                + " the distal part on the proximal one, in world axes, from strains alone (not strain rates)")
+                + " (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples are those "
+                + "of the distal part on the proximal one, in world axes, from strains only, without damping")
             {
                 Methods = Takers.Material,
             },
@@ -38,7 +38,7 @@ namespace Guidewire.Io
                 Setter = (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v,
                 Methods = Takers.All,
             },
-            new TextEntry("logFilePath", "folder of the results, unless -out names one")
+            new TextEntry("logFilePath", "folder of the results, unless -out gives one")
             {
                 IsOutputPath = true,
             },

@@ -13,7 +13,7 @@ namespace Guidewire.Io
                 "name of a file in the folder instruments beside the parameter file or in the program's: it stands for"
                 + " the wire's length, elements, radii, stiffnesses, density, sections and tip shape, and for the"
                 + " frictionCoefficient of walls that state none (docs/instruments.md); other keys of the file override"
-                + " it; on the command line it replaces the file's wire but for guidewireLength and numberRodElements")
+                + " it; on the command line it replaces the file's wire, except guidewireLength and numberRodElements")
             {
                 Methods = Takers.Material,
                 IsRefusedElsewhere = true,
@@ -27,14 +27,15 @@ namespace Guidewire.Io
             new NumberEntry("shearFactor", "", NumberRange.Positive,
                 "shear correction factor of GA: 0.9 for a round wire, about 0.5 for a thin-walled tube"),
             new OptionalNumberEntry("bendingStiffness", "N m^2", NumberRange.Positive,
-                "EI of the whole wire, which sets E instead of youngsModulus; a section of another material or radius"
-                + " has its own"),
+                "EI of the whole wire, which determines E instead of youngsModulus; a section of another material or "
+                + "radius has its own"),
             new OptionalNumberEntry("torsionalStiffness", "N m^2", NumberRange.Positive,
-                "GJ of the whole wire, which sets G instead of shearModulus"),
+                "GJ of the whole wire, which determines G instead of shearModulus"),
             new OptionalNumberEntry("axialStiffness", "N", NumberRange.Positive,
-                "EA of the whole wire instead of that from E and the radius, as for a coiled wire; EI is unchanged"),
+                "EA of the whole wire, instead of the value from E and the radius, as for a coiled wire; EI is "
+                    + "unchanged"),
             new OptionalNumberEntry("massPerLength", "kg/m", NumberRange.Positive,
-                "rho A of the whole wire, which sets rho instead of density"),
+                "rho A of the whole wire, which determines rho instead of density"),
             new VectorEntry("restCurvature", "rad/m", true, "curvature about d1 and d2 and twist about d3 at rest"),
             new SectionsEntry("wireSections",
                 "sections of the wire with their own material, rest curvature or elements, such as a soft, bent tip;"
@@ -54,8 +55,8 @@ namespace Guidewire.Io
             },
             new ChoiceEntry<ClampRule>("clampRule",
                 "weights of the joints at a clamp: order 4 under transverse loads, order 2 (exact for an arc), order"
-                + " 1; with any of them a buckling load is low by (k l)^2/12, k the wave number of the buckled shape"
-                + " (clamped at both ends: 0.8 % at 20 elements)"),
+                + " 1; with any of them a buckling load is too low by (k l)^2/12, k the wave number of the buckled "
+                + "shape (clamped at both ends: 0.8 % at 20 elements)"),
             new ChoiceEntry<MassRule>("massRule",
                 "mass matrix; xpbd and explicit take \"consistent\" as \"lumped\""),
             new ChoiceEntry<BendLaw>("bendLaw", "couple of a joint: K times the angle, or K sin(angle)"),

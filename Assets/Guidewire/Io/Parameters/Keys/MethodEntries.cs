@@ -15,17 +15,19 @@ namespace Guidewire.Io
             new NumberEntry("timeStep", "s", NumberRange.Positive, "dt"),
             new IntegerEntry("maxSimulationSteps", "steps", 0, 1_000_000_000, "largest number of steps of the run"),
             new OptionalNumberEntry("duration", "s", NumberRange.NotNegative,
-                "when the run ends, instead of maxSimulationSteps, which becomes the number of steps up to there; the"
-                + " last one may end after it"),
+                "simulated time of the run, instead of maxSimulationSteps, which is then derived from it; the "
+                + "last step may end later"),
             new IntegerEntry("constraintSolverSteps", "iterations per step", 0, 1_000_000,
-                "m, Gauss-Seidel iterations, with xpbd of each substep; with pbd, more of them make a stiffer wire")
+                "m, Gauss-Seidel iterations per step, with xpbd per substep; with pbd, more iterations make a "
+                    + "stiffer wire")
             {
                 Methods = Takers.Only(Solver.Pbd, Solver.Xpbd),
             },
             new ChoiceEntry<Integrator>("integrator",
                 "pbd: how positions are predicted; direct: esdirk3 for most motions, esdirk4 for smooth ones, trbdf2 "
-                + "where steps are short anyway; bdf2 loses 0.2 % of a release and 0.1 % of a spin, implicitEuler "
-                + "damps all but slow motions; with a stiff EA, rotations converge with order 2 to 2.5 in all of them")
+                    + "if steps are short anyway; bdf2 loses 0.2 % in a release and 0.1 % in a spin, implicitEuler "
+                    + "damps all but slow motions; with a stiff EA, rotations converge with order 2 to 2.5 in all of "
+                    + "them")
             {
                 OlderWords = new Dictionary<string, Integrator>
                 {
@@ -35,7 +37,7 @@ namespace Guidewire.Io
                 },
                 Methods = Takers.Only(Solver.Pbd, Solver.Direct),
             },
-            new SwitchEntry("VerletIntegration", "older word for integrator: true is \"verlet\", false \"euler\"")
+            new SwitchEntry("VerletIntegration", "older name of integrator: true is \"verlet\", false \"euler\"")
             {
                 Getter = p => p.Simulation.Method.Integrator == Integrator.Verlet,
                 Setter = (p, v) => p.Simulation.Method.Integrator = v ? Integrator.Verlet : Integrator.Euler,
@@ -50,7 +52,7 @@ namespace Guidewire.Io
                 Methods = Takers.Only(Solver.Xpbd, Solver.Explicit),
             },
             new NumberEntry("solverTolerance", "rad, or displacement over L", NumberRange.PositiveUpTo(1e-2),
-                "residual error allowed in a stage of the direct solver; also that of the force balance in a step, "
+                "residual error allowed in a stage of the direct solver, and in the force balance of a step, "
                 + "relative to the largest force") { Methods = Takers.Material },
             new NumberEntry("timeStepError", "rad, or displacement over L", NumberRange.NotNegative,
                 "tolerance of the step size control, for the error estimate of trbdf2, esdirk3 and esdirk4: steps are "
@@ -74,7 +76,8 @@ namespace Guidewire.Io
                 "ends the run in a steady state: with pbd, prediction errors below it; with a material, distance from"
                 + " the rest shape and amplitude of any swing below it, whatever the timeStep; 0: never"),
             new IntegerEntry("steadyStateHold", "steps", 1, 1_000_000_000,
-                "how long the prediction errors must stay below deltaThreshold") { Methods = Takers.Pbd },
+                "number of successive prediction errors below deltaThreshold that make a steady state")
+                { Methods = Takers.Pbd },
         });
     }
 }

@@ -12,12 +12,12 @@ namespace Guidewire.Io
         {
             new NumberEntry("guidewireLength", "units", NumberRange.Positive, "L"),
             new IntegerEntry("numberRodElements", "", 1, 1_000_000,
-                "n; the wire has n + 1 spheres and elements of length L/n; where wireSections state a number of"
-                + " their own, n is that of the rest of the wire, distributed by length"),
+                "n; the wire has n + 1 spheres and elements of length L/n; if wireSections have numbers of "
+                + "their own, n is that of the rest of the wire, distributed by length"),
             new NumberEntry("guidewireOffset", "units", NumberRange.Any, "z of sphere 0 before its displacement"),
             new NumberEntry("rodElementLength", "units", NumberRange.Positive,
-                "no effect, from older files: elements have guidewireLength / numberRodElements; a warning if it"
-                + " differs")
+                "no effect, from older files: the length of an element is guidewireLength / numberRodElements; a "
+                    + "warning if it differs")
             {
                 Getter = p => p.Simulation.Scene.GuidewireLength / p.Simulation.Scene.NumberRodElements,
                 Setter = (p, v) => { },
@@ -57,19 +57,19 @@ namespace Guidewire.Io
             new NumberEntry("distalDisplacement", "units", NumberRange.Any,
                 "displacement of the distal clamp along its own axis"),
             new NumberEntry("distalRampTime", "s", NumberRange.NotNegative,
-                "time over which distalRotation and distalDisplacement grow; 0: at once"),
+                "time over which distalRotation and distalDisplacement increase linearly; 0: applied at once"),
             new TextEntry("proximalMotionFile",
-                "CSV file of time (s), displacement x, y, z (m) and rotation vector x, y, z (rad) of the proximal end,"
-                + " along the world's axes and against its start, with a first row of zeros: linear between rows, at"
-                + " rest after the last; time steps end at rows; needs drive \"hold\"; the path is relative to the"
+                "CSV file of time (s), displacement x, y, z (m) and rotation vector x, y, z (rad) of the proximal "
+                + "end, in world axes and relative to its start, with a first row of zeros: linear between rows, at "
+                + "rest after the last; time steps end at rows; needs drive \"hold\"; the path is relative to the"
                 + " parameter file's folder")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,
             },
             new TextEntry("distalMotionFile",
-                "the same of the distal end, instead of distalRotation and distalDisplacement; a sliding end stays free"
-                + " along the axis that it starts with")
+                "the same for the distal end, instead of distalRotation and distalDisplacement; a sliding end "
+                + "remains free along its initial axis")
             {
                 Methods = Takers.Only(Solver.Direct),
                 IsRefusedElsewhere = true,
@@ -88,8 +88,8 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new JsonEntry("pointLoads", JTokenType.Array, "null or a list of {\"at\" (units), \"force\" [x, y, z] (N)}",
-                "forces of constant direction at places of the wire, each at a length along it at rest from sphere 0;"
-                + " between two spheres it is divided over both by the lever rule")
+                "forces of constant direction at points of the wire, each given by its arc length at rest from sphere "
+                + "0; between two spheres a force is distributed by the lever rule")
             {
                 Methods = Takers.Material,
                 IsRefusedElsewhere = true,
@@ -110,8 +110,8 @@ namespace Guidewire.Io
             },
             new VectorEntry("tipFollowerForce", "N", true,
                 "follower force on the last sphere, in the axes of the tip, with which it rotates: [0, 0, -1] is a"
-                + " thrust of 1 N along the tip's tangent; it has no potential, so the rest shape is where a wire with"
-                + " drag comes to rest")
+                + " thrust of 1 N along the tip's tangent; it has no potential, so the rest shape is found by "
+                + "motion with drag")
             {
                 Methods = Takers.Material,
                 IsRefusedElsewhere = true,
@@ -126,22 +126,20 @@ namespace Guidewire.Io
                 "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
                 + " \"file\", \"metresPerUnit\", \"openRims\", \"anatomy\"}",
-                "the wall around the wire; smooth (false) rounds a tube's corners, so that contact forces of a"
-                + " sliding wire do not ripple from knot to knot; the path of a mesh is relative to the parameter"
+                "the wall around the wire; smooth (false) rounds a tube's corners, so that contact forces of a "
+                + "sliding wire do not oscillate from knot to knot; the path of a mesh is relative to the parameter"
                 + " file's folder, openRims names a point near the middle of each open rim;"
-                + " anatomy is the file of the mesh's ends and"
-                + " centreline that 'guidewire.py anatomy' writes, which names the rims"
-                + " too; each shape may have a"
-                + " \"frictionCoefficient\" (0)")
+                + " anatomy is the file of the mesh's ends and centreline that 'guidewire.py anatomy' writes, which "
+                + "names the rims too; each shape may have a \"frictionCoefficient\" (0)")
             {
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
             },
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part of the wire, on the wire's initial axis:"
-                + " of a wire alone only what is beyond its exit (units) is simulated, the rest is an axial and a"
-                + " torsional spring; catheters are in it, too; the default exit is one element inside the vessel's"
-                + " inlet, the default direction that of the wire;"
+                + " of a single wire only the part beyond its exit (units) is simulated, the rest is an axial and a "
+                + "torsional spring; catheters are in the sheath, too; the default exit is one element inside the "
+                + "vessel's inlet, the default direction that of the wire;"
                 + " needs a vessel, proximalEnd \"clamped\" and drive \"displace\"")
             {
                 Methods = Takers.Only(Solver.Direct),
@@ -149,11 +147,11 @@ namespace Guidewire.Io
             },
             new JsonEntry("catheters", JTokenType.Array, "null or a list of one or two {\"start\", \"length\","
                 + " \"elements\", \"wireRadius\", \"lumenRadius\", ...}",
-                "catheters over the wire, the outermost one first, on one shared centreline: start is how far its hub"
-                + " is ahead of the wire's (units, 0), length (units), elements (30), wireRadius and lumenRadius its"
-                + " outer and inner radius (m), frictionCoefficient that of its outside with all walls (by default as"
-                + " the walls have it), lumenFriction that between the wire and its lumen along the axis (0; with one"
-                + " catheter); the other keys are those of the wire: instrument, youngsModulus, shearModulus, density,"
+                "catheters over the wire, the outermost one first, on one shared centreline: start is the distance of "
+                + "its hub ahead of the wire's (units, 0), length (units), elements (30), wireRadius and lumenRadius "
+                + "its outer and inner radius (m), frictionCoefficient that of its outside with all walls (by default "
+                + "that of each wall), lumenFriction that between the wire and its lumen along the axis (0; with "
+                + "one catheter); the other keys are as for the wire: instrument, youngsModulus, shearModulus, density,"
                 + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
                 + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit (with one catheter); needs"
                 + " proximalEnd \"clamped\"")
@@ -162,7 +160,7 @@ namespace Guidewire.Io
                 IsRefusedElsewhere = true,
             },
             new EndEntry("inlet",
-                "end of the vessel at which the wire starts, straight along the centreline there, whatever z is;"
+                "end of the vessel at which the wire starts, straight along the centreline there, regardless of z;"
                 + " guidewireOffset is then measured from that end, positive into the vessel; its default puts the tip"
                 + " two radii of the end inside, at least one element out of the sheath, which ends one radius inside;"
                 + " the drive moves along the same direction; a point is that of the nearest end; needs"
@@ -172,9 +170,9 @@ namespace Guidewire.Io
                 IsRefusedElsewhere = true,
             },
             new EndEntry("target",
-                "end or branch of the vessel, or a point of its lumen: the summary says whether and when the tip comes"
-                + " within a radius of it along the centreline; of a branch: when it is a radius beyond its root; needs"
-                + " inlet")
+                "end or branch of the vessel, or a point of its lumen: the summary says whether and when the tip "
+                + "comes within a radius of it along the centreline (for a branch: a radius beyond its root); needs "
+                + "inlet")
             {
                 Methods = Takers.Walls,
                 IsRefusedElsewhere = true,
@@ -184,8 +182,8 @@ namespace Guidewire.Io
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"},"
                 + " {\"shape\": \"cylinder\", \"point\", \"axis\", \"radius\"}, {\"shape\": \"cone\", \"from\","
                 + " \"to\", \"fromRadius\", \"toRadius\"}, {\"shape\": \"plane\", \"point\", \"normal\"}",
-                "convex bodies in the wire's path (units, degrees): capsules and cones end in balls, cylinders and"
-                + " planes have no end, a plane's normal points to the wire; each may have a"
+                "convex bodies in the wire's path (units, degrees): capsules and cones have spherical ends, cylinders "
+                + "and planes are infinite, a plane's normal points to the wire; each may have a"
                 + " \"frictionCoefficient\" (0)")
             {
                 Methods = Takers.Walls,

@@ -40,7 +40,8 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Depth by which a segment overlaps a hull with these corners, edges and face normals: the smallest
-        /// overlap over all axes on which two convex bodies can be told apart; negative when they are apart.</summary>
+        /// overlap over all axes on which two convex bodies can be distinguished; negative when they are
+        /// apart.</summary>
         public static double Depth(
             Vector3d a, Vector3d b, Vector3d[] corners, IEnumerable<Vector3d> edges, IEnumerable<Vector3d> normals)
         {

@@ -158,7 +158,7 @@ namespace Guidewire.Core.Tests
             TestMeshes wild = TestMeshes.Cube();
             wild.Triangle(0, 1, 99);
             Refused("wild", wild, "1 corners name a vertex that does not exist (there are 8)");
-            Refused("one side", MoebiusStrip(), "one side only");
+            Refused("one side", MoebiusStrip(), "not orientable");
         }
 
         [Test]

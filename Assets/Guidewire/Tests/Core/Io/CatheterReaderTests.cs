@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0004",
             "catheters[0].lumenRadius = 0.0004 is not allowed: needs more"
-            + " than 0.00045 m, the wire's own radius")]
+            + " than 0.00045 m, the wire's own largest radius")]
         [TestCase("\"lumenRadius\": 0.0006", "\"lumenRadius\": 0.0009", "lumenRadius")]
         [TestCase("\"lumenRadius\": 0.0006,", "", "catheters[0] needs lumenRadius")]
         [TestCase("\"length\": 150", "\"length\": -1", "catheters[0].length = -1 is not allowed: needs a number > 0")]
@@ -54,11 +54,11 @@ namespace Guidewire.Core.Tests
         [TestCase("\"rotationSpeed\": 2", "\"driveFile\": \"nowhere.csv\"", "nowhere.csv: no such file")]
         [TestCase("\"rotationSpeed\": 2", "\"wireSections\": [{\"from\": 0, \"to\": 9, \"bendingStiffness1\": 1e-3}]",
             "catheters[0].wireSections = [{\"from\":0,\"to\":9,\"bendingStiffness1\":0.001}] is not allowed: needs"
-            + " sections that bend alike")]
+            + " sections of equal bending")]
         [TestCase("\"wireRadius\": 0.00083,", "", "catheters[0] needs wireRadius, or an instrument")]
         [TestCase("\"length\": 150", "\"length\": \"long\"", "catheters[0].length = \"long\" is not allowed")]
         [TestCase("\"wireRadius\": 0.00083, \"lumenRadius\": 0.0006", "\"instrument\": \"microcatheter-2.4f\"",
-            "catheters[0].lumenRadius needs more than 0.00045 m, the wire's own radius")]
+            "catheters[0].lumenRadius needs more than 0.00045 m, the wire's own largest radius")]
         [TestCase("\"wireRadius\": 0.00083, \"lumenRadius\": 0.0006", "\"instrument\": \"workhorse-0.014\"",
             "catheters[0].instrument = \"workhorse-0.014\" is not allowed: needs a catheter")]
         [TestCase("0.00083, \"lumenRadius\": 0.0006", "0.0005, \"instrument\": \"catheter-angled-5f\"",
@@ -104,7 +104,7 @@ namespace Guidewire.Core.Tests
         [TestCase("\"elements\": 10", "\"insertionSpeed\": -0.2", "inner catheter's hub would pass the outer one's")]
         [TestCase("\"start\": 110", "\"start\": 10", "catheters[1].start = 100 is not allowed: needs at most 10 units")]
         [TestCase("\"start\": 110", "\"start\": 245", "start = 100 is not allowed: needs at least 103 units")]
-        [TestCase("0.001,", "0.0008,", "needs more than 0.00083 m, the inner catheter's own radius")]
+        [TestCase("0.001,", "0.0008,", "needs more than 0.00083 m, the inner catheter's own largest radius")]
         public void OuterCatheterThatDoesNotFit_IsRefused(string part, string other, string expected)
         {
             Assert.That(Refusal.Of(() => Load(Outer.Replace(part, other) + ", " + Good)), Does.Contain(expected));

@@ -40,7 +40,7 @@ namespace Guidewire.Core.Tests
             Refused("nan.stl", Text("solid\nfacet\nvertex 0 inf 0\n"), "line 3 'vertex 0 inf 0' needs");
             Refused("index.obj", Text("v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n"),
                 "line 4 'f 1 2 9' needs vertices from 1 to 3");
-            Refused("garbage.obj", garbage, "is not text");
+            Refused("garbage.obj", garbage, "is not a text file");
             Refused("garbage.stl", garbage, "is not STL, or truncated");
             Refused("short.stl", truncated, "truncated: as binary STL of 12 triangles it needs 684 bytes and has 654");
             Refused("facet.stl", Text("solid\nfacet\nvertex 0 0 0\nendfacet\n"),

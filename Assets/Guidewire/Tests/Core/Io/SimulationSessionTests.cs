@@ -108,7 +108,7 @@ namespace Guidewire.Core.Tests
                 .With.Message.Contains("proximalEnd needs"));
             material[0] = new KeyValuePair<string, JToken>("solver", "explicit");
             Assert.That(() => SimulationSession.Open(null, material, true), Throws.TypeOf<ParameterException>()
-                .With.Message.Contains("explicit is not steered by hand"));
+                .With.Message.Contains("explicit is not steered interactively"));
         }
 
         [Test]

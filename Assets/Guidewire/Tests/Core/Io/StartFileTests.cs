@@ -8,7 +8,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Runs that set out from a file.</summary>
+    /// <summary>Runs that start from a file.</summary>
     [TestFixture]
     public sealed class StartFileTests : FolderTests
     {
@@ -132,7 +132,7 @@ namespace Guidewire.Core.Tests
             JObject start = Straight(Quaterniond.Identity);
             start["positions"]![3] = start["positions"]![2]!.DeepClone();
             Assert.That(() => Load(start, "\"solver\": \"direct\""), Throws.TypeOf<ParameterException>()
-                .With.Message.Contains("positions[2] and positions[3] are one place"));
+                .With.Message.Contains("positions[2] and positions[3] coincide"));
         }
 
         [Test]

@@ -111,7 +111,7 @@ namespace Guidewire.Core.Tests
         public void AnotherMethod_GoesOnFromWhereTheWireIs(Solver before, Integrator schemeBefore, Solver after,
             Integrator schemeAfter)
         {
-            // In the middle of a ramp: the distal end goes on from where the first method had it, as the ramp says.
+            // In the middle of a ramp: the distal end continues from where the first method had it, as the ramp says.
             SimulationParameters start = Parameters(before, schemeBefore, "ramp");
             SimulationParameters parameters = Parameters(after, schemeAfter, "ramp");
             start.Scene.DistalRampTime = RampSteps * Step(Solver.Direct);

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Which nodes of inner instruments are beyond the tips around them, and when one comes to its
-    /// limit.</summary>
+    /// <summary>Determines which nodes of inner instruments are beyond the surrounding tips, and when that set has to
+    /// change.</summary>
     /// <remarks>A node comes in where it is 0.02 of its element's length beyond the tip to the end of a step. It goes
     /// where it is 0.01 beyond it, and a step ends a part there: so what takes its place lies where it was. The tip
     /// around an instrument is that of the next one around it which is beyond those around it in turn.</remarks>

@@ -4,8 +4,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds what is simulated of a wire in one or two catheters: scenes of each as if alone, and all as one
-    /// rod.</summary>
+    /// <summary>Builds the simulation of a wire in one or two catheters: a scene for each instrument, and one rod for
+    /// all.</summary>
     internal sealed class CoaxialSetup
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
@@ -101,7 +101,7 @@ namespace Guidewire.Core
             return slips;
         }
 
-        /// <summary>What is read off of each catheter, the outermost one first.</summary>
+        /// <summary>Results of each catheter, the outermost one first.</summary>
         public CoaxialRecord[] Records()
         {
             IReadOnlyList<Catheter> catheters = _parameters.Scene.Catheters;

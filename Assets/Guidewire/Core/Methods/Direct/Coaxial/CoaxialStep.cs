@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps of a wire in one or two catheters: all as one rod, by a <see cref="DirectStep"/> of its own,
+    /// <summary>Steps of a wire in one or two catheters: all are one rod with a <see cref="DirectStep"/> of its own,
     /// while nodes of those inside come and go with the hubs beyond the tips around them.</summary>
-    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. What is simulated is built anew whenever that
+    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. What is simulated is rebuilt whenever that
     /// changes, and where a tip inside comes into another element.</remarks>
     internal sealed class CoaxialStep : TimeStepper
     {
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             TakeInner();
         }
 
-        /// <summary>Sums over the run and the walls' forces; that on each sphere is not told apart.</summary>
+        /// <summary>Sums over the run and the walls' forces; that on each sphere is not distinguished.</summary>
         public override ContactRecord? Contacts { get; }
 
         /// <summary>Whether the start is a rest shape.</summary>
@@ -170,7 +170,7 @@ namespace Guidewire.Core
             return isDone;
         }
 
-        // The hubs go as far as they may.
+        // Moves the hubs as far as allowed.
         private void BeginStep()
         {
             _setup.LimitDrives(_drives, _hubs, _dynamics.Time);
@@ -275,7 +275,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>. What was simulated
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>. What was simulated
         /// when it began is kept: the step may build it anew.</summary>
         public void SerializeStep(Snapshot snapshot)
         {

@@ -3,7 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>How far a hub goes in a step, where more would take more than the force at which it slips.</summary>
+    /// <summary>Limits the displacement of a hub in a step so that its force does not exceed its
+    /// hubForceLimit.</summary>
     /// <remarks>The displacement is found by repeated steps: F(u) is the hub's force after a step with its displacement
     /// u. Between one with too much force and one with no more than the limit the interval is halved, or cut where a
     /// straight line has the limit, until the force is within 2 % below it. A hub that may not even rest gives
@@ -48,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
 
-        /// <summary>A step begins, as it is asked for.</summary>
+        /// <summary>A step begins, as it is requested.</summary>
         public void Begin()
         {
             _trials = 0;
@@ -121,9 +122,9 @@ namespace Guidewire.Core
                 string name = k == last ? "the wire's hub" : last == 1 ? "the catheter's hub"
                     : k == 0 ? "the outer catheter's hub" : "the inner catheter's hub";
                 string stops = k == last
-                    ? "it came to the catheter's hub, or the wire's tip to the first element of the catheter"
-                    : last == 1 ? "it came to the wire's hub, or its first element to the wire's tip"
-                    : "it came to the next hub, or its first element to a tip inside";
+                    ? "it met the catheter's hub, or the wire's tip came to the first element of the catheter"
+                    : last == 1 ? "it met the wire's hub, or its first element came to the wire's tip"
+                    : "it met the next hub, or its first element came to a tip inside";
                 stops += k < last && isSheathed ? ", or its hub to the exit of the sheath" : "";
                 text += hubs[k].TextOf(name, stops);
             }
@@ -135,8 +136,8 @@ namespace Guidewire.Core
         public string TextOfExcess(string name)
         {
             return _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture, Separator
-                + "{0} had up to {1:G3} N, above its hubForceLimit of {2:G3} N, in {3} of the steps: no displacement"
-                + " that was tried took less", name, _mostBeyond, _limit, _stepsBeyond);
+                + "{0} had up to {1:G3} N, above its hubForceLimit of {2:G3} N, in {3} of the steps: every "
+                + "displacement that was tried needed more", name, _mostBeyond, _limit, _stepsBeyond);
         }
 
         private string TextOf(string name, string stops)

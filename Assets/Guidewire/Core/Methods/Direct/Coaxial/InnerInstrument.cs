@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where an inner instrument is, as logs have it: its own nodes and elements, in those around it on the
-    /// shared centreline, before the outermost hub on the axis.</summary>
+    /// <summary>Shape of an inner instrument for logs: its own nodes and elements, on the shared centreline inside the
+    /// others and on the axis before the outermost hub.</summary>
     internal sealed class InnerInstrument
     {
         private readonly int _instrument;

@@ -148,7 +148,7 @@ namespace Guidewire.Core
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            // A shape is asked for piece by piece from its first node on: each piece needs to compare its own nodes.
+            // A shape is queried piece by piece from its first node on: each piece needs to compare its own nodes.
             Update(shape, from, Math.Min(to, _x.Length));
             _sums.AddGradient(gradient, from, to, ref measured);
         }

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>The direct solver's contact among a rod's terms.</summary>
+    /// <summary>Contact of the direct solver, as a term of the rod's energy.</summary>
     internal static class DirectContact
     {
         /// <summary>What walls add to the energy; null without walls. Only the direct solver adds such terms.</summary>

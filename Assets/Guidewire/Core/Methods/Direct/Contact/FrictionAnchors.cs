@@ -87,7 +87,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over all of it.</summary>
+        /// <summary>Writes or restores all of it.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Dissipated = snapshot.Serialize(Dissipated);

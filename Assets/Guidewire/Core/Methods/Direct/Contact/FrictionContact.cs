@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Friction at one contact point in the current step: the wall presses on element j at s; how hard, and
-    /// what elastic displacement the contact set out with.</summary>
+    /// <summary>Friction at one contact point in the current step: on element j at s; its normal force, and its elastic
+    /// displacement at the start of the step.</summary>
     internal struct FrictionContact
     {
         /// <summary>Of the anchor.</summary>

@@ -63,7 +63,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Queries again what has moved farther than the skin.</summary>
+        /// <summary>Repeats the queries of nodes and elements that have moved farther than the skin.</summary>
         /// <param name="x">The wire's n + 1 nodes.</param>
         public void Follow(Vector3d[] x)
         {
@@ -124,7 +124,7 @@ namespace Guidewire.Core
                     || _node[w * (n + 1) + j + 1].MayReachA(x[j + 1], range)));
         }
 
-        /// <summary>The same of node i, by what is known of it or of an element beside it.</summary>
+        /// <summary>The same for node i, by what is known of it or of an element beside it.</summary>
         public bool MayReachNode(int w, int i, Vector3d[] x)
         {
             int n = _range.Length;
@@ -165,7 +165,7 @@ namespace Guidewire.Core
                 : default;
         }
 
-        /// <summary>The same of node i, where the wall has features of points.</summary>
+        /// <summary>The same for node i, where the wall has features of points.</summary>
         public FeatureRange FeaturesAlongNode(int w, int i, Vector3d[] x, Vector3d[] to)
         {
             return _node[w * (_range.Length + 1) + i].Covers(to[i], to[i]) ? FeaturesOfNode(w, i, x[i]) : default;

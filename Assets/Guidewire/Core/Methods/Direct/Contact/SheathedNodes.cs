@@ -2,7 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The nodes of a wire as walls meet them: those in its sheath are at the exit.</summary>
+    /// <summary>The nodes of a wire as used for contact with walls: those in its sheath are placed at the
+    /// exit.</summary>
     /// <remarks>In the last element before the exit only its frame holds the wire sideways. A node there that is
     /// farther from the axis than the lumen is wide would come out through a wall, so no motion may lead to
     /// it.</remarks>

@@ -59,8 +59,8 @@ namespace Guidewire.Core
             return new SupportSpring(this, compliance);
         }
 
-        /// <summary>How far node 0 is behind its support on a spring that is soft along the axis, m; 0 on one that is
-        /// not.</summary>
+        /// <summary>Distance of node 0 behind its support on a spring that is soft along the axis, m; 0 on a stiff
+        /// one.</summary>
         public Vector3d LagOf(RodShape shape)
         {
             return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Position - shape.X[0], Axis) * Axis;

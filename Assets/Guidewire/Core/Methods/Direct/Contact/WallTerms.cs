@@ -3,7 +3,8 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>What walls add to a wire's energy: their barriers, their friction, and the spring on which node 0 then
+    /// <summary>The terms of walls in a wire's energy: their barriers, their friction, and the spring on which node 0
+    /// then
     /// follows its support.</summary>
     internal sealed class WallTerms : ContactTerms
     {

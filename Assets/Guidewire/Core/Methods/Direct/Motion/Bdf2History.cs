@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod was one step ago, for BDF2: y = 4/3 y_0 - 1/3 y_-1 + 2/3 dt y'. The first step is one of
+    /// <summary>State of a rod one step ago, for BDF2: y = 4/3 y_0 - 1/3 y_-1 + 2/3 dt y'. The first step is one of
     /// implicit Euler.</summary>
     internal sealed class Bdf2History
     {
@@ -76,7 +76,7 @@ namespace Guidewire.Core
             return h;
         }
 
-        /// <summary>Writes or takes over the step before.</summary>
+        /// <summary>Writes or restores the step before.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _isComplete);

@@ -2,8 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Turns the frames of the clamps as the schedule has it; a large turn in parts, each solved on its own,
-    /// so that the rod winds up in the sense of the turn, also beyond half a turn.</summary>
+    /// <summary>Rotates the frames of the clamps as the schedule prescribes; a large rotation is made in parts, each
+    /// solved on its own,
+    /// so that the rod winds up in the right sense, also beyond half a turn.</summary>
     internal sealed class ClampFrames
     {
         private readonly RodSchedule _schedule;
@@ -88,7 +89,7 @@ namespace Guidewire.Core
             set => _time = value;
         }
 
-        /// <summary>Writes or takes over the turns.</summary>
+        /// <summary>Writes or restores the turns.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _proximal);

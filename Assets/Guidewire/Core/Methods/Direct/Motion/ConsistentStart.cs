@@ -2,8 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Rates at a moment from the forces there, M v' = f and I w' = couple - w x I w - a I w, a of the damping
-    /// in proportion to mass: what an explicit first stage has at the start and after a jump of a load or of a
+    /// <summary>Rates that are consistent with the forces at one time, M v' = f and I w' = couple - w x I w - a I w, a
+    /// of the damping
+    /// in proportion to mass: used by an explicit first stage at the start and after a jump of a load or of a
     /// support.</summary>
     /// <remarks>The consistent mass is tridiagonal and the same for all components of v'; elements' spins decouple. A
     /// held node's acceleration is its support's, 0, because supports move evenly between jumps. Where a support's

@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps of a motion that are halved where they have no solution, and those halves again, down to 1/4096:
-    /// a snap or a violent release goes far in one step, and where it ends depends on what came between.</summary>
+    /// <summary>Steps that are halved repeatedly where they have no solution, down to 1/4096: in a snap or a violent
+    /// release the wire moves far within a step, and its end depends on the path.</summary>
     /// <remarks>Pieces are doubled again once some of one length are solved, twice as many after each doubling that
     /// failed, half as many after one that did not; so where only short pieces have a solution, for many steps as it
     /// may be, few longer ones are tried. The next step begins with the length with which the last one ended.
@@ -37,7 +37,7 @@ namespace Guidewire.Core
             _start = new StepStart(dynamics.SerializeStep);
         }
 
-        /// <summary>What is told of each piece that is done, or null.</summary>
+        /// <summary>Called after each completed part, or null.</summary>
         public Action? PieceDone { get; set; }
 
         /// <summary>The forces from outside, the means over the last step, where reactions are tracked.</summary>
@@ -100,7 +100,7 @@ namespace Guidewire.Core
             _start.Restore();
         }
 
-        /// <summary>Writes or takes over the count, and how long the next piece is.</summary>
+        /// <summary>Writes or restores the count, and how long the next piece is.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Halvings = snapshot.Serialize(Halvings);

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One stage of an implicit scheme: its positions and orientations minimise inertia plus energies. It
-    /// owns what stages leave to those after them, and what steps leave to the next.</summary>
+    /// <summary>One stage of an implicit scheme: its positions and orientations minimise inertia plus energies. It owns
+    /// the history that stages and steps pass on to later ones.</summary>
     /// <remarks>A step is <see cref="BeginStep"/>, then for each stage <see cref="BeginStage(double[], double)"/> and
     /// <see cref="Solve(double, double, int, in StagePredictor)"/>, then <see cref="Accept"/> and, where the step
     /// counts, <see cref="EndStep"/>.</remarks>
@@ -227,7 +227,7 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
             _motion.Serialize(snapshot);
@@ -244,7 +244,7 @@ namespace Guidewire.Core
             WallSolver?.SerializeShift(snapshot);
         }
 
-        /// <summary>Writes or takes over what stages leave to the next step.</summary>
+        /// <summary>Writes or restores what stages leave to the next step.</summary>
         public void SerializeHistory(Snapshot snapshot)
         {
             SerializePast(snapshot);

@@ -14,10 +14,10 @@ namespace Guidewire.Core
         /// <summary>Solves the stages.</summary>
         public ImplicitStage Stage { get; }
 
-        /// <summary>How steps are cut, and what their errors were.</summary>
+        /// <summary>How steps are subdivided, and their error estimates.</summary>
         public StepControl Control { get; }
 
-        /// <summary>Whether the scheme tells its steps' errors.</summary>
+        /// <summary>Whether the scheme estimates the errors of its steps.</summary>
         public virtual bool HasErrorEstimate => false;
 
         /// <summary>Sum of the magnitudes of the weights: the factor by which stage errors enter a step.</summary>
@@ -35,13 +35,13 @@ namespace Guidewire.Core
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
         public abstract string? Step(double time, double dt);
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public virtual void SerializeStep(Snapshot snapshot)
         {
             Stage.SerializeStep(snapshot);
         }
 
-        /// <summary>Writes or takes over, at a time, s, what went before the next step.</summary>
+        /// <summary>Writes or restores, at a time, s, what went before the next step.</summary>
         public virtual void SerializeHistory(Snapshot snapshot, double time)
         {
             Stage.SerializeHistory(snapshot);

@@ -146,7 +146,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
-        /// the last that was asked for in this step, so that more than half a turn a step is counted.</summary>
+        /// the last that was requested in this step, so that more than half a turn a step is counted.</summary>
         [MethodImpl(Compiled.AtOnce)]
         private Vector3d Turn(in Quaterniond orientation, int j)
         {
@@ -169,7 +169,7 @@ namespace Guidewire.Core
             return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
         }
 
-        /// <summary>Writes or takes over the last stage, by which forces are told between steps.</summary>
+        /// <summary>Writes or restores the last stage, by which forces are told between steps.</summary>
         public override void Serialize(Snapshot snapshot)
         {
             StageLength = snapshot.Serialize(StageLength);

@@ -32,7 +32,7 @@ namespace Guidewire.Core
         private readonly double[] _anchorTurn;       // about d3
 
         /// <summary>For a rod of two instruments.</summary>
-        /// <param name="inertia">Of the rod; it is asked for its gradient, and anchored, before this term.</param>
+        /// <param name="inertia">Of the rod; its gradient is evaluated, and it is anchored, before this term.</param>
         /// <param name="motion">Whose angles move.</param>
         /// <param name="stageCount">Of the scheme, an explicit one counted.</param>
         public InnerSpin(CoaxialRod rod, InertiaEnergy inertia, RodMotion motion, int stageCount)
@@ -287,7 +287,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over what stages leave to later ones.</summary>
+        /// <summary>Writes or restores what stages leave to later ones.</summary>
         public override void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(_history);

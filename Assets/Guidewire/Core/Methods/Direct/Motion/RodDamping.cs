@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>Damping of a material in an implicit stage: mass-proportional, force -a M v, and that of the material
     /// (Kelvin-Voigt), stress b K times the rate of strain. With the couple -a I w of <see cref="InertiaEnergy"/> a
-    /// mode of circular frequency w has the damping ratio a/(2 w) + b w/2, whatever the time step.</summary>
+    /// mode of circular frequency w has the damping ratio a/(2 w) + b w/2, independent of the time step.</summary>
     /// <remarks>Positions and all strains y are integrated by the scheme's own formula: in a stage of length h,
     /// y = y^ + h y' with y^ what earlier stages contributed. So y' = (y - y^)/h, and what resists it with coefficient
     /// c has the energy c/(2 h) |y - y^|^2 in the stage: springs like those of the wire, b/h times as stiff and at rest
@@ -136,7 +136,7 @@ namespace Guidewire.Core
             return _bending.ProximalCouple(shape);
         }
 
-        /// <summary>The same of the distal clamp.</summary>
+        /// <summary>The same for the distal clamp.</summary>
         public Vector3d DistalCouple(RodShape shape)
         {
             return _bending.DistalCouple(shape);

@@ -87,10 +87,10 @@ namespace Guidewire.Core
         /// <summary>The forces from outside.</summary>
         public RodReactions Reactions => _stage.Reactions;
 
-        /// <summary>How steps are cut, and what their errors were.</summary>
+        /// <summary>How steps are subdivided, and their error estimates.</summary>
         public StepControl Control => _stepper.Control;
 
-        /// <summary>Whether the scheme tells its steps' errors.</summary>
+        /// <summary>Whether the scheme estimates the errors of its steps.</summary>
         public bool HasErrorEstimate => _stepper.HasErrorEstimate;
 
         /// <summary>Linear momentum, kg m/s.</summary>
@@ -120,7 +120,7 @@ namespace Guidewire.Core
             return failure;
         }
 
-        /// <summary>Writes or takes over where the rod is and how it moves: what a motion by any scheme goes on
+        /// <summary>Writes or restores where the rod is and how it moves: what a motion by any scheme goes on
         /// from.</summary>
         public void Serialize(Snapshot snapshot)
         {
@@ -139,7 +139,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or takes over what went before, as far as it means something to a motion by this scheme
+        /// <summary>Writes or restores what went before, as far as it means something to a motion by this scheme
         /// and steps of dt (s).</summary>
         public void SerializeHistory(Snapshot snapshot, double dt)
         {
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             snapshot.Section(_stepper.Key + " " + dt.ToString("R", CultureInfo.InvariantCulture), SerializeStages);
         }
 
-        /// <summary>Writes or takes over all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {
@@ -158,7 +158,7 @@ namespace Guidewire.Core
             _stepper.SerializeStep(snapshot);
         }
 
-        /// <summary>Writes or takes over what was counted.</summary>
+        /// <summary>Writes or restores what was counted.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
             Solver.SerializeCounts(snapshot);

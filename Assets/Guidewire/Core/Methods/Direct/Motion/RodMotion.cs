@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a rod is and how it moves: what its steppers take from one moment to the next.</summary>
+    /// <summary>Shape, velocities and spins of a rod: the state that its steppers advance in time.</summary>
     internal sealed class RodMotion
     {
         /// <summary>A rod at rest in this shape, which moves from then on.</summary>
@@ -33,7 +33,7 @@ namespace Guidewire.Core
             Array.Copy(spins, Spins, Spins.Length);
         }
 
-        /// <summary>Writes or takes over the motion.</summary>
+        /// <summary>Writes or restores the motion.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Shape.Serialize(snapshot);

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The forces from outside on a moving rod: in its last stage, their means over the last step by the
-    /// scheme's weights, and the change of the momentum that they make.</summary>
+    /// <summary>The external forces on a moving rod: in its last stage, their means over the last step by the scheme's
+    /// weights, and the change of momentum that they cause.</summary>
     internal sealed class RodReactions
     {
         private readonly RodTerms _terms;
@@ -143,11 +143,11 @@ namespace Guidewire.Core
         public Vector3d ProximalCouple => _terms.Bending.ProximalCouple(_motion.Shape)
             + (_damping == null ? Vector3d.Zero : _damping.ProximalCouple(_motion.Shape));
 
-        /// <summary>The same of the distal clamp.</summary>
+        /// <summary>The same for the distal clamp.</summary>
         public Vector3d DistalCouple => _terms.Bending.DistalCouple(_motion.Shape)
             + (_damping == null ? Vector3d.Zero : _damping.DistalCouple(_motion.Shape));
 
-        /// <summary>Writes or takes over what the next step needs.</summary>
+        /// <summary>Writes or restores what the next step needs.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _hasStepped);
@@ -155,7 +155,7 @@ namespace Guidewire.Core
             _end.Serialize(snapshot);
         }
 
-        /// <summary>Writes or takes over all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
             Serialize(snapshot);

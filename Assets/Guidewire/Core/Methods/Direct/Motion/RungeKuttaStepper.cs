@@ -3,8 +3,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps by a Runge-Kutta scheme, each of one or more stages. A logged step is taken in parts that end at
-    /// jumps that are known in time, at each row of a load's table, and where <see cref="StepControl"/> cuts.</summary>
+    /// <summary>Steps by a Runge-Kutta scheme, each of one or more stages. A time step is divided at jumps of loads
+    /// whose times are known, at each row of a load's table, and where <see cref="StepControl"/> cuts.</summary>
     /// <remarks>An explicit first stage has the rates of the last one before; at the start and after a jump of a load
     /// or of a support those of <see cref="ConsistentStart"/>. Where these are more than a step can resolve (a support
     /// that was displaced at once, a wire far from its rest shape) the motion begins with a step of <see
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _proximalVelocity);
             snapshot.Serialize(ref _distalVelocity);
             Control.SerializeLength(snapshot);
-            // Rates are those of this rod under these loads; a reader on which other forces act begins anew.
+            // Rates are those of this rod under these loads; a reader on which other forces act starts again.
             _terms.SetTime(_schedule, time);
             double own = _start.CheckSum(_motion.Shape);
             double sum = own;

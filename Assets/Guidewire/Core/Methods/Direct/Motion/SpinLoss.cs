@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How much angular momentum a scheme takes from a wire that nothing holds, by how far the wire turns in
-    /// each step.</summary>
+    /// <summary>Estimates the loss of angular momentum of a free wire by a scheme, from its rotation in each
+    /// step.</summary>
     /// <remarks>A step that turns a straight wire by theta about a lateral axis takes, relative to what there is,
     ///   1 % theta/(20 pi) (theta/theta_1)^k,
     /// so 1 % in ten turns in steps of theta_1. Implicit Euler: a mass m on a stiff bar has x1 x (v1 - v0) = 0, with
@@ -55,7 +55,7 @@ namespace Guidewire.Core
             _sum += steps * LossInTurns * turn / Turns * Math.Pow(turn / _angle, _power);
         }
 
-        /// <summary>Writes or takes over the sums.</summary>
+        /// <summary>Writes or restores the sums.</summary>
         public void Serialize(Snapshot snapshot)
         {
             LargestTurn = snapshot.Serialize(LargestTurn);

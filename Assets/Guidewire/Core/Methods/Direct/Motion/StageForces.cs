@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>The forces from outside on a rod in one stage, or their weighted sum, N; the hub's torque, N
+    /// <summary>The external forces on a rod in one stage, or their weighted sum, N; the hub's torque, N
     /// m.</summary>
     internal struct StageForces
     {
@@ -20,7 +20,7 @@ namespace Guidewire.Core
             HubTorque += weight * other.HubTorque;
         }
 
-        /// <summary>Writes or takes over.</summary>
+        /// <summary>Writes or restores.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref Proximal);

@@ -108,7 +108,7 @@ namespace Guidewire.Core
             inertia.SetRates(shape, _turnRate[stage], _spinRate[stage]);
             if (_last == 0 && !isSecondStep)
             {
-                // The first step stands for the one before it too.
+                // At the first step the rates of the step before it are taken equal to its own.
                 Array.Copy(_spinRate[0], _spinRate[1], shape.ElementCount);
             }
         }
@@ -152,7 +152,7 @@ namespace Guidewire.Core
             return dt * Math.Max(Math.Sqrt(shift) / length, Math.Sqrt(turn));
         }
 
-        /// <summary>Writes or takes over what the next step needs.</summary>
+        /// <summary>Writes or restores what the next step needs.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(_acceleration);

@@ -2,9 +2,9 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is kept as long
-    /// as it contracts, and where it does not, the slower search that minimises the stage's energy.</summary>
-    /// <remarks>A stage is solved when no piece of the rod, from its start to any node, is out of balance by more than
+    /// <summary>Solves one implicit stage from a prediction: Newton's method with a factorisation that is reused as
+    /// long as the iteration contracts, and otherwise the slower minimisation of the stage's energy.</summary>
+    /// <remarks>A stage is solved when no piece of the rod, from its start to any node, is unbalanced by more than
     /// a force S, nor the couples on its elements by S L in all. S is the prescribed fraction of the largest force in
     /// the rod, and at most tolerance EI/L^2, because a force S at the tip of a cantilever moves it by S L^3/(3 EI) and
     /// turns it by S L^2/(2 EI): the balance then bounds the error of the shape too. A bound on the last step alone
@@ -17,7 +17,7 @@ namespace Guidewire.Core
     /// |d1|. Where that promises S with a margin it is trusted, but for every 16th stage. A correction d2 with the
     /// factorisation that is kept takes the stiff direction of each element where it was a turn d1 ago, so it leaves EA
     /// |d1| |d2|: where that is below S, and |d2| below the tolerance, nothing more is evaluated. A step that a term
-    /// cuts promises nothing: the next one begins anew.</remarks>
+    /// cuts promises nothing: the next one starts again.</remarks>
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
@@ -227,7 +227,7 @@ namespace Guidewire.Core
             return _gradient;
         }
 
-        /// <summary>Writes or takes over the counts.</summary>
+        /// <summary>Writes or restores the counts.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
             Factorisations = snapshot.Serialize(Factorisations);
@@ -235,7 +235,7 @@ namespace Guidewire.Core
             Searches = snapshot.Serialize(Searches);
         }
 
-        /// <summary>Writes or takes over what is expected of the next stage; a rod that answers otherwise than the
+        /// <summary>Writes or restores what is expected of the next stage; a rod that answers otherwise than the
         /// writer's is measured anew.</summary>
         public void SerializeTrust(Snapshot snapshot)
         {

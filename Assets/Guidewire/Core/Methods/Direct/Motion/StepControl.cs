@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Cuts and grows the steps within a logged one by the estimate of their error: a step of length h whose
-    /// error E is above the tolerance T is taken again, and the next one has h (0.9^(p+1) T/E)^(1/(p+1)), p the order
+    /// <summary>Step size control within a time step by an error estimate: a step of length h whose error E is above
+    /// the tolerance T is repeated, and the next one has h (0.9^(p+1) T/E)^(1/(p+1)), p the order
     /// of the less accurate of the two solutions.</summary>
     /// <remarks>Bounded: no step is shorter than 1/1024 of the logged one, what is left of it is divided evenly, and
     /// what is still above the tolerance then is counted and kept.</remarks>
@@ -70,7 +70,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>Writes or takes over the counts.</summary>
+        /// <summary>Writes or restores the counts.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
             LargestError = snapshot.Serialize(LargestError);
@@ -78,7 +78,7 @@ namespace Guidewire.Core
             StepsAbove = snapshot.Serialize(StepsAbove);
         }
 
-        /// <summary>Writes or takes over the length of the next step.</summary>
+        /// <summary>Writes or restores the length of the next step.</summary>
         public void SerializeLength(Snapshot snapshot)
         {
             snapshot.Serialize(ref _length);

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>All that a step may touch, as it was when the step began: a step that is taken again begins with the
-    /// same bits. Counts of the work that was done are no part of it.</summary>
+    /// <summary>Snapshot of everything that a step may change, taken at its start: a step that is repeated begins with
+    /// the same bits. Counters of work are not included.</summary>
     /// <remarks>Written into memory that is used anew, so that no step leaves garbage.</remarks>
     internal sealed class StepStart
     {

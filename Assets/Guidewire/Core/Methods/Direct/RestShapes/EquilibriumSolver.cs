@@ -23,8 +23,8 @@ namespace Guidewire.Core
         private const int MostHalvings = 40;
         private const int PowerIterations = 40;
 
-        private const string Saddle = "at a saddle of the energy, no direction leads down; a small gravity or tipForce"
-            + " across the wire does";
+        private const string Saddle = "no descent direction at a saddle of the energy; a small gravity or tipForce "
+            + "across the wire provides one";
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Holds a rod whose shape and loads lie in a plane to that plane, by springs against motion out of it
-    /// that are as stiff as the rod. A shape in the plane does not feel them: value and gradient are 0 there.</summary>
+    /// <summary>Constrains a rod whose shape and loads lie in a plane to that plane, by springs as stiff as the rod
+    /// against motion out of it. They have no effect on a plane shape: their value and gradient are 0 there.</summary>
     /// <remarks>A couple that turns with the tip has a potential only in a plane. Out of the plane the arc that it
     /// bends has no minimum of any energy from half a turn on (the second variation of a couple of this kind loses its
     /// sign at m L/EI = pi), though the arc is the rod's only equilibrium. So a plane problem is solved in its

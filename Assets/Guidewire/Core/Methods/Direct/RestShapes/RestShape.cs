@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Brings a scene's rod to its rest shape at time 0. Displacements and turns of the ends are taken in
-    /// parts, each solved before the next, so that a rod turned by many turns is wound up and not turned the shorter
-    /// way. A rod with rest curvature and one free end sets out from where it is free of stress: a coil of many turns
-    /// does not get there from the straight shape.</summary>
+    /// <summary>Brings a scene's rod to its rest shape at time 0. Displacements and rotations of the ends are applied
+    /// in increments, each solved before the next, so that a rod is wound up by many turns instead of taking the
+    /// shorter rotation. A rod with rest curvature and one free end starts from its stress-free shape: a coil of many
+    /// turns is not reached from the straight shape.</summary>
     internal sealed class RestShape
     {
         /// <summary>Iterations over those of a stage of a motion: a search may start far away.</summary>

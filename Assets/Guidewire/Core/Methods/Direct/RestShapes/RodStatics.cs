@@ -2,10 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A material rod at rest: between its supports, under dead loads and what turns with the tip. Chooses the
-    /// path to the rest shape: minimisation where the loads have a potential (all but a force that turns with the tip,
-    /// and a couple in space), a minimisation kept in the plane for a couple in a plane problem, else minimisation
-    /// without what turns with the tip and then creeping under it.</summary>
+    /// <summary>A material rod at rest: between its supports, under dead and follower loads. Chooses how the rest shape
+    /// is found: by minimisation if the loads have a potential (all but a follower force, and a follower couple in
+    /// space), by minimisation within the plane for a couple in a plane problem, otherwise by minimisation without
+    /// follower loads followed by viscous relaxation under them.</summary>
     internal sealed class RodStatics
     {
         private const double PlaneTolerance = 1e-12;
@@ -36,20 +36,20 @@ namespace Guidewire.Core
             }
             else if (_terms.Followers.Force.HasPotential && FindPlane(shape, out Vector3d normal))
             {
-                method = "minimum of the energy in the plane of the loads, kept to that plane";
+                method = "minimum of the energy in the plane of the loads, constrained to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
                 result = new EquilibriumSolver(_rod, _supports, _terms.With(guide)).Solve(
                     shape, tolerance, mostIterations);
                 if (result.Converged && !IsStableInSpace(shape))
                 {
-                    method += "; free to leave it, the wire would not stay";
+                    method += "; in space it is not stable";
                 }
             }
             else
             {
                 method = _terms.Followers.Force.HasPotential
-                    ? "tipMoment has no potential in space: where a wire with drag comes to rest"
-                    : "tipFollowerForce has no potential: where a wire with drag comes to rest";
+                    ? "tipMoment has no potential in space: equilibrium found by motion with drag"
+                    : "tipFollowerForce has no potential: equilibrium found by motion with drag";
                 result = Creep(shape, tolerance, mostIterations);
             }
             result.Method = method;

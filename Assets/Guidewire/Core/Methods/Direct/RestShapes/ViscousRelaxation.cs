@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Finds where a rod comes to rest under a couple or a force that turns with its tip: lets it creep, as
-    /// in a viscous liquid, M u' = -(what is out of balance).</summary>
+    /// <summary>Finds the equilibrium of a rod under a follower couple or force by viscous relaxation, M u' =
+    /// -(unbalanced forces).</summary>
     /// <remarks>Under dead forces the creeping rod would go downhill in its energy and end in a minimum. A couple in
     /// space and a force that turns have no potential, but the motion makes sense all the same, and a shape is a rest
     /// shape where it ends and to which it comes back when disturbed. Each step is one of implicit Euler, linearised,
@@ -19,8 +19,8 @@ namespace Guidewire.Core
         private const double ShortStep = 0.1;   // below it, it falls
         private const double NearRest = 0.01;   // below it, it falls fast
 
-        private const string Flutter = "; what turns with the tip drives a slender wire for ever, a couple from about"
-            + " 3.6 EI/L on, a thrust from about 20 EI/L^2";
+        private const string Flutter = "; a follower load drives a slender wire for ever, a couple above about "
+            + "3.6 EI/L, a thrust above about 20 EI/L^2";
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;

@@ -2,7 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>How slowly a disturbance of a rod with drag dies out: the smallest real part among the eigenvalues
+    /// <summary>Decay rate of the slowest disturbance of a rod with drag: the smallest real part among the eigenvalues
     /// lambda of K v = lambda M v, where K, under a couple that turns with the tip, is not symmetric.</summary>
     /// <remarks>With a shift s that makes K + s M positive definite all eigenvalues lie right of -s, and the largest of
     /// theta = 1/(lambda + s), those of (K + s M)^-1 M, belong to the ones nearest to it. Arnoldi's method finds them

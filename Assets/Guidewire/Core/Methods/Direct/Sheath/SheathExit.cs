@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Where a sheath ends, and what is wrong with it.</summary>
+    /// <summary>The exit of a sheath, and the check of its position.</summary>
     internal static class SheathExit
     {
         private const double Rounding = 1e-6;   // of the wire's length, and of a direction

@@ -2,8 +2,7 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds what is simulated of a wire in a sheath, from an element on, and finds where the sheath
-    /// ends.</summary>
+    /// <summary>Builds the simulated part of a wire in a sheath, from a given element on, and finds the exit.</summary>
     internal sealed class SheathSetup
     {
         private readonly SimulationParameters _parameters;

@@ -8,7 +8,7 @@ namespace Guidewire.Core
     /// <remarks>What is simulated begins with an element that is wholly in the sheath until the step's end, however far
     /// the hub goes: so every joint that comes out, or goes in, does so within a step, and no force and no energy
     /// changes where an element comes in, with the strain and the twist that the springs have. It goes again where the
-    /// next one is well inside too. What is simulated is built anew whenever that happens.</remarks>
+    /// next one is well inside too. What is simulated is rebuilt whenever that happens.</remarks>
     internal sealed class SheathStep : TimeStepper
     {
         private const double Late = 0.3;        // of an element's length, by which it goes late
@@ -125,8 +125,8 @@ namespace Guidewire.Core
             Contacts!.Take(_inner.Contacts!, _window.First);
         }
 
-        /// <summary>A step begins: elements that will come to the exit come in, others go. A second time nothing
-        /// changes.</summary>
+        /// <summary>Begins a step: elements that will reach the exit enter the window, others leave. A second call
+        /// changes nothing.</summary>
         public void MoveWindow()
         {
             int first = _window.First;

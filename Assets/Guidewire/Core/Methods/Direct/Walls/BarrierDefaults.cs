@@ -3,8 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Distance and stiffness of the barrier where the parameters do not say, from wire, walls and
-    /// drive.</summary>
+    /// <summary>Default distance and stiffness of the barrier, from wire, walls and drive.</summary>
     /// <remarks>The distance g0 is a tenth of the wire's radius, or a twentieth of what the drive moves in a step where
     /// that is more: a wire that moves farther than 20 g0 in a step would jump past its barriers. It is at most half of
     /// the clearance where the walls are narrowest and still wider than the wire, because two barriers that overlap
@@ -38,22 +37,22 @@ namespace Guidewire.Core
         {
             if (given.Distance < LeastOfRule * ruled.Distance)
             {
-                return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too short for the"
-                    + " wire and its motion in a step, {1:G3} m is by rule", given.Distance, ruled.Distance);
+                return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too short for the "
+                    + "wire and its motion in a step; {1:G3} m is the default", given.Distance, ruled.Distance);
             }
             if (given.Distance > MostDistance * ruled.Distance)
             {
-                return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too long for the"
-                    + " wire and its walls, {1:G3} m is by rule", given.Distance, ruled.Distance);
+                return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too long for the "
+                    + "wire and its walls; {1:G3} m is the default", given.Distance, ruled.Distance);
             }
             if (given.Stiffness < LeastOfRule * ruled.Stiffness)
             {
-                return string.Format(CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is too soft for the"
-                    + " wire, {1:G3} N/m is by rule", given.Stiffness, ruled.Stiffness);
+                return string.Format(CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is too soft for the "
+                    + "wire; {1:G3} N/m is the default", given.Stiffness, ruled.Stiffness);
             }
             return given.Stiffness <= MostOfRule * ruled.Stiffness ? null : string.Format(
-                CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is beyond what numbers resolve beside the"
-                + " wire's, {1:G3} N/m is by rule", given.Stiffness, ruled.Stiffness);
+                CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is so large that rounding hides the "
+                    + "wire's stiffness; {1:G3} N/m is the default", given.Stiffness, ruled.Stiffness);
         }
 
         /// <summary>The barrier of a rod between walls.</summary>

@@ -4,7 +4,7 @@ using System.Globalization;
 namespace Guidewire.Core
 {
     /// <summary>Solves one implicit stage between walls: Newton's method on one energy, that of inertia, wire, loads
-    /// and barriers, from a shape whose gaps are all open to one whose forces balance.</summary>
+    /// and barriers, from a shape with open gaps to one in equilibrium.</summary>
     /// <remarks>A step goes no farther than every gap allows on the straight path of the nodes, and is shortened until
     /// the energy falls by a fraction of what the slope predicts (Armijo); so no iterate is outside a wall.
     /// Where the second derivative is not positive definite, a wire under thrust away from the solution,
@@ -12,7 +12,7 @@ namespace Guidewire.Core
     /// multiple of the metric is added, kept from one iteration to the next. The former slows down only
     /// what is unstable: a wire whose forces balance in the plane of its bend converges in it as fast as
     /// ever, though it would go on out of the plane. A stage is solved when no piece of the rod, from its
-    /// start to any node, is out of balance by more than S, as in <see cref="StageSolver"/>; where the
+    /// start to any node, is unbalanced by more than S, as in <see cref="StageSolver"/>; where the
     /// energy's own rounding hides the decrease the balance decides alone.</remarks>
     internal sealed class BarrierNewton
     {
@@ -143,7 +143,7 @@ namespace Guidewire.Core
                 + " iterations";
         }
 
-        /// <summary>Writes or takes over what the next stage depends on.</summary>
+        /// <summary>Writes or restores what the next stage depends on.</summary>
         public void SerializeShift(Snapshot snapshot)
         {
             snapshot.Serialize(ref _shift);

@@ -3,7 +3,7 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Reports what holds a wire between walls whose step has no solution: the force of its hub, and the
+    /// <summary>Describes the forces on a wire between walls whose step has no solution: that of its hub, and the
     /// largest contact force.</summary>
     /// <remarks>A hub that does not slip jams a wire when its thrust exceeds the buckling load of a clamped length of
     /// 90 diameters, 4 pi^2 EI/(180 r)^2: under a larger thrust it bends until walls hold it on both sides at every
@@ -64,7 +64,7 @@ namespace Guidewire.Core
             double s = contact.Position;
             Vector3d x = (1.0 / _metres) * Vector3d.Lerp(shape.X[j], shape.X[j + 1], s);
             double fromTip = ((1.0 - s) * _fromTip[j] + s * _fromTip[j + 1]) / _metres;
-            return string.Format(CultureInfo.InvariantCulture, "{0}; of {1} contacts the hardest pushes with {2:G3} N,"
+            return string.Format(CultureInfo.InvariantCulture, "{0}; the largest of {1} contact forces is {2:G3} N,"
                 + " {3:G4} units of wire before its tip, at ({4:G4}, {5:G4}, {6:G4})", hub, contacts.Count,
                 contact.Force, fromTip, x.X, x.Y, x.Z);
         }

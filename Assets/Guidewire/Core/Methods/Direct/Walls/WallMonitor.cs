@@ -64,7 +64,7 @@ namespace Guidewire.Core
             SetClearances(shape);
         }
 
-        /// <summary>A part of the step has come to this shape.</summary>
+        /// <summary>Takes the shape at the end of a part of the step.</summary>
         public void AddPart(RodShape shape)
         {
             SetUnits(shape, _to);
@@ -104,7 +104,7 @@ namespace Guidewire.Core
             TakeForces(shape, record);
         }
 
-        /// <summary>Writes or takes over the passages so far.</summary>
+        /// <summary>Writes or restores the passages so far.</summary>
         public void Serialize(Snapshot snapshot)
         {
             _passages.Serialize(snapshot);

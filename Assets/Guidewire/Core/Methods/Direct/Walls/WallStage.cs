@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>One implicit stage of a wire between walls: starts where the wire is, moves as far towards the
-    /// prediction as the walls allow, and goes on to the minimum of the stage's energy.</summary>
+    /// <summary>One implicit stage of a wire between walls: starts from the current shape, moves as far towards the
+    /// prediction as the walls allow, and continues to the minimum of the stage's energy.</summary>
     internal sealed class WallStage
     {
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
@@ -58,7 +58,7 @@ namespace Guidewire.Core
                 double fraction = Newton.MaxStepOf(shape, _direction);
                 if (!(fraction > 0.0) && k == 1)
                 {
-                    return "the wire's surface is at a wall at the start of the step";
+                    return "the wire's surface touches a wall at the start of the step";
                 }
                 isFar |= RodStep.Size(_direction, shape.ElementCount, _totalLength, out _) > Far * Newton.Tolerance;
                 RodStep.ApplyStraight(shape, _direction, fraction, shape);

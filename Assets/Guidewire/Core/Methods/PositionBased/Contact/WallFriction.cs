@@ -3,8 +3,8 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Coulomb friction of pbd contacts, at the level of positions: in each iteration, after its normal
-    /// correction off the wall, a contact takes back what of its point's motion is along the wall, by no more in all
-    /// than mu times its total normal correction.</summary>
+    /// correction off the wall, a contact reverses the tangential displacement of its point, by at most mu times its
+    /// total normal correction.</summary>
     /// <remarks>In a solve a contact's point is moved by P n along its normal, P the sum of its normal corrections, and
     /// by t along the wall. Both are impulses of the wall, P/W and t/W times 1/dt, over the same inverse mass W of the
     /// point. A wall with friction gives |t| &lt;= mu P (Coulomb): within that it brings the point back to where the
@@ -56,7 +56,7 @@ namespace Guidewire.Core
             return _taken[k];
         }
 
-        /// <summary>How far friction moves the point of contact k in one iteration, units.</summary>
+        /// <summary>Displacement of the point of contact k by friction in one iteration, units.</summary>
         /// <param name="k">The contact.</param>
         /// <param name="motion">Its point's motion since the solve began, units.</param>
         /// <param name="normal">Its normal n.</param>

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Holds the last sphere and the frame of the last element, beside another drive's motion of sphere 0:
-    /// where they are at the start, displaced along the frame's d3 and turned about it as prescribed in time.</summary>
+    /// <summary>Holds the last sphere and the frame of the last element, in addition to another drive's motion of
+    /// sphere 0: at their start, displaced along the frame's d3 and turned about it as prescribed in time.</summary>
     /// <remarks>They must be of inverse mass and orientation weight 0, or the iterations move them.</remarks>
     internal sealed class DistalClampDrive : IDriveMotion
     {
@@ -29,7 +29,7 @@ namespace Guidewire.Core
             state.PredictedOrientations[state.ElementCount - 1] = _schedule.Distal.FrameAt(time);
         }
 
-        /// <summary>Writes into a snapshot, or takes over from one, where the clamp's motion stands.</summary>
+        /// <summary>Writes into a snapshot, or restores from one, where the clamp's motion stands.</summary>
         public void Serialize(Snapshot snapshot)
         {
             _clock.Serialize(snapshot);

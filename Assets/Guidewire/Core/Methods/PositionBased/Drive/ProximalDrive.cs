@@ -1,7 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Moves sphere 0 every step, as far as it is told and in the direction that the scene's drive
-    /// has.</summary>
+    /// <summary>Moves sphere 0 in every step by a given displacement in the direction of the scene's drive.</summary>
     internal sealed class ProximalDrive : IDriveMotion
     {
         private readonly IDriveDirection _direction;

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as the user asks at the
-    /// moment.</summary>
+    /// <summary>Moves sphere 0 along the first element and turns that element about its axis, as the user
+    /// steers.</summary>
     /// <remarks>The user holds the frame of element 0, also while steering asks for nothing: its orientation has weight
     /// 0.</remarks>
     internal sealed class SteeredDrive : IDriveMotion

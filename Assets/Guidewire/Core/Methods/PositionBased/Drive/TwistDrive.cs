@@ -1,7 +1,8 @@
 namespace Guidewire.Core
 {
-    /// <summary>Turns element 0 about its own axis every step, beside another drive's motion of sphere 0, as physicians
-    /// turn a wire (thesis, outlook): q_0 -> q_0 (cos a/2 + e3 sin a/2). The bend-twist constraint carries it to the
+    /// <summary>Turns element 0 about its own axis every step, in addition to another drive's motion of sphere 0, as
+    /// physicians rotate a wire (thesis, outlook): q_0 -> q_0 (cos a/2 + e3 sin a/2). The bend-twist constraint carries
+    /// it to the
     /// tip.</summary>
     /// <remarks>The drive holds the frame of element 0: its orientation has weight 0 and turns as asked, and no
     /// further.</remarks>

@@ -1,7 +1,7 @@
 #if NET8_0_OR_GREATER
 namespace Guidewire.Core
 {
-    /// <summary>A vector register of doubles, one number a lane. Each operation is that of IEEE 754 in every lane,
+    /// <summary>A vector register of doubles, one number per lane. Each operation is that of IEEE 754 in every lane,
     /// rounded by itself, so that a lane holds what the same operations on plain doubles give.</summary>
     internal interface ILanes<T>
         where T : struct, ILanes<T>

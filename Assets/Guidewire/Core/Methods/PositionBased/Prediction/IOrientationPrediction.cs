@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where the orientations would go without constraints.</summary>
+    /// <summary>Prediction of the orientations without constraints.</summary>
     internal interface IOrientationPrediction
     {
         /// <summary>Writes <see cref="RodState.PredictedOrientations"/>.</summary>
@@ -8,7 +8,7 @@ namespace Guidewire.Core
         /// <param name="timeStep">dt in s.</param>
         void Predict(RodState state, double timeStep);
 
-        /// <summary>Writes into a snapshot, or takes over from one, what it remembers of earlier steps; from a
+        /// <summary>Writes into a snapshot, or restores from one, what it remembers of earlier steps; from a
         /// prediction of its kind and the same step size only.</summary>
         void Serialize(Snapshot snapshot, double timeStep);
     }

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Where the spheres would go without constraints: from x, v and forces to p. A sphere of inverse mass 0
+    /// <summary>Prediction of the positions without constraints: from x, v and forces to p. A sphere of inverse mass 0
     /// stays where it is (thesis 3.1.4); its drive moves it afterwards.</summary>
     internal interface IPositionPrediction
     {
@@ -9,7 +9,7 @@ namespace Guidewire.Core
         /// <param name="timeStep">dt in s.</param>
         void Predict(RodState state, double timeStep);
 
-        /// <summary>Writes into a snapshot, or takes over from one, what it remembers of earlier steps; from a
+        /// <summary>Writes into a snapshot, or restores from one, what it remembers of earlier steps; from a
         /// prediction of its kind and the same step size only.</summary>
         void Serialize(Snapshot snapshot, double timeStep);
     }

@@ -268,7 +268,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(run.State.Positions[i].Y, Is.GreaterThan(-0.4001));
             }
             Assert.That(run.Contacts.MaxPenetration, Is.GreaterThan(0.9 * 0.4));
-            Assert.That(run.Warnings, Has.Some.StartWith("a wall reached"));
+            Assert.That(run.Warnings, Has.Some.StartWith("the wire penetrated a wall"));
         }
 
         [Test]

@@ -3,7 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Large strains and long ways are what was asked for, and no blow-up; energy from nowhere is
+    /// <summary>Large strains and displacements are requested here, and no instability; energy from nowhere is
     /// one.</summary>
     public sealed class LargeMotionTests
     {

@@ -3,7 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>A wire with a material ends at rest where it is at rest, whatever the time step.</summary>
+    /// <summary>A wire with a material ends at rest where it is at rest, independent of the time step.</summary>
     public sealed class RestMonitorTests
     {
         private const double Threshold = 0.001;   // units: 1 um

@@ -3,7 +3,7 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>A step that is taken again begins with the bits with which it began first.</summary>
+    /// <summary>A step that is repeated begins with the bits with which it began first.</summary>
     public sealed class StepStartTests
     {
         [TestCase(Integrator.ImplicitEuler)]
@@ -52,7 +52,7 @@ namespace Guidewire.Core.Tests
             AssertSameBits(parameters, 45, 4);
         }
 
-        // Nodes come in and go, some of them in the steps that are taken again.
+        // Nodes come in and go, some of them in the steps that are repeated.
         [TestCase(0.2, 0.0, 0.0, true)]
         [TestCase(-0.3, 0.1, 0.0, true)]
         [TestCase(0.4, 0.1, 0.02, true)]

@@ -53,7 +53,7 @@ namespace Guidewire.Core.Tests
             Assert.That(ways[10], Is.LessThan(1e-6), "last sphere");
             Assert.That(ways[0], Is.LessThan(1e-3), "first sphere");
 
-            // What is left over meets damping: v = (F - mu W) dt/(d M), for the time of the whole force.
+            // What is left meets damping: v = (F - mu W) dt/(d M), for the time of the whole force.
             double[] moved = AfterForce(rule, 1.02, out double expected);
             Assert.That(moved[10], Is.EqualTo(expected).Within(0.05 * expected));
         }

@@ -4,7 +4,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Steps of a wire in a catheter leave nothing for the garbage collector, but those in which an element
-    /// comes or goes, and what is simulated is built anew.</summary>
+    /// comes or goes, and what is simulated is rebuilt.</summary>
     public sealed class CoaxialGarbageTests
     {
         private const int Steps = 200;

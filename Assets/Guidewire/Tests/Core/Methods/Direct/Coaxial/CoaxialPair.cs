@@ -82,7 +82,7 @@ namespace Guidewire.Core.Tests
             Build(new[] { 0, beyond }, new[] { 0.0, lead }, sheathed);
         }
 
-        /// <summary>The same of all.</summary>
+        /// <summary>The same for all.</summary>
         public void Build(int[] beyond, double[] leads, double sheathed = 0.0)
         {
             RodShape? old = Shape;

@@ -110,7 +110,7 @@ namespace Guidewire.Core.Tests
         /// <summary>Sum of what the wire's hub was asked to go, there and back both counted, m.</summary>
         public double WireAsked { get; private set; }
 
-        /// <summary>The same of the catheter's.</summary>
+        /// <summary>The same for the catheter's.</summary>
         public double CatheterAsked { get; private set; }
 
         public override string ToString()

@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
     internal sealed class RandomCoaxialPushTests
     {
         // The wire is drawn in by as much a step as is left of its first element beyond the catheter's tip: a
-        // prediction that counts that twice has the element the other way round, and its joint loses a turn.
+        // prediction that counts that twice has the element reversed, and its joint loses a turn.
         [TestCase(454)]
         [TestCase(932)]
         public void WireThatIsDrawnInFast_LosesNoTurnAtTheTip(int seed)

@@ -17,7 +17,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 1000.0, 400.0));
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
             Assert.That(run.Reason, Does.Contain("hubForceLimit").And.Not.Contain("shorter timeStep"));
-            Match said = Regex.Match(run.Reason, @"the hub pushes with (\S+) N; of \d+ contacts the hardest pushes with"
+            Match said = Regex.Match(run.Reason, @"the hub pushes with (\S+) N; the largest of \d+ contact forces is"
                 + @" (\S+) N, (\S+) units of wire before its tip, at \((\S+), (\S+), (\S+)\)");
             Assert.That(said.Success, run.Reason);
             double hub = Number(said, 1);

@@ -268,7 +268,7 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase(1e-300, 0.0, "contactStiffness = 1E-300 N/m is too soft")]
-        [TestCase(1e300, 0.0, "contactStiffness = 1E+300 N/m is beyond")]
+        [TestCase(1e300, 0.0, "contactStiffness = 1E+300 N/m is so large")]
         [TestCase(0.0, 1e-14, "contactDistance = 1E-14 m is too short")]
         [TestCase(0.0, 1.0, "contactDistance = 1 m is too long")]
         public void BarrierThatCannotWork_IsNamedWhereAStepHasNoSolution(double stiffness, double distance,
@@ -303,7 +303,7 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(bend / (span * span * distance)).Within(1e-9).Percent);
         }
 
-        /// <summary>A mesh keeps what it was asked for, for all that ask.</summary>
+        /// <summary>A mesh caches the results of queries for all callers.</summary>
         [Test]
         public void TwoWiresInOneMesh_InTurns_MoveAsEachAlone()
         {
@@ -348,7 +348,7 @@ namespace Guidewire.Core.Tests
             run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
             Assert.That(run.Reason, Does.Contain("contactDistance = 0.0001 m is too long")
-                .And.Contain("4E-05 m is by rule"));
+                .And.Contain("4E-05 m is the default"));
         }
 
         [Test]
@@ -357,7 +357,7 @@ namespace Guidewire.Core.Tests
             // The hub goes on straight where the tube bends: it asks for 72 mm beyond its wall.
             Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 1000.0, 400.0));
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
-            Assert.That(run.Reason, Does.Contain("the walls do not let sphere 0 to where the drive has it"));
+            Assert.That(run.Reason, Does.Contain("the walls keep sphere 0 from the position of the drive"));
             Assert.That(run.Reason, Does.Contain("hubForceLimit"));
             // In the step of 10 mm before, the hub was no more than a tenth of an element off.
             Assert.That(run.Contacts!.DriveShortfall, Is.InRange(1.0, 11.0));

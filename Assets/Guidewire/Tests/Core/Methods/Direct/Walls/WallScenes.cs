@@ -28,7 +28,7 @@ namespace Guidewire.Core.Tests
 
         /// <summary>The same as a mesh: rings of corners on the tube, a pair of them in the bend's plane, so that the
         /// wire lies where chords take nothing off around the tube.</summary>
-        /// <param name="around">Corners of a ring.</param>
+        /// <param name="around">Vertices per ring.</param>
         /// <param name="pieces">Of the bend; rings are as far apart elsewhere.</param>
         public static MeshShape ArchMesh(int around, int pieces)
         {
