@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _skin;
         private readonly Neighbour[] _element;    // by wall and element
-        private readonly Neighbour[] _node;       // by wall and node: features of points, or where it was last asked for
+        private readonly Neighbour[] _node;       // by wall and node: features of points, or where last asked for
         private readonly Neighbour[] _elementBefore;    // the queries before the last ones
         private readonly Neighbour[] _nodeBefore;
         private readonly int[] _hint;             // by wall and element
@@ -139,8 +139,8 @@ namespace Guidewire.Core
                     && (i == 0 || _element[w * n + i - 1].MayReachB(x[i], range))));
         }
 
-        /// <summary>Whether wall w may be within a range, units, of a position of node i, by where it was last asked for
-        /// there.</summary>
+        /// <summary>Whether wall w may be within a range, units, of a position of node i, by where it was last asked
+        /// for there.</summary>
         public bool MayReachNode(int w, int i, in Vector3d x, double range)
         {
             return _node[w * (_range.Length + 1) + i].MayReachA(x, range);

@@ -121,8 +121,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Predicts orientations at the end of the stage, that of an element by w' of two stages before, w'_1 +
-        /// fraction (w'_2 - w'_1).</summary>
+        /// <summary>Predicts orientations at the end of the stage, that of an element by w' of two stages before, w'_1
+        /// + fraction (w'_2 - w'_1).</summary>
         /// <param name="first">w'_1, rad/s^2.</param>
         /// <param name="second">w'_2, rad/s^2.</param>
         /// <param name="predicted">Receives the orientations.</param>
