@@ -101,7 +101,7 @@ namespace Guidewire.Core
 
         /// <summary>The nearest point: on the side, whose curvature is 1/(distance from the axis) around it, or on a
         /// ball.</summary>
-        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+        internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
             int hint = -1;
@@ -112,6 +112,7 @@ namespace Guidewire.Core
                     ? ContactPoint.Edge(contact, 1, Generator(foot), foot.FromAxis)
                     : ContactPoint.Corner(contact, 1, foot.FromAxis));
             }
+            return range;
         }
 
         /// <inheritdoc/>

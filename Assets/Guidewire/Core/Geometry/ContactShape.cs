@@ -36,13 +36,14 @@ namespace Guidewire.Core
         /// <param name="range">Units.</param>
         /// <param name="features">The wall's features near the point, where known: they speed up the query.</param>
         /// <param name="contactPoints">Receives the contact points.</param>
+        /// <returns>A distance, units, than which the wall is not nearer, where there are no contact points.</returns>
         /// <remarks>Each shape defines its contact points; the nearest one, as found by <see cref="Nearest"/>, is among
         /// them. Their weights make sums over them continuous: for any function f that is 0 from the range on, the sum
         /// of Weight f(Distance) has no jump when the point moves, although points appear and vanish. A point of weight
         /// -1 subtracts what the two points on either side of it have in common. The order depends on wall and point
         /// alone. Nothing is allocated once the list and the shape's scratch memory have reached their size; one object
         /// serves one thread.</remarks>
-        internal abstract void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+        internal abstract double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints);
 
         /// <summary>True where the wire may be: in a vessel's lumen, outside an obstacle.</summary>

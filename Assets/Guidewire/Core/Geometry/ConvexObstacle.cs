@@ -80,13 +80,13 @@ namespace Guidewire.Core
         /// is stated.</summary>
         /// <remarks>The points that lie highest along the normal are the corner, the edge or the face of the hull on
         /// which the point lies; the curvature is that about them.</remarks>
-        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+        internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
             int hint = -1;
             if (!Nearest(x, x, range, ref hint, out SurfaceContact contact))
             {
-                return;
+                return range;
             }
             double core = contact.Distance + _radius;
             int corner = Highest(contact.Normal);
@@ -104,6 +104,7 @@ namespace Guidewire.Core
             contactPoints.Add(isFlat ? ContactPoint.Flat(contact, 1)
                 : along == Vector3d.Zero ? ContactPoint.Corner(contact, 1, core)
                 : ContactPoint.Edge(contact, 1, along, core));
+            return range;
         }
 
         private int Highest(in Vector3d direction)

@@ -38,7 +38,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The foot of the perpendicular.</summary>
-        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+        internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
             int hint = -1;
@@ -46,6 +46,7 @@ namespace Guidewire.Core
             {
                 contactPoints.Add(ContactPoint.Flat(contact, 1));
             }
+            return contact.Distance;
         }
 
         /// <inheritdoc/>

@@ -174,14 +174,14 @@ namespace Guidewire.Core
 
         /// <summary>The contact point of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
         /// stated.</summary>
-        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+        internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
             int piece = features.From == features.To ? _tree.Deepest(x, 0, out double distance)
                 : Deepest(x, features, out distance);
             if (distance > range)
             {
-                return;
+                return distance;
             }
             _tree.Pieces[piece].Distance(x, out Vector3d centre, out double along);
             double radius = Vector3d.Distance(centre, x);
@@ -191,6 +191,7 @@ namespace Guidewire.Core
             bool isRound = along <= 0.0 || along >= 1.0;
             contactPoints.Add(isRound ? ContactPoint.Corner(contact, 1, -radius)
                 : ContactPoint.Edge(contact, 1, Vector3d.Cross(around, normal), -radius));
+            return distance;
         }
 
         /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>

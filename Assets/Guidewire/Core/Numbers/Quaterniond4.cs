@@ -93,6 +93,15 @@ namespace Guidewire.Core
             return v + q.W * t + Vector3d4.Cross(u, t);
         }
 
+        /// <summary>q / |q|.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Quaterniond4 Normalize(Quaterniond4 q)
+        {
+            Vector256<double> square = q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W;
+            Vector256<double> s = Vector256.Create(1.0) / Vector256.Sqrt(square);
+            return new Quaterniond4(s * q.X, s * q.Y, s * q.Z, s * q.W);
+        }
+
         /// <summary>(1.5 - 0.5 |q|^2) q, which is of unit length where |q| is nearly 1.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Quaterniond4 NearlyNormalized(Quaterniond4 q)

@@ -54,6 +54,18 @@ namespace Guidewire.Core
             r3.StoreUnsafe(ref first, (nuint)(3 * stride));
         }
 
+        /// <summary>Writes two numbers of each structure.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static void Store(ref double first, int stride, Vector256<double> a, Vector256<double> b)
+        {
+            Vector256<double> even = Avx.UnpackLow(a, b);
+            Vector256<double> odd = Avx.UnpackHigh(a, b);
+            even.GetLower().StoreUnsafe(ref first);
+            odd.GetLower().StoreUnsafe(ref first, (nuint)stride);
+            even.GetUpper().StoreUnsafe(ref first, (nuint)(2 * stride));
+            odd.GetUpper().StoreUnsafe(ref first, (nuint)(3 * stride));
+        }
+
         /// <summary>Adds to four numbers of each structure.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static void Add(ref double first, int stride, Vector256<double> a, Vector256<double> b,

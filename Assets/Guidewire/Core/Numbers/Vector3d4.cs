@@ -66,6 +66,15 @@ namespace Guidewire.Core
             return new Vector3d4(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
         }
 
+        /// <summary>v / |v|; a zero vector stays zero.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static Vector3d4 Normalize(Vector3d4 a)
+        {
+            Vector256<double> length = Vector256.Sqrt(a.LengthSquared);
+            Vector256<double> hasLength = Vector256.GreaterThan(length, Vector256<double>.Zero);
+            return new Vector3d4(a.X / length & hasLength, a.Y / length & hasLength, a.Z / length & hasLength);
+        }
+
         /// <summary>Four successive vectors in memory.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d4 Load(ref Vector3d first)

@@ -81,11 +81,12 @@ namespace Guidewire.Core
         /// <summary>The nearest points of all triangles, edges and corners, less those that cancel each other: feet
         /// inside faces, and what of edges and corners is left; see <see cref="MeshContactPoints"/>. All have the
         /// sign of the nearest. On an edge or corner itself, at distance 0, no curvature is stated.</summary>
-        internal override void FindContactPoints(in Vector3d x, double range, FeatureRange features,
+        internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
             _contactPoints ??= new MeshContactPoints(_wall);
             _contactPoints.Find(x, range, Nearby, features, contactPoints);
+            return range;
         }
 
         /// <summary>The triangles within the range of a point, the convex edges within that of a segment.</summary>

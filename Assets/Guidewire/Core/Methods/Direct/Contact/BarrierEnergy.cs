@@ -357,8 +357,13 @@ namespace Guidewire.Core
         {
             double radius = _nodeRadius[i];
             _contactPoints.Clear();
-            _walls[w].FindContactPoints(
+            double distance = _walls[w].FindContactPoints(
                 _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _contactPoints);
+            if (_contactPoints.Count == 0)
+            {
+                _near.SetDistanceOfNode(w, i, _x[i], distance);
+                return;
+            }
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             bool mayBeNegative = false;

@@ -10,12 +10,13 @@ namespace Guidewire.Core
     internal sealed class NeighbourList
     {
         private const double SureOfQuick = 0.9;   // of a quick distance: the part that is certain
+        private const double SureOfNode = 1.0 - 1e-6;   // of a node's distance: more than rounding takes
         private const int MostLists = 8;          // of the features of all, before the list is rebuilt
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _skin;
         private readonly Neighbour[] _element;    // by wall and element
-        private readonly Neighbour[] _node;       // by wall and node, where the wall has features of points
+        private readonly Neighbour[] _node;       // by wall and node: features of points, or where last asked for
         private readonly Neighbour[] _elementBefore;    // the queries before the last ones
         private readonly Neighbour[] _nodeBefore;
         private readonly int[] _hint;             // by wall and element
@@ -133,9 +134,27 @@ namespace Guidewire.Core
                 return false;
             }
             double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
-            return _caches[w] != null ? _node[w * (n + 1) + i].MayReachA(x[i], range)
-                : (i == n || _element[w * n + i].MayReachA(x[i], range))
-                    && (i == 0 || _element[w * n + i - 1].MayReachB(x[i], range));
+            return MayReachNode(w, i, x[i], range) && (_caches[w] != null
+                || ((i == n || _element[w * n + i].MayReachA(x[i], range))
+                    && (i == 0 || _element[w * n + i - 1].MayReachB(x[i], range))));
+        }
+
+        /// <summary>Whether wall w may be within a range, units, of a position of node i, by where it was last asked
+        /// for there.</summary>
+        public bool MayReachNode(int w, int i, in Vector3d x, double range)
+        {
+            return _node[w * (_range.Length + 1) + i].MayReachA(x, range);
+        }
+
+        /// <summary>Takes note that wall w is not nearer to a position of node i than this, units.</summary>
+        public void SetDistanceOfNode(int w, int i, in Vector3d x, double distance)
+        {
+            if (_caches[w] == null)
+            {
+                ref Neighbour node = ref _node[w * (_range.Length + 1) + i];
+                node.Begin(x, x, 0.0, 0);
+                node.End(SureOfNode * distance, distance, 0);
+            }
         }
 
         /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>

@@ -204,7 +204,7 @@ namespace Guidewire.Core
             // A prediction knows nothing of turns just wound up, and one of more than a radian leads to another
             // winding.
             Vector3d start = PredictStart(time, h, predictor);
-            if (Predict(h, predictor) > LargestPredictedTurn || inParts)
+            if (Predict(predictor) > LargestPredictedTurn || inParts)
             {
                 Array.Copy(_shape.Q, _predicted, _predicted.Length);
             }
@@ -306,20 +306,10 @@ namespace Guidewire.Core
 
         /// <summary>Orientations by the accelerations of stages before; strains are not predicted but kept, because
         /// EA makes a force of every error that the turns leave in a chord. Returns the largest turn.</summary>
-        private double Predict(double h, in StagePredictor predictor)
+        private double Predict(in StagePredictor predictor)
         {
-            double largest = 0.0;
-            Vector3d[] first = Rates.SpinRate[predictor.First];
-            Vector3d[] second = Rates.SpinRate[predictor.Second];
-            double fraction = predictor.Fraction;
-            for (int j = 0; j < _predicted.Length; j++)
-            {
-                Vector3d rate = first[j] + fraction * (second[j] - first[j]);
-                Vector3d turn = _inertia.TurnHistory[j] + h * (_inertia.SpinHistory[j] + h * rate);
-                _predicted[j] = _inertia.Start[j] * RotationVector.Exp(turn);
-                largest = Math.Max(largest, _inertia.SquaredChange(turn, j));
-            }
-            return Math.Sqrt(largest);
+            return _inertia.Predict(Rates.SpinRate[predictor.First], Rates.SpinRate[predictor.Second],
+                predictor.Fraction, _predicted);
         }
 
         private Vector3d PredictStart(double time, double h, in StagePredictor predictor)

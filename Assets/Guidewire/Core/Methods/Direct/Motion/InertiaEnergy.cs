@@ -103,12 +103,52 @@ namespace Guidewire.Core
         public void SetRates(RodShape shape, Vector3d[] turnRate, Vector3d[] spinRate)
         {
             double perStage = 1.0 / StageLength;
-            for (int j = 0; j < turnRate.Length; j++)
+            int j = 0;
+            while (j < turnRate.Length)
             {
-                Vector3d turn = Turn(shape.Q[j], j);
-                turnRate[j] = perStage * (turn - TurnHistory[j]);
-                spinRate[j] = perStage * (Spin(turn, j) - SpinHistory[j]);
+                int stop = Math.Min(j + 4, turnRate.Length);
+                if (stop == j + 4
+                    && InertiaLanes.SetRates(this, shape, _countedTurn, SurelyFirst, turnRate, spinRate, j))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    Vector3d turn = Turn(shape.Q[j], j);
+                    turnRate[j] = perStage * (turn - TurnHistory[j]);
+                    spinRate[j] = perStage * (Spin(turn, j) - SpinHistory[j]);
+                }
             }
+        }
+
+        /// <summary>Predicts orientations at the end of the stage, that of an element by w' of two stages before, w'_1
+        /// + fraction (w'_2 - w'_1).</summary>
+        /// <param name="first">w'_1, rad/s^2.</param>
+        /// <param name="second">w'_2, rad/s^2.</param>
+        /// <param name="predicted">Receives the orientations.</param>
+        /// <returns>How far the turns phi are from those of the shape last evaluated at most, radians.</returns>
+        public double Predict(Vector3d[] first, Vector3d[] second, double fraction, Quaterniond[] predicted)
+        {
+            double h = StageLength;
+            double largest = 0.0;
+            int j = 0;
+            while (j < predicted.Length)
+            {
+                int stop = Math.Min(j + 4, predicted.Length);
+                if (stop == j + 4 && InertiaLanes.Predict(
+                    this, _countedTurn, first, second, fraction, predicted, j, ref largest))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    Vector3d rate = first[j] + fraction * (second[j] - first[j]);
+                    Vector3d turn = TurnHistory[j] + h * (SpinHistory[j] + h * rate);
+                    predicted[j] = Start[j] * RotationVector.Exp(turn);
+                    largest = Math.Max(largest, (turn - _countedTurn[j]).LengthSquared);
+                }
+            }
+            return Math.Sqrt(largest);
         }
 
         /// <summary>w_3 and w_3' of element j in this orientation.</summary>
@@ -137,12 +177,6 @@ namespace Guidewire.Core
             {
                 shape.X[i] += shift;
             }
-        }
-
-        /// <summary>How far a turn phi of element j is from that of the shape last evaluated, square radians.</summary>
-        public double SquaredChange(in Vector3d turn, int j)
-        {
-            return (turn - _countedTurn[j]).LengthSquared;
         }
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 #if NET8_0_OR_GREATER
 using System.Runtime.Intrinsics;
@@ -22,19 +23,10 @@ namespace Guidewire.Core
             double surelyFirst, Vector3d[] couple, int j)
         {
 #if NET8_0_OR_GREATER
-            if (!Rows4.IsSupported)
+            if (!Rows4.IsSupported || !TryTurn(inertia, shape, countedTurn, surelyFirst, j, out Vector3d4 turn))
             {
                 return false;
             }
-            Quaterniond4 relative = Quaterniond4.Load(ref inertia.Start[j]).Conjugate
-                * Quaterniond4.Load(ref shape.Q[j]);
-            Vector256<double> last = Vector3d4.Load(ref countedTurn[j]).LengthSquared;
-            if (!RotationVector4.TryLog(relative, out Vector3d4 turn)
-                || !Vector256.LessThanOrEqualAll(last, Vector256.Create(surelyFirst)))
-            {
-                return false;
-            }
-            turn.Store(ref countedTurn[j]);
             Vector256<double> perStage = Vector256.Create(1.0 / inertia.StageLength);
             Vector3d4 w = perStage
                 * RotationVector4.TangentMap(turn, turn - Vector3d4.Load(ref inertia.TurnHistory[j]));
@@ -44,6 +36,58 @@ namespace Guidewire.Core
                 (i.Y - i.X) / i.Z * (w.X * w.Y));
             Vector3d4 change = rate + precession + Vector256.Create(inertia.TurnDamping) * w;
             new Vector3d4(i.X * change.X, i.Y * change.Y, i.Z * change.Z).Store(ref couple[j]);
+            return true;
+#else
+            return false;
+#endif
+        }
+
+        /// <summary>Sets phi' and w' of elements j to j+3, and their turns since the step's start.</summary>
+        /// <param name="surelyFirst">Square of a turn below which the shortest rotation vector is meant.</param>
+        [MethodImpl(Compiled.AtOnce)]
+        public static bool SetRates(InertiaEnergy inertia, RodShape shape, Vector3d[] countedTurn, double surelyFirst,
+            Vector3d[] turnRate, Vector3d[] spinRate, int j)
+        {
+#if NET8_0_OR_GREATER
+            if (!Rows4.IsSupported || !TryTurn(inertia, shape, countedTurn, surelyFirst, j, out Vector3d4 turn))
+            {
+                return false;
+            }
+            Vector256<double> perStage = Vector256.Create(1.0 / inertia.StageLength);
+            Vector3d4 change = turn - Vector3d4.Load(ref inertia.TurnHistory[j]);
+            Vector3d4 w = perStage * RotationVector4.TangentMap(turn, change);
+            (perStage * change).Store(ref turnRate[j]);
+            (perStage * (w - Vector3d4.Load(ref inertia.SpinHistory[j]))).Store(ref spinRate[j]);
+            return true;
+#else
+            return false;
+#endif
+        }
+
+        /// <summary>Predicts orientations j to j+3 at the end of a stage from w' of two stages before.</summary>
+        /// <param name="largest">In and out: the largest square of a change of a turn, rad^2.</param>
+        [MethodImpl(Compiled.AtOnce)]
+        public static bool Predict(InertiaEnergy inertia, Vector3d[] countedTurn, Vector3d[] first, Vector3d[] second,
+            double fraction, Quaterniond[] predicted, int j, ref double largest)
+        {
+#if NET8_0_OR_GREATER
+            if (!Rows4.IsSupported)
+            {
+                return false;
+            }
+            Vector256<double> h = Vector256.Create(inertia.StageLength);
+            Vector3d4 one = Vector3d4.Load(ref first[j]);
+            Vector3d4 rate = one + Vector256.Create(fraction) * (Vector3d4.Load(ref second[j]) - one);
+            Vector3d4 turn = Vector3d4.Load(ref inertia.TurnHistory[j])
+                + h * (Vector3d4.Load(ref inertia.SpinHistory[j]) + h * rate);
+            if (!RotationVector4.TryExp(turn, out Quaterniond4 rotation))
+            {
+                return false;
+            }
+            (Quaterniond4.Load(ref inertia.Start[j]) * rotation).Store(ref predicted[j]);
+            Vector256<double> squares = (turn - Vector3d4.Load(ref countedTurn[j])).LengthSquared;
+            largest = Math.Max(Math.Max(Math.Max(largest, squares.GetElement(0)), squares.GetElement(1)),
+                Math.Max(squares.GetElement(2), squares.GetElement(3)));
             return true;
 #else
             return false;
@@ -104,5 +148,24 @@ namespace Guidewire.Core
             return false;
 #endif
         }
+
+#if NET8_0_OR_GREATER
+        // InertiaEnergy.Turn.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static bool TryTurn(InertiaEnergy inertia, RodShape shape, Vector3d[] countedTurn, double surelyFirst,
+            int j, out Vector3d4 turn)
+        {
+            Quaterniond4 relative = Quaterniond4.Load(ref inertia.Start[j]).Conjugate
+                * Quaterniond4.Load(ref shape.Q[j]);
+            Vector256<double> last = Vector3d4.Load(ref countedTurn[j]).LengthSquared;
+            if (!RotationVector4.TryLog(relative, out turn)
+                || !Vector256.LessThanOrEqualAll(last, Vector256.Create(surelyFirst)))
+            {
+                return false;
+            }
+            turn.Store(ref countedTurn[j]);
+            return true;
+        }
+#endif
     }
 }

@@ -74,7 +74,8 @@ namespace Guidewire.Core
         {
             if (AreKept)
             {
-                RodVector[] gradient = _solver.Reactions(_motion.Shape);
+                _terms.Walls()?.Barrier.Value(_motion.Shape);
+                RodVector[] gradient = _solver.EndReactions(_motion.Shape);
                 Take(new StageForces
                 {
                     Proximal = ForceOf(gradient[0]),

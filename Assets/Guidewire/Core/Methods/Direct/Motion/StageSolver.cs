@@ -26,6 +26,7 @@ namespace Guidewire.Core
         private const int MostOnTrust = 16;   // stages
         private const double Caution = 10.0;  // on a force that is not measured but extrapolated
         private const double Safety = 2.0;    // on EA |d1| |d2|
+        private const int LeastApart = 3;     // elements, of which the first and the last have no node in common
 
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
@@ -215,6 +216,25 @@ namespace Guidewire.Core
         {
             _system.Gradient(_terms, shape, _gradient, _direction);
             _rounding.SumUp(_gradient);
+            return _gradient;
+        }
+
+        /// <summary>The same where only its entries at nodes 0 and n count.</summary>
+        /// <param name="shape">Walls, if there are any, have been asked for their energy in it last.</param>
+        public RodVector[] EndReactions(RodShape shape)
+        {
+            int n = shape.ElementCount;
+            if (_rounding.IsLarge || _supports.Coaxial != null || n < LeastApart)
+            {
+                return Reactions(shape);
+            }
+            var measured = default(GradientMeasures);
+            Array.Clear(_gradient, 0, _gradient.Length);
+            foreach (EnergyTerm term in _terms)
+            {
+                term.AddGradient(shape, _gradient, 0, 1, ref measured);
+                term.AddGradient(shape, _gradient, n - 1, n + 1, ref measured);
+            }
             return _gradient;
         }
 

@@ -116,14 +116,30 @@ namespace Guidewire.Core
             _projection.Apply(shape, predicted, last);
             Array.Copy(predicted.X, _point, last + 1);
             PlaceAtLengths(_point, predicted.X, last, fraction);
-            for (int j = 0; j < n; j++)
+            int j = 0;
+            while (j < n)
             {
-                Vector3d before = shape.X[j + 1] - shape.X[j];
-                Vector3d after = predicted.X[j + 1] - predicted.X[j];
-                Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
-                predicted.Q[j] = ShortestRotation(before, after) * shape.Q[j]
-                    * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
+                int stop = Math.Min(j + 4, n);
+                if (stop == j + 4 && PredictionLanes.Turn(shape, orientations, predicted, j))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    Turn(shape, orientations, predicted, j);
+                }
             }
+        }
+
+        /// <summary>Turns element j of a prediction, whose nodes are set, with its chord, and about it by its
+        /// spin.</summary>
+        public static void Turn(RodShape shape, Quaterniond[] orientations, RodShape predicted, int j)
+        {
+            Vector3d before = shape.X[j + 1] - shape.X[j];
+            Vector3d after = predicted.X[j + 1] - predicted.X[j];
+            Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
+            predicted.Q[j] = ShortestRotation(before, after) * shape.Q[j]
+                * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
         }
 
         // What slides out of outer instruments in the stage, and where nodes are before it does; in the stage before,
@@ -158,10 +174,19 @@ namespace Guidewire.Core
         // would be an unstable start.
         private void PlaceAtLengths(Vector3d[] curve, Vector3d[] x, int last, double fraction)
         {
-            for (int i = 1; i <= last; i++)
+            int i = 1;
+            while (i <= last)
             {
-                double length = _length[i] + fraction * (_slide[i] - _slide[i - 1]);
-                x[i] = x[i - 1] + length * Vector3d.Normalize(curve[i] - curve[i - 1]);
+                int stop = Math.Min(i + 4, last + 1);
+                if (stop == i + 4 && PredictionLanes.PlaceAtLengths(curve, x, _length, _slide, fraction, i))
+                {
+                    i = stop;
+                }
+                for (; i < stop; i++)
+                {
+                    double length = _length[i] + fraction * (_slide[i] - _slide[i - 1]);
+                    x[i] = x[i - 1] + length * Vector3d.Normalize(curve[i] - curve[i - 1]);
+                }
             }
         }
 

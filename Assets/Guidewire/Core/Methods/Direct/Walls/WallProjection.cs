@@ -39,7 +39,7 @@ namespace Guidewire.Core
                 {
                     if (near.IsNodeNear(w, i))
                     {
-                        ProjectNode(w, i, near.FeaturesOfNode(w, i, _units * shape.X[i]), ref shape.X[i]);
+                        ProjectNode(w, i, near, ref shape.X[i]);
                     }
                 }
                 for (int j = first; j < n; j++)
@@ -52,7 +52,7 @@ namespace Guidewire.Core
             }
         }
 
-        private void ProjectNode(int w, int i, FeatureRange features, ref Vector3d x)
+        private void ProjectNode(int w, int i, NeighbourList near, ref Vector3d x)
         {
             double radius = _barrier.RadiusOfNode(i);
             double distance = _barrier.Barrier.Distance;
@@ -61,7 +61,17 @@ namespace Guidewire.Core
             double asked = touched ? before : ProjectedTo * distance;
             double nearest = touched ? Pulled * distance : asked;
             _contactPoints.Clear();
-            _barrier.Walls[w].FindContactPoints(_units * x, _units * (radius + nearest), features, _contactPoints);
+            Vector3d point = _units * x;
+            double range = _units * (radius + nearest);
+            if (near.MayReachNode(w, i, point, range))
+            {
+                double found = _barrier.Walls[w].FindContactPoints(
+                    point, range, near.FeaturesOfNode(w, i, point), _contactPoints);
+                if (_contactPoints.Count == 0)
+                {
+                    near.SetDistanceOfNode(w, i, point, found);
+                }
+            }
             Vector3d normal = Vector3d.Zero;
             for (int k = 0; k < _contactPoints.Count; k++)
             {

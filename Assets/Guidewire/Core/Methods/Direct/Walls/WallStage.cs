@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>One implicit stage of a wire between walls: starts from the current shape, moves as far towards the
@@ -93,14 +95,23 @@ namespace Guidewire.Core
         private void SetDirection(RodShape shape)
         {
             int n = shape.ElementCount;
-            for (int j = 0; j <= n; j++)
+            int j = 0;
+            while (j <= n)
             {
-                Vector3d move = _predicted.X[j] - shape.X[j];
-                Vector3d turn = j < n ? RotationVector.Log(shape.Q[j].Conjugate * _predicted.Q[j]) : Vector3d.Zero;
-                _direction[j] = new RodVector
+                int stop = Math.Min(j + 4, n + 1);
+                if (stop <= n && PredictionLanes.SetDirection(shape, _predicted, _direction, j))
                 {
-                    X1 = move.X, X2 = move.Y, X3 = move.Z, T1 = turn.X, T2 = turn.Y, T3 = turn.Z,
-                };
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    Vector3d move = _predicted.X[j] - shape.X[j];
+                    Vector3d turn = j < n ? RotationVector.Log(shape.Q[j].Conjugate * _predicted.Q[j]) : Vector3d.Zero;
+                    _direction[j] = new RodVector
+                    {
+                        X1 = move.X, X2 = move.Y, X3 = move.Z, T1 = turn.X, T2 = turn.Y, T3 = turn.Z,
+                    };
+                }
             }
         }
     }
