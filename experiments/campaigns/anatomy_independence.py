@@ -7,9 +7,9 @@ finish in the same branches of the vessel and on the same branch of equilibria; 
 by more than a limit are printed.
 
 A wire that is pushed slowly is in equilibrium. Where that loses stability the tip jumps to another equilibrium, and which
-one is decided by less than any setting. Two runs end on other branches of equilibria where their tips part, that is, come
-farther apart than the limit and stay so, within 10 mm of push of a jump of either: more than 5 mm of the tip's
-displacement for 1 mm of push.
+one is decided by less than any setting. Two runs end on other branches of equilibria where their tips end as far apart as a
+jump, and part, that is, come farther apart than the limit and stay so, within 10 mm of push of a jump of either. A jump is
+more than 5 mm of the tip's displacement for 1 mm of push.
 """
 
 from __future__ import annotations
@@ -104,7 +104,7 @@ def is_other_equilibrium(one: np.ndarray, other: np.ndarray, limit: float) -> bo
     """Whether two tips, (k, 3) in mm, 1 mm of push apart, end on other branches of equilibria."""
     apart = np.linalg.norm(one - other, axis=1) > limit
     parting = len(apart) - int(np.argmin(apart[::-1]))  # the first record from which on they are apart
-    if not apart[-1] or apart.all():
+    if apart.all() or np.linalg.norm(one[-1] - other[-1]) <= _JUMP:
         return False
     moved = np.stack([np.linalg.norm(np.diff(tips, axis=0), axis=1) for tips in (one, other)]).max(axis=0)
     jumps = 1 + np.flatnonzero(moved > _JUMP)

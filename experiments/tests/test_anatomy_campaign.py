@@ -142,6 +142,7 @@ def test_tips_that_part_at_a_jump_are_in_other_equilibria_and_those_that_drift_a
     early = jumped + np.where(np.arange(101) < 30, 0.0, 0.5)[:, None] * [0.0, 1.0, 0.0]
     just_before = jumped + np.where(np.arange(101) < 52, 0.0, 0.5)[:, None] * [0.0, 1.0, 0.0]
     returned = np.where(np.arange(101)[:, None] < 80, jumped, push)
+    beside = np.where(np.arange(101)[:, None] < 80, jumped, push + [0.0, 0.3, 0.0])
     assert is_other_equilibrium(push, jumped, 0.2) and is_other_equilibrium(jumped, push, 0.2)
     assert is_other_equilibrium(push, just_before, 0.2)
     assert not is_other_equilibrium(push, drift, 0.2)
@@ -149,3 +150,4 @@ def test_tips_that_part_at_a_jump_are_in_other_equilibria_and_those_that_drift_a
     assert not is_other_equilibrium(jumped, jumped + [0.0, 0.3, 0.0], 0.2), "apart from the start"
     assert not is_other_equilibrium(push, push + [0.0, 0.1, 0.0], 0.2)
     assert not is_other_equilibrium(push, returned, 0.2), "at the end in the same place"
+    assert not is_other_equilibrium(push, beside, 0.2), "at the end nearer than a jump"
