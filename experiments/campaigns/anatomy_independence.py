@@ -165,11 +165,11 @@ def main(arguments: Sequence[str]) -> int:
 
 def _tell(where: str, name: str, distances: list[float], others: int, equilibria: int) -> None:
     """One line on the runs with one setting finer; distances of their tips in mm."""
-    if distances:
-        print(f"{where}, {name}: {np.count_nonzero(np.array(distances) <= LIMITS[name])} of {len(distances)} within "
-              f"{LIMITS[name]} mm; median {np.median(distances):.3g}, 95 of 100 {np.quantile(distances, 0.95):.3g}, "
-              f"largest {max(distances):.3g}; {others} in other branches or without an end, {equilibria} in "
-              "another equilibrium", flush=True)
+    found = "none to compare" if not distances else (
+        f"{np.count_nonzero(np.array(distances) <= LIMITS[name])} of {len(distances)} within {LIMITS[name]} mm; median "
+        f"{np.median(distances):.3g}, 95 of 100 {np.quantile(distances, 0.95):.3g}, largest {max(distances):.3g}")
+    print(f"{where}, {name}: {found}; {others} in other branches or without an end, {equilibria} in another equilibrium",
+          flush=True)
 
 
 if __name__ == "__main__":
