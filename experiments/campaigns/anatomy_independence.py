@@ -6,10 +6,10 @@ from the scene's inlet; it is run as the scene has it and with each setting fine
 finish in the same branches of the vessel and on the same branch of equilibria; others are counted. Runs whose tip moves
 by more than a limit are printed.
 
-A wire that is pushed slowly is in equilibrium. Where that loses stability the tip jumps to another equilibrium, and which
-one is decided by less than any setting. Two runs end on other branches of equilibria where their tips end as far apart as a
-jump, and part, that is, come farther apart than the limit and stay so, within 10 mm of push of a jump of either. A jump is
-more than 5 mm of the tip's displacement for 1 mm of push.
+A wire that is pushed slowly is in equilibrium. Where that loses stability the tip jumps to another equilibrium, and
+which one is decided by less than any setting. Two runs end on other branches of equilibria where their tips end as far
+apart as a jump, and part, that is, come farther apart than the limit and stay so, within 10 mm of push of a jump of
+either. A jump is more than 5 mm of the tip's displacement for 1 mm of push.
 """
 
 from __future__ import annotations
@@ -92,8 +92,8 @@ def refined(folder: Path, out: Path) -> dict[str, Path]:
 
 @dataclass(frozen=True)
 class Push:
-    """Of a run that finished: the tip's places 1 mm of push apart, mm, (k, 3); branches of the vessel on its path; energy
-    of the wire at the end, J."""
+    """Of a run that finished: the tip's places 1 mm of push apart, mm, (k, 3); branches of the vessel on its path;
+    energy of the wire at the end, J."""
 
     tips: np.ndarray
     path: list[str]
@@ -168,8 +168,8 @@ def _tell(where: str, name: str, distances: list[float], others: int, equilibria
     found = "none to compare" if not distances else (
         f"{np.count_nonzero(np.array(distances) <= LIMITS[name])} of {len(distances)} within {LIMITS[name]} mm; median "
         f"{np.median(distances):.3g}, 95 of 100 {np.quantile(distances, 0.95):.3g}, largest {max(distances):.3g}")
-    print(f"{where}, {name}: {found}; {others} in other branches or without an end, {equilibria} in another equilibrium",
-          flush=True)
+    print(f"{where}, {name}: {found}; {others} in other branches or without an end, {equilibria} in another "
+          "equilibrium", flush=True)
 
 
 if __name__ == "__main__":
