@@ -6,7 +6,7 @@ import numpy as np
 from scipy.ndimage import binary_dilation, label
 
 from anatomy.mesh import AnatomyError, Mesh, Rim, close_rims, find_bodies, signed_volume
-from anatomy.surfaces import contour, distances, to_vtk
+from anatomy.surfaces import contour, distances, nearest, to_vtk
 
 _MOST_NODES = 40_000_000
 _SAMPLES = 8000  # points at which a displacement is measured
@@ -39,8 +39,23 @@ def remesh(mesh: Mesh, rims: list[Rim], spacing: float) -> tuple[Mesh, float]:
         made = made.turned()
     moved = _displacement(closed, made)
     for rim in rims:
-        made = cut_open(made, rim.centre + 1.5 * spacing * rim.normal, rim.normal, 1.5 * rim.radius)
+        if np.abs((mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max() > 1.5 * spacing:
+            made = _without_lid(made, close_rims(mesh, [rim]), len(mesh.triangles))
+        else:
+            made = cut_open(made, rim.centre + 1.5 * spacing * rim.normal, rim.normal, 1.5 * rim.radius)
     return made, moved
+
+
+def _without_lid(made: Mesh, closed: Mesh, count: int) -> Mesh:
+    """A remeshed surface without the piece nearest to a lid, the triangles of the surface before from `count` on: at a
+    rim out of a plane any plane would take a piece of the wall as well."""
+    _, triangles = nearest(made.corners.mean(axis=1), closed)
+    lid = np.flatnonzero(triangles >= count)
+    kept = np.ones(len(made.triangles), dtype=bool)
+    if len(lid):
+        kept[lid[find_bodies(made.part(lid)) == 0]] = False
+    left = made.part(kept)
+    return left.part(find_bodies(left) == 0)
 
 
 def _displacement(before: Mesh, after: Mesh) -> float:

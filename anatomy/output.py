@@ -26,6 +26,7 @@ _LONGEST = 300.0  # mm of flexible wire, the tip included
 _HUB_FORCE = 5.0  # N, at which a grip slides along the wire
 _CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by less than 0.2 mm
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
+_ALIKE = 0.95  # of the longest path, from which on a path is as long: the widest of these leads to the default target
 _PLACES = 10  # of a kind that a report lists
 _BENT = 0.25  # of a rim's radius, by which it is out of a plane
 
@@ -63,16 +64,17 @@ def find_end(line: Centreline, asked: str) -> End:
 
 def farthest_end(line: Centreline, inlet: End, unit: Unit, diameter: float) -> End:
     """The end with the longest path from an inlet, of those that a wire of a diameter in mm comes to; of all ends where
-    it comes to none."""
-    inner = line.inner()
-
-    def is_wide(end: End) -> bool:
-        path = line.path(inlet.point, end.point)
-        least = _CLEARANCE * 0.5e-3 * diameter / unit.metres
-        return end is not inlet and end.radius > least and bool((line.radii[path][inner[path]] > least).all())
-
-    wide = [end for end in line.ends if is_wide(end)]
-    return max(wide or line.ends, key=lambda end: line.length(line.path(inlet.point, end.point)))
+    it comes to none. Of paths within a twentieth of the longest that whose narrowest place is the widest: where two
+    branches leave side by side, a wire goes into the wider one."""
+    inner, least = line.inner(), _CLEARANCE * 0.5e-3 * diameter / unit.metres
+    others = [end for end in line.ends if end is not inlet] or line.ends
+    paths = {end.number: line.path(inlet.point, end.point) for end in others}
+    lengths = {number: line.length(path) for number, path in paths.items()}
+    narrowest = {number: float(line.radii[path][inner[path]].min(initial=np.inf)) for number, path in paths.items()}
+    wide = [end for end in others if end.radius > least and narrowest[end.number] > least] or others
+    longest = max(lengths[end.number] for end in wide)
+    return max((end for end in wide if lengths[end.number] >= _ALIKE * longest),
+               key=lambda end: (narrowest[end.number], lengths[end.number]))
 
 
 def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float) -> Mapping[str, Any]:

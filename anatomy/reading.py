@@ -6,7 +6,7 @@ import csv
 import json
 import re
 import struct
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 import numpy as np
@@ -148,7 +148,16 @@ def read_line(file: Path) -> Line:
     ------
     AnatomyError : one line that says what is wrong with the file.
     """
-    line = _read_csv(file) if kind_of(file) == ".csv" else _read_markups(file)
+    return _checked(file, _read_csv(file) if kind_of(file) == ".csv" else _read_markups(file))
+
+
+def _checked(file: Path, line: Line) -> Line:
+    """The line without points that are there twice.
+
+    Raises
+    ------
+    AnatomyError : fewer than two places, or a number or a radius that is none.
+    """
     if len(line.points) < 2:
         raise AnatomyError(f"{file}: {len(line.points)} points: a centreline has two or more")
     if not (np.isfinite(line.points).all() and np.isfinite(line.radii).all() and (line.radii > 0.0).all()):
@@ -156,7 +165,9 @@ def read_line(file: Path) -> Line:
         raise AnatomyError(f"{file}: point {bad + 1}: three numbers and a radius above 0 are needed")
     steps = np.linalg.norm(np.diff(line.points, axis=0), axis=1)
     kept = np.r_[True, steps > 1e-9 * steps.sum()]
-    return Line(line.points[kept], line.radii[kept], line.unit)
+    if kept.sum() < 2:
+        raise AnatomyError(f"{file}: {len(kept)} points in one place: a centreline has two places or more")
+    return replace(line, points=line.points[kept], radii=line.radii[kept])
 
 
 def line_of_poly_data(file: Path) -> Line | None:
@@ -175,8 +186,8 @@ def line_of_poly_data(file: Path) -> Line | None:
     longest = int(np.argmax(np.diff(ends)))
     index = vtk_to_numpy(cells.GetConnectivityArray())[ends[longest]:ends[longest + 1]]
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)[index]
-    return Line(points, vtk_to_numpy(data.GetPointData().GetArray(radius)).astype(float)[index],
-                others=len(ends) - 2)
+    radii = vtk_to_numpy(data.GetPointData().GetArray(radius)).astype(float)[index]
+    return _checked(file, Line(points, radii, others=len(ends) - 2))
 
 
 def _read_csv(file: Path) -> Line:

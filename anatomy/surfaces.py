@@ -100,6 +100,11 @@ def decimate(mesh: Mesh, error: float) -> Mesh:
 
 def distances(points: np.ndarray, mesh: Mesh) -> np.ndarray:
     """(k,): unsigned distances of points (k, 3) from the triangles of a mesh."""
+    return nearest(points, mesh)[0]
+
+
+def nearest(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """(k,): unsigned distances of points (k, 3) from the triangles of a mesh, and (k,): the nearest triangle."""
     from vtkmodules.vtkCommonCore import mutable
     from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
 
@@ -107,12 +112,12 @@ def distances(points: np.ndarray, mesh: Mesh) -> np.ndarray:
     locator.SetDataSet(to_vtk(mesh))
     locator.BuildLocator()
     cell, number, part, squared = vtkGenericCell(), mutable(0), mutable(0), mutable(0.0)
-    nearest = [0.0, 0.0, 0.0]
-    found = np.empty(len(points))
+    place = [0.0, 0.0, 0.0]
+    found, triangles = np.empty(len(points)), np.empty(len(points), dtype=int)
     for k, point in enumerate(points):
-        locator.FindClosestPoint(point, nearest, cell, number, part, squared)
-        found[k] = float(squared)
-    return np.sqrt(found)
+        locator.FindClosestPoint(point, place, cell, number, part, squared)
+        found[k], triangles[k] = float(squared), int(number)
+    return np.sqrt(found), triangles
 
 
 def farthest(before: Mesh, after: Mesh, most: int = 20000) -> float:

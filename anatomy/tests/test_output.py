@@ -5,8 +5,10 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
+from anatomy.centreline import Centreline, End
+from anatomy.inspection import Unit
 from anatomy.mesh import Edges, find_rims
-from anatomy.output import _bent_rims, _flexible_length
+from anatomy.output import _bent_rims, _flexible_length, farthest_end
 from anatomy.repair import Repaired
 from anatomy.tests.solids import SLANT, tube
 
@@ -51,3 +53,31 @@ def test_a_rim_that_is_not_flat_is_told_from_one_that_is_cut_off_at_a_slant() ->
         rims = find_rims(made, Edges.of(made))
         found = _bent_rims(Repaired(made, rims, []))
         assert len(found) == count and all(0.8 < off < 4.0 for off in found.values())
+
+
+def fork(*branches: tuple[int, float]) -> Centreline:
+    """100 mm of 5 mm radius, then straight branches of a length, mm, and a radius, mm; a point a millimetre."""
+    parents, points, radii, names = [-1, *range(100)], [[0.0, 0.0, z] for z in range(101)], [5.0] * 101, [1] * 101
+    ends = [End(1, "rim 1", np.zeros(3), 5.0, np.array([0.0, 0.0, 1.0]), True, 0)]
+    for number, (length, radius) in enumerate(branches, 2):
+        along = np.array([np.sin(number), np.cos(number), 1.0]) / np.sqrt(2.0)
+        for k in range(1, length + 1):
+            parents.append(100 if k == 1 else len(points) - 1)
+            points.append([0.0, 0.0, 100.0] + k * along)
+            radii.append(radius)
+            names.append(number)
+        ends.append(End(number, f"rim {number}", points[-1], radius, -along, True, len(points) - 1))
+    return Centreline(np.array(points), np.array(radii), np.array(parents), np.array(names), tuple(ends))
+
+
+@pytest.mark.parametrize(("branches", "expected"), [
+    (((100, 1.4), (93, 2.3)), 3),  # 200 and 193 mm: the wider one
+    (((93, 2.3), (100, 1.4)), 2),
+    (((100, 1.4), (80, 2.3)), 2),  # 180 mm: a tenth shorter
+    (((100, 2.3), (93, 2.3)), 2),  # as wide: the longer one
+    (((100, 0.4), (80, 0.6)), 3),  # the longer one too narrow for the wire
+    (((100, 0.4), (80, 0.3)), 2),  # both are
+])
+def test_the_default_target_is_the_widest_of_the_ends_that_are_about_as_far_as_the_farthest(branches, expected) -> None:
+    line = fork(*branches)
+    assert farthest_end(line, line.ends[0], Unit("mm", "", True), 0.36).number == expected

@@ -81,6 +81,7 @@ BAD = {
     "a.csv": (b"x,y,z,radius\n0,0,0,1\n0,0,one,1\n", "line 3"),
     "b.csv": (b"0,0,0,1\n", "1 points"),
     "c.csv": (b"0,0,0,1\n0,0,1,-1\n", "point 2"),
+    "d.csv": (b"1,2,3,1\n1,2,3,1\n1,2,3,2\n", "3 points in one place"),
     "a.mrk.json": (b"{}", "not a curve of 3D Slicer"),
 }
 
@@ -112,6 +113,34 @@ def test_centreline_of_slicer_and_of_columns(tmp_path: Path) -> None:
         line = reading.read_line(file)
         np.testing.assert_array_equal(line.points, [[1.0, 2.0, 3.0], [1.0, 2.0, 5.0]])
         np.testing.assert_array_equal(line.radii, [2.0, 1.5])
+
+
+def lines_of_vtp(file: Path, points: str, radii: str) -> Path:
+    count = len(radii.split())
+    file.write_text(f"""<VTKFile type="PolyData" version="0.1"><PolyData>
+<Piece NumberOfPoints="{count}" NumberOfLines="1">
+<PointData><DataArray type="Float64" Name="Radius" format="ascii">{radii}</DataArray></PointData>
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">{points}</DataArray></Points>
+<Lines><DataArray type="Int64" Name="connectivity" format="ascii">{" ".join(map(str, range(count)))}</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">{count}</DataArray></Lines>
+</Piece></PolyData></VTKFile>""")
+    return file
+
+
+@pytest.mark.parametrize(("points", "radii", "expected"), [
+    ("0 0 0 0 0 1", "1 0", "point 2"),
+    ("0 0 0 0 0 0", "1 1", "2 points in one place"),
+    ("0 0 0", "1", "1 points"),
+])
+def test_bad_lines_of_a_vtp_are_one_line(tmp_path: Path, points: str, radii: str, expected: str) -> None:
+    with pytest.raises(AnatomyError, match=expected):
+        reading.line_of_poly_data(lines_of_vtp(tmp_path / "a.vtp", points, radii))
+
+
+def test_points_there_twice_are_left_out_of_the_lines_of_a_vtp(tmp_path: Path) -> None:
+    line = reading.line_of_poly_data(lines_of_vtp(tmp_path / "a.vtp", "0 0 0 0 0 0 0 0 2", "1 1 1.5"))
+    np.testing.assert_array_equal(line.points, [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])
+    np.testing.assert_array_equal(line.radii, [1.0, 1.5])
 
 
 def test_voxels_of_a_nifti_lie_where_its_header_says(tmp_path: Path) -> None:

@@ -4,9 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
+from anatomy.distance_grid import remesh  # noqa: E402
 from anatomy.inspection import inspect  # noqa: E402
 from anatomy.mesh import AnatomyError, Edges, Mesh, find_rims, signed_volume  # noqa: E402
 from anatomy.repair import repair, with_rims_apart  # noqa: E402
@@ -189,3 +191,22 @@ def test_a_rim_that_touches_itself_is_cut_back_to_where_it_does_not() -> None:
     assert np.bincount(parted.triangles[triangle, k]).max() == 1 and len(find_rims(parted, edges)) == 2
     assert places == pytest.approx(mesh.vertices[mesh.triangles[one][mesh.triangles[one] < 24]])
     assert len(with_rims_apart(mesh)[0].triangles) == len(mesh.triangles)
+
+
+def test_a_remeshed_wall_is_open_where_it_was_at_a_rim_out_of_a_plane_too() -> None:
+    mesh = tube(rings=40)
+    along = mesh.vertices @ SLANT
+    side = mesh.vertices - along[:, None] * SLANT
+    across = side @ np.linalg.svd(SLANT[None])[2][1] / 3.0
+    # The last 5 mm are bent into a saddle of 2 mm to either side.
+    part = np.clip((along - 35.0) / 5.0, 0.0, 1.0)
+    mesh = Mesh(mesh.vertices + (part * (4.0 * across**2 - 2.0))[:, None] * SLANT, mesh.triangles)
+    rims = find_rims(mesh, Edges.of(mesh))
+    made, _ = remesh(mesh, rims, 0.5)
+    found = find_rims(made, Edges.of(made))
+    assert len(found) == 2
+    for rim in found:
+        before = min(rims, key=lambda one: np.linalg.norm(one.centre - rim.centre))
+        assert abs(rim.radius / before.radius - 1.0) < 0.1
+        away, _ = cKDTree(mesh.vertices[before.vertices]).query(made.vertices[rim.vertices])
+        assert away.max() < 1.0  # mm: corners of the rim are 0.8 apart, a plane cuts 2.4 away

@@ -3,7 +3,13 @@
 ``python3 -m experiments.campaigns.anatomy_independence FOLDER ... --runs 10`` takes folders that ``guidewire.py
 anatomy`` wrote. A seed draws thickness (0.36 or 0.89 mm), stiffness and the bend of the tip of a wire that is pushed in
 from the scene's inlet; it is run as the scene has it and with each setting finer. Tips are compared where both runs
-finish in the same branches; others are counted. Runs whose tip moves by more than a limit are printed.
+finish in the same branches of the vessel and on the same branch of equilibria; others are counted. Runs whose tip moves
+by more than a limit are printed.
+
+A wire that is pushed slowly is in equilibrium. Where that loses stability the tip jumps to another equilibrium, and
+which one is decided by less than any setting. Two runs end on other branches of equilibria where their tips end as far
+apart as a jump, and part, that is, come farther apart than the limit and stay so, within 10 mm of push of a jump of
+either. A jump is more than 5 mm of the tip's displacement for 1 mm of push.
 """
 
 from __future__ import annotations
@@ -13,11 +19,13 @@ import sys
 import tempfile
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from analysis.logs import read_log
 from analysis.surfaces import read_obj
 from anatomy.centreline import cut_edges
 from anatomy.mesh import Edges, Mesh
@@ -30,6 +38,8 @@ from experiments.runner import Request, Runner
 DISTANCE = 300.0  # mm pushed, at most
 LIMITS = {"timeStep/4": 0.2, "elements x 2": 0.2, "contactDistance/4": 0.2, "triangles x 4": 0.1,
           "triangles x 16": 0.1}  # mm, by which the tip may move
+_JUMP = 5.0  # mm, the displacement of a tip between two records, 1 mm of push apart, from which on it is a jump
+_BESIDE = 10  # records between a jump and where tips part, at most
 _DIGITS = 9  # of a mesh's coordinates: corners between two others are on their edge to that
 
 
@@ -47,7 +57,12 @@ def draw(folder: Path, seed: int) -> dict[str, Any]:
         "wireSections": [*behind, last | {"restCurvature": [bend * np.cos(angle), bend * np.sin(angle), 0.0]}],
         "vessel": scene["vessel"] | {"file": str(folder.resolve() / "vessel.obj"),
                                      "anatomy": str(folder.resolve() / "anatomy.json")},
-        "logEvery": 1_000_000, "logHub": False}
+        "logEvery": _records(scene), "logSpheres": "last", "logFormat": "npz", "logHub": False}
+
+
+def _records(scene: dict[str, Any]) -> int:
+    """Steps for 1 mm of push."""
+    return max(1, round(1.0 / (1e3 * scene["insertionSpeed"] * scene["timeStep"])))
 
 
 def finer(scene: dict[str, Any], meshes: dict[str, Path]) -> dict[str, dict[str, Any]]:
@@ -56,7 +71,8 @@ def finer(scene: dict[str, Any], meshes: dict[str, Path]) -> dict[str, dict[str,
         section | {"numberRodElements": 2 * section["numberRodElements"]} for section in scene["wireSections"]]}
     return {
         "timeStep/4": scene | {"timeStep": 0.25 * scene["timeStep"],
-                               "maxSimulationSteps": 4 * scene["maxSimulationSteps"]},
+                               "maxSimulationSteps": 4 * scene["maxSimulationSteps"],
+                               "logEvery": 4 * scene["logEvery"]},
         "elements x 2": scene | elements,
         "contactDistance/4": scene | {"contactDistance": 0.25 * scene["contactDistance"]},
         **{name: scene | {"vessel": scene["vessel"] | {"file": str(file)}} for name, file in meshes.items()}}
@@ -74,14 +90,36 @@ def refined(folder: Path, out: Path) -> dict[str, Path]:
     return files
 
 
-def _tip(runner: Runner, scene: dict[str, Any], folder: Path) -> tuple[np.ndarray, list[str]] | None:
-    """Where a run's tip ends, mm, and the branches on its path; None where it does not finish."""
+@dataclass(frozen=True)
+class Push:
+    """Of a run that finished: the tip's places 1 mm of push apart, mm, (k, 3); branches of the vessel on its path;
+    energy of the wire at the end, J."""
+
+    tips: np.ndarray
+    path: list[str]
+    energy: float
+
+
+def is_other_equilibrium(one: np.ndarray, other: np.ndarray, limit: float) -> bool:
+    """Whether two tips, (k, 3) in mm, 1 mm of push apart, end on other branches of equilibria."""
+    apart = np.linalg.norm(one - other, axis=1) > limit
+    parting = len(apart) - int(np.argmin(apart[::-1]))  # the first record from which on they are apart
+    if apart.all() or np.linalg.norm(one[-1] - other[-1]) <= _JUMP:
+        return False
+    moved = np.stack([np.linalg.norm(np.diff(tips, axis=0), axis=1) for tips in (one, other)]).max(axis=0)
+    jumps = 1 + np.flatnonzero(moved > _JUMP)
+    return bool((np.abs(jumps - parting) <= _BESIDE).any())
+
+
+def _push(runner: Runner, scene: dict[str, Any], folder: Path) -> Push | None:
+    """One run; None where it does not finish."""
     (folder / "scene.json").write_text(json.dumps(scene))
     answer = runner.run(Request("run", folder / "scene.json", folder / "out"))
     if answer.outcome != "finished":
         return None
     summary = json.loads((folder / "out" / "summary.json").read_text())
-    return np.array(summary["hub"]["tipPosition"]), summary["centreline"]["path"]
+    tips = read_log(folder / "out").positions[:, 0]
+    return Push(tips, summary["centreline"]["path"], summary["solver"]["energy"])
 
 
 def main(arguments: Sequence[str]) -> int:
@@ -92,36 +130,44 @@ def main(arguments: Sequence[str]) -> int:
     runner = Runner(building.build(building.RUNNER, print))
     moved: dict[str, dict[str, list[float]]] = {name: {} for name in LIMITS}
     other: Counter[tuple[str, str]] = Counter()
+    equilibria: Counter[tuple[str, str]] = Counter()
     with tempfile.TemporaryDirectory() as scratch:
         for folder in given.folders:
             meshes = refined(folder, Path(scratch))
             for seed in range(given.first, given.first + given.runs):
                 scene = draw(folder, seed)
-                base = _tip(runner, scene, Path(scratch))
+                base = _push(runner, scene, Path(scratch))
                 for name, changed in finer(scene, meshes).items() if base else ():
-                    found = _tip(runner, changed, Path(scratch))
-                    if not found or found[1] != base[1]:
+                    found = _push(runner, changed, Path(scratch))
+                    if not found or found.path != base.path:
                         other[name, folder.name] += 1
                         continue
-                    distance = float(np.linalg.norm(found[0] - base[0]))
-                    moved[name].setdefault(folder.name, []).append(distance)
+                    distance = float(np.linalg.norm(found.tips[-1] - base.tips[-1]))
+                    is_other = is_other_equilibrium(base.tips, found.tips, LIMITS[name])
                     if distance > LIMITS[name]:
-                        print(f"{folder.name} {seed}, {name}: {distance:.3g} mm", flush=True)
+                        print(f"{folder.name} {seed}, {name}: {distance:.3g} mm{', another equilibrium' * is_other}; "
+                              f"energy {base.energy:.6g} and {found.energy:.6g} J", flush=True)
+                    if is_other:
+                        equilibria[name, folder.name] += 1
+                    else:
+                        moved[name].setdefault(folder.name, []).append(distance)
             for name in LIMITS:
-                _tell(folder.name, name, moved[name].get(folder.name, []), other[name, folder.name])
+                _tell(folder.name, name, moved[name].get(folder.name, []), other[name, folder.name],
+                      equilibria[name, folder.name])
     for name, found in moved.items():
         _tell("all", name, [distance for distances in found.values() for distance in distances],
-              sum(other[name, folder.name] for folder in given.folders))
+              *(sum(count[name, folder.name] for folder in given.folders) for count in (other, equilibria)))
     runner.close()
     return 0
 
 
-def _tell(where: str, name: str, distances: list[float], others: int) -> None:
+def _tell(where: str, name: str, distances: list[float], others: int, equilibria: int) -> None:
     """One line on the runs with one setting finer; distances of their tips in mm."""
-    if distances:
-        print(f"{where}, {name}: {np.count_nonzero(np.array(distances) <= LIMITS[name])} of {len(distances)} within "
-              f"{LIMITS[name]} mm; median {np.median(distances):.3g}, 95 of 100 {np.quantile(distances, 0.95):.3g}, "
-              f"largest {max(distances):.3g}; {others} in other branches or without an end", flush=True)
+    found = "none to compare" if not distances else (
+        f"{np.count_nonzero(np.array(distances) <= LIMITS[name])} of {len(distances)} within {LIMITS[name]} mm; median "
+        f"{np.median(distances):.3g}, 95 of 100 {np.quantile(distances, 0.95):.3g}, largest {max(distances):.3g}")
+    print(f"{where}, {name}: {found}; {others} in other branches or without an end, {equilibria} in another "
+          "equilibrium", flush=True)
 
 
 if __name__ == "__main__":

@@ -12,6 +12,7 @@ import pytest
 from analysis.logs import read_log
 from experiments import navigation
 from experiments.campaigns import anatomy_campaign, artery_folder
+from experiments.campaigns.anatomy_independence import is_other_equilibrium
 from experiments.campaigns.anatomy_campaign import Vessel, campaign, judge
 from experiments.commands import parse, run
 from experiments.instruments import files
@@ -137,3 +138,21 @@ def test_a_wire_is_steered_into_each_arm_and_its_drive_repeats_it(runner_command
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert summary["centreline"]["reached"] and summary["passages"] == 0
     assert summary["centreline"]["target"] == f"end {target}"
+
+
+def test_tips_that_part_at_a_jump_are_in_other_equilibria_and_those_that_drift_apart_are_not():
+    push = np.arange(101.0)[:, None] * [0.0, 0.0, 1.0]  # a record a mm
+    drift = push + np.linspace(0.0, 0.3, 101)[:, None] * [1.0, 0.0, 0.0]
+    jumped = push + np.where(np.arange(101) < 60, 0.0, 20.0)[:, None] * [1.0, 0.0, 0.0]
+    early = jumped + np.where(np.arange(101) < 30, 0.0, 0.5)[:, None] * [0.0, 1.0, 0.0]
+    just_before = jumped + np.where(np.arange(101) < 52, 0.0, 0.5)[:, None] * [0.0, 1.0, 0.0]
+    returned = np.where(np.arange(101)[:, None] < 80, jumped, push)
+    beside = np.where(np.arange(101)[:, None] < 80, jumped, push + [0.0, 0.3, 0.0])
+    assert is_other_equilibrium(push, jumped, 0.2) and is_other_equilibrium(jumped, push, 0.2)
+    assert is_other_equilibrium(push, just_before, 0.2)
+    assert not is_other_equilibrium(push, drift, 0.2)
+    assert not is_other_equilibrium(push, early, 0.2), "apart 30 mm before the jump"
+    assert not is_other_equilibrium(jumped, jumped + [0.0, 0.3, 0.0], 0.2), "apart from the start"
+    assert not is_other_equilibrium(push, push + [0.0, 0.1, 0.0], 0.2)
+    assert not is_other_equilibrium(push, returned, 0.2), "at the end in the same place"
+    assert not is_other_equilibrium(push, beside, 0.2), "at the end nearer than a jump"
