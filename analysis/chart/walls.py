@@ -19,7 +19,7 @@ from analysis.validation.statics import PLANE_DROP, PLANE_WIRE
 from analysis.validation.wire import Wire
 from studies.table import Case
 
-ABSENT = {"explicit": "meets no walls"}
+ABSENT = {"explicit": "does not support walls"}
 _FIRST = 2.0 * math.pi * beam.frequencies(PLANE_WIRE, 1)[0]  # rad/s
 _REST_TIME = 15.0 / _FIRST  # s
 _RATE = 2.0 * _FIRST  # 1/s, critical

@@ -195,7 +195,7 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
     what = (f"cantilever, r = {1e3 * wire.radius:g} mm, on a frictionless plane {1e3 * PLANE_DROP:g} mm below: force "
             "at the tip")
     reasons = {
-        "explicit": "meets no walls",
+        "explicit": "does not support walls",
         "pbd": "supports walls, but its bending stiffness is per iteration and not this material's",
     }
     forces = {solver: float(runs[solver].measured("wallForces")[0][1]) for solver in solvers}
