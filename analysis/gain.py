@@ -17,7 +17,7 @@ RULES = {"none": "spheres only", "barycentric": "spheres and elements", "thesis"
 
 
 @dataclass(frozen=True)
-class GainRow:
+class ElementRow:
     """What one run came to.
 
     Attributes
@@ -49,18 +49,18 @@ class GainRow:
 
 
 @dataclass(frozen=True)
-class GainTable:
+class ElementTable:
     """Rows in ascending order of n, by rule; the reference is the finest run with element contact."""
 
-    rows: tuple[GainRow, ...]
-    reference: GainRow
+    rows: tuple[ElementRow, ...]
+    reference: ElementRow
 
-    def of(self, rule: str) -> list[GainRow]:
+    def of(self, rule: str) -> list[ElementRow]:
         """Rows of a rule, without the finest run."""
         return [row for row in self.rows if row.rule == rule and row.elements < self.reference.elements]
 
 
-def read_gain(folder: Path, count_again: int = 0) -> GainTable:
+def read_gain(folder: Path, count_again: int = 0) -> ElementTable:
     """Measures every run of a study that varies n and elementContact.
 
     Parameters
@@ -85,7 +85,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
     for wire in wires:
         elements = int(wire.run.number("numberRodElements"))
         repeats = study.timed(wire.run.key)
-        rows.append(GainRow(
+        rows.append(ElementRow(
             rule=wire.run.value("elementContact"),
             elements=elements,
             wire=wire,
@@ -96,7 +96,7 @@ def read_gain(folder: Path, count_again: int = 0) -> GainTable:
             others_busy=busiest(repeats),
         ))
     rows.sort(key=lambda row: row.elements)
-    return GainTable(tuple(rows), next(row for row in rows if row.wire is finest))
+    return ElementTable(tuple(rows), next(row for row in rows if row.wire is finest))
 
 
 def _count_again(wire: WireRun) -> int | None:

@@ -35,7 +35,7 @@ _FILM_COLOURS = 256
 _LEARNT_FROM = 8  # pictures of a film, its colours
 _OVERSAMPLING = 2
 _THINNEST = 1.0 / 400.0  # radius of the wire over what the picture spans: less would be no pixel wide
-_SEEN_THROUGH = 0.6  # how much a catheter tints what is in it
+_OPACITY = 0.6  # how much a catheter tints what is in it
 _LATER_COVERS = 0.03  # fraction of its radius by which a wire lies over one before it in the same place
 _PIECES = 12  # triangles are cut to so small a part of what the picture spans: one behind the camera is not drawn
 _TEXT = (225, 225, 230)
@@ -182,7 +182,7 @@ def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], l
     for positions, one in ((positions, one) for moment in catheters
                            for positions, one in zip(moment, stage.instruments[1:])):
         surface = tube(positions, one.radius)
-        draw(picture, stage.camera, surface, np.broadcast_to(one.colour, surface.vertices.shape), _SEEN_THROUGH)
+        draw(picture, stage.camera, surface, np.broadcast_to(one.colour, surface.vertices.shape), _OPACITY)
     for obstacle in stage.obstacles:  # a tint over what is behind them: a sheath must not hide the wire
         draw(picture, stage.camera, obstacle, np.broadcast_to(OBSTACLE, obstacle.vertices.shape), 0.35)
     pixels = Image.fromarray((255.0 * np.clip(picture.colour, 0.0, 1.0) + 0.5).astype(np.uint8))

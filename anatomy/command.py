@@ -49,7 +49,7 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     line = find_centreline(repaired.mesh, repaired.rims)
     inlet = output.find_end(line, arguments.inlet) if arguments.inlet else line.ends[0]
     target = (output.find_end(line, arguments.target) if arguments.target
-              else output.farthest_end(line, inlet, found.unit, arguments.wire))
+              else output.default_target(line, inlet, found.unit, arguments.wire))
     made = f"{arguments.make}, type {arguments.type}, seed {arguments.seed}"
     source = arguments.file.name if arguments.file else made
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)

@@ -62,7 +62,7 @@ def find_end(line: Centreline, asked: str) -> End:
     raise AnatomyError(f"there is no end '{asked}': there are {names}{', ..' if len(line.ends) > 12 else ''}")
 
 
-def farthest_end(line: Centreline, inlet: End, unit: Unit, diameter: float) -> End:
+def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) -> End:
     """The end with the longest path from an inlet, of those that a wire of a diameter in mm comes to; of all ends where
     it comes to none. Of paths within a twentieth of the longest that whose narrowest place is the widest: where two
     branches leave side by side, a wire goes into the wider one."""

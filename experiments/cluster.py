@@ -39,7 +39,7 @@ _IN_HAND = 2  # batches for each place: one at work, one that waits
 _WHOLE = ("converged", "finished", "diverged")  # with these, a runner has written all that was asked for
 _TO_ANSWER = 5.0  # s, for a scheduler
 _TO_END = 60.0  # s, for a run that was interrupted
-_BETWEEN_LOOKS = 5.0  # s, for workers that came or went
+_POLL_INTERVAL = 5.0  # s, for workers that came or went
 _WITHOUT_WORKERS = 60.0  # s, that a sweep waits for workers to come back
 
 _TRAVELLING = (load, runner, store, whole_files, worker)  # the code that workers elsewhere get with the runs
@@ -290,7 +290,7 @@ class _Queue:
     def _take_back(self) -> None:
         """Wait for a batch, and take those that have ended."""
         try:
-            ended = wait(list(self._flying), timeout=_BETWEEN_LOOKS, return_when="FIRST_COMPLETED").done
+            ended = wait(list(self._flying), timeout=_POLL_INTERVAL, return_when="FIRST_COMPLETED").done
         except (TimeoutError, distributed.TimeoutError):
             return
         for future in ended:

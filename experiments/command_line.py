@@ -260,7 +260,9 @@ def _add_anatomy(commands: argparse._SubParsersAction) -> None:
     anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
                                                                         "(a tenth of a voxel)")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")
-    anatomy.add_argument("--target", metavar="END", help="number or name of the end it is pushed to (the farthest)")
+    anatomy.add_argument("--target", metavar="END",
+                         help="number or name of the end that it is pushed to (of those about as far as the farthest, the "
+                         "one with the widest path)")
     anatomy.add_argument("--wire", type=above_zero, default=0.36, metavar="MM", help="diameter of the wire (0.36)")
     anatomy.set_defaults(packages=ANATOMY)
 

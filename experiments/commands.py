@@ -130,7 +130,7 @@ def _advise(arguments: argparse.Namespace) -> int:
     checking.check_file(arguments.file)
     checking.check_overrides(arguments.overrides)
     checking.check_out(arguments.out)
-    wish = plan.Wish(arguments.error, arguments.budget, Quantity(arguments.of, arguments.at))
+    wish = plan.AdviceRequest(arguments.error, arguments.budget, Quantity(arguments.of, arguments.at))
     overrides = {key: value_of(text) for key, text in arguments.overrides}
     means = _means_of(arguments, _build_runner(), arguments.file.stem)
     result, advice = library.find_advice(arguments.file, wish, overrides, arguments.out, means)

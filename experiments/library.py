@@ -18,7 +18,7 @@ from studies.study_file import LIMIT, StudyFileError, read_study_file
 from studies.table import Source, Study
 
 if TYPE_CHECKING:
-    from analysis.advice.plan import Advice, Wish
+    from analysis.advice.plan import Advice, AdviceRequest
     from analysis.runs import Run
 
 RUNS = "runs"  # folder of all runs, in that of the results
@@ -77,7 +77,7 @@ def advise(file: str | Path, error: float | None = None, budget: float | None = 
     ------
     PreparationError : the file or a value cannot be used, or a run that is needed failed; one line.
     """
-    from analysis.advice.plan import Wish
+    from analysis.advice.plan import AdviceRequest
     from analysis.advice.quantity import Quantity
 
     _require(prepare.DRAWING + prepare.SWEEPING)
@@ -91,7 +91,7 @@ def advise(file: str | Path, error: float | None = None, budget: float | None = 
     file, out = Path(file), Path(out)
     checking.check_file(file)
     checking.check_out(out)
-    result, advice = find_advice(file, Wish(error, budget, Quantity(of, at)), overrides, out,
+    result, advice = find_advice(file, AdviceRequest(error, budget, Quantity(of, at)), overrides, out,
                                  Means(_runner(), jobs or os.cpu_count() or 1))
     if advice is None:
         raise PreparationError(result.failures[0].message)
@@ -116,7 +116,7 @@ def find_study(name: str | Path, most_runs: int | None) -> Study:
     return study
 
 
-def find_advice(file: Path, wish: Wish, overrides: dict[str, Any], out: Path, means: Means
+def find_advice(file: Path, wish: AdviceRequest, overrides: dict[str, Any], out: Path, means: Means
                 ) -> tuple[SweepResult, Advice | None]:
     """Make the runs that advice needs, and read them; no advice where a run failed."""
     from analysis.advice import plan

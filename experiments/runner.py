@@ -22,7 +22,7 @@ BAD_INPUT = 2
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
 _SECONDS_TO_END = 20.0
-_BETWEEN_LOOKS = 0.25  # s, of the watch for late replies
+_POLL_INTERVAL = 0.25  # s, of the watch for late replies
 
 
 @dataclass(frozen=True)
@@ -200,7 +200,7 @@ class Runner:
             if time.monotonic() > self._deadline:
                 self._too_late = True
                 process.kill()
-            time.sleep(_BETWEEN_LOOKS)
+            time.sleep(_POLL_INTERVAL)
 
     def _babbled(self, request: Request, line: str) -> Answer:
         return self._died(request, f"it wrote {line.strip()[:200]!r} instead of an answer" if line else "")

@@ -97,7 +97,7 @@ class VesselPicture:
             return f"there is no end {number}"
         unit = self._found.unit
         folder = Path("results") / "anatomy" / self._file.name.split(".")[0]
-        target = output.farthest_end(self._line, end, unit, _WIRE)
+        target = output.default_target(self._line, end, unit, _WIRE)
         output.write_vessel(folder, self._wall, self._line, unit, self._file.name)
         output.write_scene(folder, output.scene(self._line, unit, end, target, _WIRE))
         return (f"inlet: end {end.number} '{end.name}', target: end {target.number} '{target.name}'\n"

@@ -37,7 +37,7 @@ _LONGEST = 0.025               # s of wall time that one request may take, so th
 _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
 _LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
 _PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
-_MOST_ON_THE_WAY = 2           # pictures that a page has not shown yet; further ones are left out
+_MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; further ones are left out
 _SMOOTHING = 0.1               # share of the newest request in the step time shown
 _ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
 _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
@@ -342,7 +342,7 @@ class LiveRun:
         frame = np.concatenate([[float(mark), float(self._opened)], self._largest, *(channel.values.ravel() for channel in channels)])
         block = frame.astype("<f8").tobytes()
         for page in list(self._pages):
-            if page.on_the_way < _MOST_ON_THE_WAY:
+            if page.on_the_way < _MOST_IN_FLIGHT:
                 page.on_the_way += 1
                 await _send(page.socket.send_bytes(block))
 

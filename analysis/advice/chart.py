@@ -6,13 +6,13 @@ import math
 
 from matplotlib.figure import Figure
 
-from analysis.advice.plan import Advice, Tried, Wish
+from analysis.advice.plan import Advice, Tried, AdviceRequest
 from analysis.figures.style import add_caption, new_figure, styled
 from analysis.figures.wording import percent
 
 
 @styled
-def draw_advice(name: str, wish: Wish, advice: Advice) -> Figure:
+def draw_advice(name: str, wish: AdviceRequest, advice: Advice) -> Figure:
     """Error over work, in that of the file as it is; what was timed is filled, what is taken has a ring."""
     figure = new_figure(8.0, 5.0)
     axes = figure.add_subplot()

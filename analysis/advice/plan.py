@@ -88,7 +88,7 @@ class Advice:
 
 
 @dataclass(frozen=True)
-class Wish:
+class AdviceRequest:
     """What is asked for: an error at the least cost, or, with a budget, the least error within ms a step."""
 
     error: float | None = None
@@ -113,7 +113,7 @@ def by_work(tried: Tried) -> float:
     return tried.work
 
 
-def choose(searched: Sequence[Tried], wish: Wish, cost: Cost = by_time) -> Tried | None:
+def choose(searched: Sequence[Tried], wish: AdviceRequest, cost: Cost = by_time) -> Tried | None:
     """The cheapest trial that meets an error, or the most accurate one within the budget of a step."""
     if wish.budget is None:
         good = [tried for tried in searched if tried.error <= wish.error and math.isfinite(cost(tried))]
@@ -123,7 +123,7 @@ def choose(searched: Sequence[Tried], wish: Wish, cost: Cost = by_time) -> Tried
     return min(good, key=lambda tried: tried.error, default=None)
 
 
-def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEATS,
+def check_of(file: Path, wish: AdviceRequest, cost: Cost = by_time, repeats: int = REPEATS,
              overrides: Mapping[str, Any] = MappingProxyType({})) -> Check[Advice]:
     """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone. Overrides
     are which override the file's values, dotted keys (`vessel.radius`) too."""
@@ -131,7 +131,7 @@ def check_of(file: Path, wish: Wish, cost: Cost = by_time, repeats: int = REPEAT
                  str(file.resolve()))
 
 
-def _plan(wish: Wish, cost: Cost, repeats: int,
+def _plan(wish: AdviceRequest, cost: Cost, repeats: int,
           overrides: Mapping[str, Any]) -> Generator[Sequence[Case], Mapping[str, Run], Advice]:
     first = (yield [Case("scene", {**overrides, "logSpheres": "all"})])["scene"]
     scene = _lasting(first)
@@ -227,7 +227,7 @@ def _with_times(tried: Tried, repeats: Sequence[Run]) -> Tried:
                    others_busy=busiest(repeats))
 
 
-def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: Wish) -> list[str]:
+def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: AdviceRequest) -> list[str]:
     """What is worth timing: of those that meet the error the ones of least work, or, with a budget, those of least
     error among ever less work."""
     if wish.budget is None:

@@ -9,13 +9,13 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from analysis.advice.plan import Advice, Tried, Wish
+from analysis.advice.plan import Advice, Tried, AdviceRequest
 from analysis.figures.wording import beside, number, percent
 
 _PATHS = ("startFile", "logFilePath")
 
 
-def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
+def as_markdown(name: str, wish: AdviceRequest, advice: Advice) -> str:
     """The evidence: what each part costs and moves, and every setting that was searched."""
     said = wish.quantity.said
     asked = f"an error of at most {percent(wish.error)} in {said}" if wish.budget is None else \
@@ -45,7 +45,7 @@ def as_markdown(name: str, wish: Wish, advice: Advice) -> str:
     return "\n".join(lines) + "\n"
 
 
-def verdict(wish: Wish, advice: Advice) -> str:
+def verdict(wish: AdviceRequest, advice: Advice) -> str:
     """One line: what to take."""
     taken = advice.taken
     if not wish.has_converged(advice.reference_error):
@@ -88,7 +88,7 @@ def _timed(advice: Advice) -> str:
     return f"Times are medians of three runs, {beside(_busy(advice))}."
 
 
-def _coarser(wish: Wish) -> str:
+def _coarser(wish: AdviceRequest) -> str:
     return "those with half and three quarters of its resolution" if wish.quantity.is_one_number else \
         "one with half of its resolution"
 

@@ -25,7 +25,7 @@ _COLUMNS = 4
 _LETTERS = "abcdefghijklmnopqrstuvwxyz"
 _TITLE_WIDTH = 34  # characters of a small panel's title
 _NO_BREAK = re.compile(r"(?<=\bk) | (?==)|(?<==) ")  # in k L = 1
-_ROOM = 2.5  # factor between the outermost points and the frame
+_FRAME_FACTOR = 2.5  # factor between the outermost points and the frame
 _OFFSETS = ((4, 3), (4, -8), (-4, 3), (-4, -8), (4, 10), (-4, 10), (4, -15), (-4, -15))  # points, of a label
 _PADDING = 2.0  # pixels around a label
 _COST = "wall time per simulated second (s per s)"
@@ -120,8 +120,8 @@ def _draw_panel(axes: Axes, charted: Charted, cost: Cost,
                       label=method)
     axes.set(xscale="log", yscale="log")
     costs, errors = [cost(p) for p in charted.points], [p.drawn for p in charted.points if p.held]
-    axes.set_xlim(min(*costs, *(x for x, _ in lines)) / _ROOM, max(*costs, *(x for x, _ in lines)) * _ROOM)
-    axes.set_ylim(min(errors) / _ROOM, max(errors) * _ROOM**2)
+    axes.set_xlim(min(*costs, *(x for x, _ in lines)) / _FRAME_FACTOR, max(*costs, *(x for x, _ in lines)) * _FRAME_FACTOR)
+    axes.set_ylim(min(errors) / _FRAME_FACTOR, max(errors) * _FRAME_FACTOR**2)
     for x, name in lines:
         axes.axvline(x, color="0.3", linestyle="--", linewidth=0.8)
         axes.annotate(name, (x, 0.01), xycoords=("data", "axes fraction"), rotation=90, fontsize=6, ha="right")

@@ -127,11 +127,11 @@ def drives_caption(rows: dict[str, DriveRow]) -> str:
         "its path)."
     ]
     for name, (key, (label, _)) in zip("abcd", _DRIVES.items()):
-        parts.append(f"({name}) {label[0].upper()}{label[1:]}: {_came_to(rows[key], radius)}")
+        parts.append(f"({name}) {label[0].upper()}{label[1:]}: {_result_of(rows[key], radius)}")
     return " ".join(parts)
 
 
-def _came_to(row: DriveRow, radius: float) -> str:
+def _result_of(row: DriveRow, radius: float) -> str:
     run = row.wire.run
     farthest = row.first_off.max()
     passages = int(run.measured("passages"))

@@ -11,14 +11,14 @@ from matplotlib.ticker import MaxNLocator
 from analysis.figures.outlines import draw_surroundings
 from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import beside, number, percent, span
-from analysis.gain import RULES, GainRow, GainTable
+from analysis.gain import RULES, ElementRow, ElementTable
 
 _COLOURS = {"none": "C1", "barycentric": "C0", "thesis": "C3"}
 _MARKERS = {"none": "s", "barycentric": "o", "thesis": "^"}
 
 
 @styled
-def draw_gain(name: str, scene: str, table: GainTable) -> tuple[Figure, str]:
+def draw_gain(name: str, scene: str, table: ElementTable) -> tuple[Figure, str]:
     """Two pictures of the coarsest wire, then distance to the finest run, step time and passages against n."""
     figure = new_figure(10.0, 6.4)
     panels = figure.subplot_mosaic([["a", "a", "a", "b", "b", "b"], ["c", "c", "d", "d", "e", "e"]])
@@ -70,7 +70,7 @@ class _PowersOfTen(MaxNLocator):
         return np.array([0.0, *powers])
 
 
-def draw_wire(axes: Axes, row: GainRow, entry: int, colour: str) -> None:
+def draw_wire(axes: Axes, row: ElementRow, entry: int, colour: str) -> None:
     """A wire with its spheres between the walls, in the y-z plane."""
     run, positions = row.wire.run, row.wire.motion.positions[entry]
     z, y = positions[:, 2], positions[:, 1]
@@ -87,12 +87,12 @@ def draw_wire(axes: Axes, row: GainRow, entry: int, colour: str) -> None:
     axes.set(xlabel="$z$ (units)", ylabel="$y$ (units)")
 
 
-def _worst_entry(row: GainRow) -> int:
+def _worst_entry(row: ElementRow) -> int:
     """The last entry of a run: what it came to."""
     return len(row.wire.motion.steps) - 1
 
 
-def gain_caption(name: str, scene: str, table: GainTable) -> str:
+def gain_caption(name: str, scene: str, table: ElementTable) -> str:
     """What the rows show, in numbers."""
     spheres, elements, seed = (table.of(rule) for rule in ("none", "barycentric", "thesis"))
     radius = table.reference.wire.run.number("sphereRadius")
@@ -113,11 +113,11 @@ def gain_caption(name: str, scene: str, table: GainTable) -> str:
     return " ".join(sentence for sentence in sentences if sentence)
 
 
-def _distances(rows: list[GainRow]) -> str:
+def _distances(rows: list[ElementRow]) -> str:
     return span([np.nan if row.mean_distance is None else row.mean_distance for row in rows])
 
 
-def _cost(elements: list[GainRow], spheres: list[GainRow]) -> str:
+def _cost(elements: list[ElementRow], spheres: list[ElementRow]) -> str:
     if any(row.step_time is None for row in (*elements, *spheres)):
         return "(d) Not every run was timed."
     longest = elements[-1]
@@ -135,7 +135,7 @@ def _cost(elements: list[GainRow], spheres: list[GainRow]) -> str:
     )
 
 
-def _passed(subject: str, rows: list[GainRow], radius: float) -> str:
+def _passed(subject: str, rows: list[ElementRow], radius: float) -> str:
     """At which n points of the wire passed the wall."""
     failed = [row for row in rows if row.passages > 0]
     if not failed:
@@ -152,7 +152,7 @@ def _passed(subject: str, rows: list[GainRow], radius: float) -> str:
     return told + "."
 
 
-def _again(table: GainTable) -> str:
+def _again(table: ElementTable) -> str:
     """Whether the count from the logs agrees."""
     rows = [row for row in table.rows if row.counted_again is not None]
     if not rows:
@@ -166,7 +166,7 @@ def _again(table: GainTable) -> str:
     return f"Counted again from {len(rows)} of the logs by ray parity, the passages are {told}."
 
 
-def _flat(table: GainTable) -> str:
+def _flat(table: ElementTable) -> str:
     """Why a plane is no trial of sphere contact."""
     vessel = table.reference.wire.run.value("vessel")
     if not vessel or vessel["shape"] != "plane":
@@ -177,7 +177,7 @@ def _flat(table: GainTable) -> str:
     )
 
 
-def _length(table: GainTable) -> str:
+def _length(table: ElementTable) -> str:
     """How much of its length the finest wire has lost: few solver steps leave a wire of many elements compressed."""
     run, end = table.reference.wire.run, table.reference.wire.motion.positions[-1]
     length = np.linalg.norm(np.diff(end, axis=0), axis=1).sum()

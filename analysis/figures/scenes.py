@@ -11,7 +11,7 @@ from analysis.comparisons import WireRun
 from analysis.figures.outlines import draw_surroundings
 from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.figures.wording import number
-from analysis.gain import GainTable
+from analysis.gain import ElementTable
 
 _ELEMENTS = 30
 _MOMENTS = 4
@@ -19,7 +19,7 @@ _LAST_IN_VESSEL = 300  # steps: before the wire buckles
 
 
 @styled
-def draw_scenes(wall: GainTable, vessel: GainTable) -> tuple[Figure, str]:
+def draw_scenes(wall: ElementTable, vessel: ElementTable) -> tuple[Figure, str]:
     """The push against the wall and the insertion into the vessel, with element contact."""
     figure = new_figure(10.0, 5.4)
     panels = figure.subplots(2, 1)
@@ -39,7 +39,7 @@ def draw_scenes(wall: GainTable, vessel: GainTable) -> tuple[Figure, str]:
     ))
 
 
-def _wire(table: GainTable) -> WireRun:
+def _wire(table: ElementTable) -> WireRun:
     """The run with element contact whose n is nearest to the thesis's default."""
     return min(table.of("barycentric"), key=lambda row: abs(row.elements - _ELEMENTS)).wire
 

@@ -13,7 +13,7 @@ from analysis.figures.contact_rule import Rest, contact_rule_caption, read_rests
 from analysis.figures.control import along_line, draw_drives, drives_caption, read_drives, read_twists
 from analysis.figures.gain import draw_gain, gain_caption
 from analysis.figures.outlines import draw_surroundings, section, tube_sides
-from analysis.gain import GainTable, read_gain
+from analysis.gain import ElementTable, read_gain
 from analysis.logs import LogError
 from analysis.runs import Run
 from analysis.surfaces import read_obj
@@ -23,17 +23,17 @@ from analysis.twist import joint_angles
 
 
 @pytest.fixture(scope="module")
-def vessel(studies: dict[str, Path]) -> GainTable:
+def vessel(studies: dict[str, Path]) -> ElementTable:
     return read_gain(studies["vessel-gain"], count_again=4)
 
 
-def test_the_finest_run_with_element_contact_is_the_reference(vessel: GainTable) -> None:
+def test_the_finest_run_with_element_contact_is_the_reference(vessel: ElementTable) -> None:
     assert (vessel.reference.rule, vessel.reference.elements) == ("barycentric", 16)
     assert [row.elements for row in vessel.of("none")] == [4, 8]
     assert all(row.mean_distance == pytest.approx(0.0, abs=1e-9) for row in vessel.rows)  # the same motion for all n
 
 
-def test_passages_are_counted_again_where_asked(vessel: GainTable) -> None:
+def test_passages_are_counted_again_where_asked(vessel: ElementTable) -> None:
     counted = {(row.rule, row.elements): row.counted_again for row in vessel.rows if row.counted_again is not None}
     there = box_passages(Wave(elements=4))
     assert counted == {(rule, 4): there for rule in ("none", "barycentric", "thesis")}
@@ -45,7 +45,7 @@ def test_passages_are_counted_again_where_asked(vessel: GainTable) -> None:
                                     if row.rule != "none"))))
 
 
-def test_the_chart_shows_every_run_of_every_rule(vessel: GainTable) -> None:
+def test_the_chart_shows_every_run_of_every_rule(vessel: ElementTable) -> None:
     figure, _ = draw_gain("gain-vessel", "Scene", vessel)
     error, time, passages = figure.axes[2:5]
     for axes, column in ((error, "mean_distance"), (passages, "passages")):
@@ -56,7 +56,7 @@ def test_the_chart_shows_every_run_of_every_rule(vessel: GainTable) -> None:
     np.testing.assert_array_equal(time.containers[0].lines[0].get_ydata(), [3.0, 3.0])  # of 2, 3 and 4 ms
 
 
-def test_a_limit_of_length_is_claimed_only_where_it_parts_the_runs(vessel: GainTable) -> None:
+def test_a_limit_of_length_is_claimed_only_where_it_parts_the_runs(vessel: ElementTable) -> None:
     rows = list(vessel.rows)
     caption = gain_caption("x", "Scene", vessel)
     assert "at n = 4, 8" in caption and "units and more" not in caption  # both lengths fail
@@ -66,7 +66,7 @@ def test_a_limit_of_length_is_claimed_only_where_it_parts_the_runs(vessel: GainT
     assert "With element contact no point of any wire passes the wall" in caption
 
 
-def test_a_plane_is_called_no_trial_of_sphere_contact(studies: dict[str, Path], vessel: GainTable) -> None:
+def test_a_plane_is_called_no_trial_of_sphere_contact(studies: dict[str, Path], vessel: ElementTable) -> None:
     assert "A plane is no trial" in gain_caption("x", "Scene", read_gain(studies["wall-gain"]))
     assert "A plane is no trial" not in gain_caption("x", "Scene", vessel)
 

@@ -111,7 +111,7 @@ def _tolerance() -> Plan:
     time = np.linspace(0.0, 0.2, 201)
     results, series = [], {}
     for kind in kinds:
-        static = "let go" not in kind
+        static = "released" not in kind
         found = {name: last_state(runs[cases[kind, name].key]).positions[-1, 1:2] if static
                  else tip_at(runs[cases[kind, name].key], time)[:, 1] for name in keys}
         finest = found[value_text(min(_TOLERANCES))]

@@ -8,7 +8,7 @@ import pytest
 from anatomy.centreline import Centreline, End
 from anatomy.inspection import Unit
 from anatomy.mesh import Edges, find_rims
-from anatomy.output import _bent_rims, _flexible_length, farthest_end
+from anatomy.output import _bent_rims, _flexible_length, default_target
 from anatomy.repair import Repaired
 from anatomy.tests.solids import SLANT, tube
 
@@ -80,4 +80,4 @@ def fork(*branches: tuple[int, float]) -> Centreline:
 ])
 def test_the_default_target_is_the_widest_of_the_ends_that_are_about_as_far_as_the_farthest(branches, expected) -> None:
     line = fork(*branches)
-    assert farthest_end(line, line.ends[0], Unit("mm", "", True), 0.36).number == expected
+    assert default_target(line, line.ends[0], Unit("mm", "", True), 0.36).number == expected

@@ -17,7 +17,7 @@ import numpy as np
 from analysis.wall_search import rotation_of
 
 CONTACT_RULES = ("barycentric", "none", "thesis")
-ROOM = 1.07  # least width of a lumen on the way, over the wire's radius
+LEAST_LUMEN = 1.07  # least width of a lumen on the way, over the wire's radius
 
 
 @dataclass(frozen=True)
@@ -118,7 +118,7 @@ def _channel(random, radius, sheath):
 def _stenosis(random, radius, sheath):
     sides = int(random.integers(8, 16))
     width = random.uniform(1.6, 4.0) * radius
-    narrow = random.uniform(1.02, 1.3) * ROOM * radius / np.cos(np.pi / sides)
+    narrow = random.uniform(1.02, 1.3) * LEAST_LUMEN * radius / np.cos(np.pi / sides)
     length = random.uniform(10.0, 30.0) * width
     line = bent_line(length, 0.4 * width, lambda s: random.choice([0.0, 0.05]) / width)
     at, spread = random.uniform(0.2, 0.6) * length, random.uniform(0.4, 3.0) * width
@@ -135,7 +135,7 @@ def _fine(random, radius, sheath):
 
 def _cone(random, radius, sheath):
     sides = int(random.integers(6, 14))
-    narrow = ROOM * radius / np.cos(np.pi / sides)
+    narrow = LEAST_LUMEN * radius / np.cos(np.pi / sides)
     wide = random.uniform(1.3, 4.0) * narrow
     line = bent_line(random.uniform(5.0, 30.0) * wide, 2.0 * wide, lambda s: 0.0)
     return _swept(random, sheath, line, np.linspace(wide, narrow, len(line)), sides)
@@ -188,9 +188,9 @@ def _tight_bends(random, radius, sheath):
 
 
 def _closed_form_cone(random, radius, sheath):
-    wide = random.uniform(1.3, 5.0) * radius * ROOM
+    wide = random.uniform(1.3, 5.0) * radius * LEAST_LUMEN
     line = bent_line(random.uniform(5.0, 30.0) * wide, 5.0 * wide, lambda s: 0.02 / wide)
-    return _tube(sheath, line, np.linspace(wide, ROOM * radius, len(line)))
+    return _tube(sheath, line, np.linspace(wide, LEAST_LUMEN * radius, len(line)))
 
 
 def _slope(random, radius, sheath):

@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from analysis.advice import plan, report, trials
-from analysis.advice.plan import Advice, Tried, Wish, choose
+from analysis.advice.plan import Advice, Tried, AdviceRequest, choose
 from analysis.advice.trials import Trial
 from analysis.logs import LogError, read_log
 from analysis.runs import read_runs
@@ -57,7 +57,7 @@ class Advised:
         self.file = folder / f"{name}.json"
         self.file.write_text(json.dumps(scene), encoding="utf-8")
         self._out, self._command = folder, command
-        self.wish = Wish(self.error)
+        self.wish = AdviceRequest(self.error)
         check = plan.check_of(self.file, self.wish, plan.by_work, repeats=0)
         assert sweep([(check, folder)], folder / "runs", Means(command, 2)).failures == []
         self.advice: Advice = replay(check, folder)
@@ -129,9 +129,9 @@ def test_the_choice_is_the_cheapest_that_meets_the_error_or_the_best_within_the_
         searched = [tried(*values) for values in random.uniform(0.0, 1.0, (6, 3))]
         searched.append(tried(math.nan, 0.0, 0.0))  # was lost
         met = [one for one in searched if one.error <= 0.4]
-        assert choose(searched, Wish(0.4)) is (min(met, key=lambda one: one.total) if met else None)
+        assert choose(searched, AdviceRequest(0.4)) is (min(met, key=lambda one: one.total) if met else None)
         within = [one for one in searched[:-1] if one.step <= 0.3]
-        assert choose(searched, Wish(budget=0.3)) is (min(within, key=lambda one: one.error) if within else None)
+        assert choose(searched, AdviceRequest(budget=0.3)) is (min(within, key=lambda one: one.error) if within else None)
 
 
 def test_longer_steps_make_the_same_motion_of_the_drive() -> None:
@@ -193,6 +193,6 @@ def test_a_wish_that_cannot_be_met_is_one_line(words, said, capsys) -> None:
 def test_a_scene_where_nothing_moves_is_told(tmp_path: Path, runner_command: list[str]) -> None:
     file = tmp_path / "still.json"
     file.write_text(json.dumps({**CANTILEVER, "gravity": [0, 0, 0], "maxSimulationSteps": 8}), encoding="utf-8")
-    check = plan.check_of(file, Wish(0.1), plan.by_work, repeats=0)
+    check = plan.check_of(file, AdviceRequest(0.1), plan.by_work, repeats=0)
     with pytest.raises(LogError, match="nothing moves in the scene"):
         sweep([(check, tmp_path)], tmp_path / "runs", Means(runner_command, 2))

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from analysis.advice import chart, plan, quantity, report
-from analysis.advice.plan import Advice, Tried, Wish
+from analysis.advice.plan import Advice, Tried, AdviceRequest
 from analysis.advice.quantity import Quantity
 from analysis.advice.trials import Trial
 from analysis.hub import read_hub, snap_turns
@@ -37,7 +37,7 @@ def advise(tmp_path_factory, runner_command):
     file = folder / "pushed.json"
     file.write_text(json.dumps(PUSHED), encoding="utf-8")
 
-    def made(wish: Wish, **overrides: object) -> tuple[Advice, Path]:
+    def made(wish: AdviceRequest, **overrides: object) -> tuple[Advice, Path]:
         check = plan.check_of(file, wish, plan.by_work, repeats=0, overrides=overrides)
         assert sweep([(check, folder)], folder / "runs", Means(runner_command, 2)).failures == []
         return replay(check, folder), folder / "pushed"
@@ -47,19 +47,19 @@ def advise(tmp_path_factory, runner_command):
 
 def test_the_hubs_force_is_judged_by_itself(advise) -> None:
     """Errors are those of the logs, measured anew."""
-    advice, folder = advise(Wish(0.5, quantity=Quantity("hubForce")))
+    advice, folder = advise(AdviceRequest(0.5, quantity=Quantity("hubForce")))
     runs = read_runs(folder)
     exact, file = read_hub(runs["reference"].folder), read_hub(runs["file"].folder)
     times = np.linspace(0.0, 0.32, 81)
     force = np.interp(times, exact.time, exact.force)
     error = np.sqrt(np.mean((np.interp(times, file.time, file.force) - force) ** 2) / np.mean(force**2))
     assert advice.scene.error == pytest.approx(error, rel=1e-9)
-    places, _ = advise(Wish(0.5))
+    places, _ = advise(AdviceRequest(0.5))
     assert abs(places.scene.error / error - 1.0) > 0.5
 
 
 def test_at_the_end_the_last_moment_counts(advise) -> None:
-    advice, folder = advise(Wish(0.5, quantity=Quantity("tip", "end")))
+    advice, folder = advise(AdviceRequest(0.5, quantity=Quantity("tip", "end")))
     runs = read_runs(folder)
     exact, file = (tips(runs[key].folder) for key in ("reference", "file"))
     error = np.linalg.norm(file[-1] - exact[-1]) / np.linalg.norm(exact[-1] - exact[0])
@@ -67,7 +67,7 @@ def test_at_the_end_the_last_moment_counts(advise) -> None:
 
 
 def test_overrides_hold_in_every_run_but_where_a_part_is_left_out(advise) -> None:
-    advice, folder = advise(Wish(0.5), **{"vessel.frictionCoefficient": 0.2, "massDamping": 30})
+    advice, folder = advise(AdviceRequest(0.5), **{"vessel.frictionCoefficient": 0.2, "massDamping": 30})
     runs = read_runs(folder)
     friction = {key: run.parameters["vessel"].get("frictionCoefficient", 0.0) for key, run in runs.items()}
     smooth = {f"part-{k}" for k, one in enumerate(advice.parts) if one.trial.name == "friction, left out"}
@@ -82,7 +82,7 @@ def tips(folder: Path) -> np.ndarray:
 
 
 def test_a_number_of_the_summary_is_judged_against_two_coarser_runs(advise) -> None:
-    advice, folder = advise(Wish(0.5, quantity=Quantity("extremes.axialForce")))
+    advice, folder = advise(AdviceRequest(0.5, quantity=Quantity("extremes.axialForce")))
     runs = read_runs(folder)
     values = {key: runs[key].summary["extremes"]["axialForce"] for key in runs}
     assert {"coarser-0", "coarser-1"} <= set(values)
@@ -91,19 +91,19 @@ def test_a_number_of_the_summary_is_judged_against_two_coarser_runs(advise) -> N
 
 
 def test_nothing_is_advised_beyond_what_the_reference_is_known_to(advise) -> None:
-    known = advise(Wish(0.5, quantity=Quantity("hubForce")))[0].reference_error
-    wish = Wish(0.9 * known, quantity=Quantity("hubForce"))
+    known = advise(AdviceRequest(0.5, quantity=Quantity("hubForce")))[0].reference_error
+    wish = AdviceRequest(0.9 * known, quantity=Quantity("hubForce"))
     advice, _ = advise(wish)
     assert advice.taken is None
     said = report.verdict(wish, advice)
     assert said.startswith("Not advised: the hub's force from start to end has not converged")
     assert report.percent(known) in said and report.percent(wish.error) in said
     assert "No run was timed." in report.as_markdown("pushed.json", wish, advice)
-    assert advise(Wish(1.1 * known, quantity=Quantity("hubForce")))[0].taken is not None
+    assert advise(AdviceRequest(1.1 * known, quantity=Quantity("hubForce")))[0].taken is not None
 
 
 def test_the_walls_force_is_read_from_the_contacts_of_the_log(advise) -> None:
-    advice, _ = advise(Wish(0.5, quantity=Quantity("contactForce")))
+    advice, _ = advise(AdviceRequest(0.5, quantity=Quantity("contactForce")))
     assert 0.0 < advice.scene.error < 1.0
 
 
@@ -165,7 +165,7 @@ def test_the_chart_has_a_point_for_each_setting_that_was_not_lost() -> None:
 
     searched = [tried(8, 0.1, 1.0), tried(8, 0.02, 4.0), tried(16, 0.01, 8.0), tried(16, math.nan, 2.0)]
     advice = Advice(searched[0], tried(32, 0.0, 64.0), 0.005, [], searched, searched[1])
-    axes = chart.draw_advice("scene.json", Wish(0.03, quantity=Quantity("hubForce")), advice).axes[0]
+    axes = chart.draw_advice("scene.json", AdviceRequest(0.03, quantity=Quantity("hubForce")), advice).axes[0]
     drawn = {line.get_label(): line.get_xydata() for line in axes.lines}
     assert drawn["n = 8"].tolist() == [[1.0, 0.1], [4.0, 0.02]] and drawn["n = 16"].tolist() == [[8.0, 0.01]]
     assert axes.get_ylim() == pytest.approx((0.0025, 0.2))

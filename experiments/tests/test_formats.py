@@ -86,8 +86,8 @@ def test_a_run_of_another_version_is_refused(tmp_path, stated):
 
 
 @pytest.mark.parametrize("old, new, said", [
-    (b" 1 ", b" 2 ", "format 2: guidewire .* reads versions 1 to 1$"), (b" hand ", b" drive ", "not whole$"),
-    (b"guidewire-snapshot", b"guidewire-snapshop", "not whole$"),
+    (b" 1 ", b" 2 ", "format 2: guidewire .* reads versions 1 to 1$"), (b" hand ", b" drive ", "is incomplete$"),
+    (b"guidewire-snapshot", b"guidewire-snapshop", "is incomplete$"),
 ])
 def test_a_saved_state_of_another_version_is_refused(old, new, said):
     case = KEPT / "1" / "pbd"

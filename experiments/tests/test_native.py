@@ -87,7 +87,7 @@ def test_refusals_leave_the_session_as_it_is():
     with Session(**MATERIAL, native=True) as session:
         before = session.state
         for wrong, said in ((lambda: session.step(push=1.0), "a steered session"), (lambda: session.step(steps=0), "steps = 0"),
-                            (lambda: session.change(damping=-1), "damping"), (lambda: session.restore(b""), "not whole")):
+                            (lambda: session.change(damping=-1), "damping"), (lambda: session.restore(b""), "is incomplete")):
             with pytest.raises(SessionError, match=said):
                 wrong()
         np.testing.assert_array_equal(session.step(steps=1).positions, pushed_once().positions)

@@ -96,12 +96,12 @@ controls.target.copy(center);
 camera.position.copy(center).addScaledVector(new Vector3(0, 0, 1), 2.4 * size);
 controls.update();
 let drawn = 0;
-let isAsked = false;
+let isRequested = false;
 function ask() {
-  if (isAsked) return;
-  isAsked = true;
+  if (isRequested) return;
+  isRequested = true;
   requestAnimationFrame(() => {
-    isAsked = false;
+    isRequested = false;
     const { clientWidth: width, clientHeight: height } = canvas;
     if (!width || !height) return;
     renderer.setSize(width, height, false);

@@ -3,7 +3,7 @@ import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, 
 
 import { Tube } from "./tube.js";
 
-const SEEN_THROUGH = 0.55; // opacity of a catheter: one sees what is inside
+const OPACITY = 0.55; // opacity of a catheter: one sees what is inside
 
 /** A wire or a catheter in the picture: a tube, and a line where that is thinner than a point of the screen. */
 export class DrawnInstrument {
@@ -14,7 +14,7 @@ export class DrawnInstrument {
   constructor(spheres, isCatheter, tinted) {
     this.spheres = spheres;
     this.tube = new Tube(spheres - 1);
-    const look = isCatheter ? { vertexColors: true, transparent: true, opacity: SEEN_THROUGH } : { vertexColors: true };
+    const look = isCatheter ? { vertexColors: true, transparent: true, opacity: OPACITY } : { vertexColors: true };
     this._surface = new Mesh(this.tube.geometry, tinted(new MeshLambertMaterial(look)));
     this._line = new Line(new BufferGeometry(), tinted(new LineBasicMaterial(look)));
     for (const name of ["position", "color"]) {

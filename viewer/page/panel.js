@@ -39,7 +39,7 @@ export class Panel {
     for (const id of ["colour", "first", "second", "thickness"]) byId(id).onchange = changed;
     for (const id of ["walls", "arrows", "follow"]) byId(id).onchange = changed;
     byId("wire").ontoggle = changed;
-    stage.onThickness = () => this._sayThickness();
+    stage.onThickness = () => this._showThickness();
   }
 
   /** @param {Model[]} models @param {boolean} areOver whether the second lies over the first in one picture */
@@ -65,7 +65,7 @@ export class Panel {
     byId("said").textContent = lines.join("\n");
   }
 
-  _sayThickness() {
+  _showThickness() {
     const [model] = this.models;
     if (!model) return;
     const times = model.shownThickness;
@@ -96,7 +96,7 @@ export class Panel {
       model.arrows.visible = byId("arrows").checked;
       model.show(frames[k], full);
     });
-    this._sayThickness();
+    this._showThickness();
     if (this._stage.followsTip !== byId("follow").checked) {
       this._stage.followsTip = byId("follow").checked;
       this._stage.frameAll(true);

@@ -106,7 +106,7 @@ export class Stage {
     this._panes = [];
     /** @type {Model[]} */
     this._models = [];
-    this._isAsked = false;
+    this._isRequested = false;
     this._rest = 0; // timer
     this.followsTip = true;
     this._isFollowing = false;
@@ -166,10 +166,10 @@ export class Stage {
 
   /** Asks for a picture when the screen takes the next one. */
   ask() {
-    if (this._isAsked) return;
-    this._isAsked = true;
+    if (this._isRequested) return;
+    this._isRequested = true;
     requestAnimationFrame(() => {
-      this._isAsked = false;
+      this._isRequested = false;
       this._draw();
     });
   }

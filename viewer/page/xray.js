@@ -33,7 +33,7 @@ export class Xray {
     this.drawn = 0;
     /** Told after every picture. @type {() => void} */
     this.onDrawn = () => {};
-    this._isAsked = false;
+    this._isRequested = false;
     this._zoom = 1;
     /** @type {Point | undefined} */
     this._middle = undefined;
@@ -91,10 +91,10 @@ export class Xray {
 
   /** Asks for a picture when the screen takes the next one. */
   ask() {
-    if (this._isAsked || !this._models.length || document.body.dataset.views === "space") return;
-    this._isAsked = true;
+    if (this._isRequested || !this._models.length || document.body.dataset.views === "space") return;
+    this._isRequested = true;
     requestAnimationFrame(() => {
-      this._isAsked = false;
+      this._isRequested = false;
       this._draw();
     });
   }

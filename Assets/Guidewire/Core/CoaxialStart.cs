@@ -7,8 +7,8 @@ namespace Guidewire.Core
     /// <summary>Checks whether a wire and the catheters over it fit one another at the start.</summary>
     internal static class CoaxialStart
     {
-        private const string AlikeInBoth = "sections of equal bending stiffness in both directions, where two "
-            + "instruments are in one another: in a lumen a strip cannot turn by an angle";
+        private const string EqualInBothDirections = "sections of equal bending stiffness in both directions, where "
+            + "two instruments are in one another: in a lumen a strip cannot turn by an angle";
 
         /// <summary>What does not go with another one, and what it would need; or null.</summary>
         public static ParameterConflict? FindProblem(SimulationParameters parameters)
@@ -21,7 +21,7 @@ namespace Guidewire.Core
                 widest = Math.Max(widest, piece.Radius);
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {
-                    return new ParameterConflict("wireSections", AlikeInBoth);
+                    return new ParameterConflict("wireSections", EqualInBothDirections);
                 }
             }
             for (int k = catheters.Count - 1; k >= 0; k--)
@@ -55,7 +55,7 @@ namespace Guidewire.Core
                 }
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {
-                    return Of(k, "wireSections", AlikeInBoth);
+                    return Of(k, "wireSections", EqualInBothDirections);
                 }
                 widest = Math.Max(widest, piece.Radius);
             }

@@ -55,7 +55,7 @@ namespace Guidewire.Core
             new Rule("distalRotation", p => p.Scene.DistalEnd == DistalEnd.Held && p.Scene.DistalRotation != 0.0,
                 "distalEnd \"clamped\" or \"sliding\": an end that is only held can rotate freely"),
             // The last joint takes a rotation at once for one by less than half a turn, in the shorter direction.
-            new Rule("distalRotation", p => !p.Traits.WindsUpAtOnce && p.Scene.DistalEnd == DistalEnd.Clamped
+            new Rule("distalRotation", p => !p.Traits.TakesSuddenRotation && p.Scene.DistalEnd == DistalEnd.Clamped
                 && p.Scene.DistalRampTime == 0.0 && Math.Abs(p.Scene.DistalRotation) > 1.0,
                 "solver direct, or a distalRampTime > 0, for a sudden rotation of more than 1 rad"),
             new Rule("twistPerStep", p => p.IsMaterial && p.Drive.TwistPerStep != 0.0 && !p.IsClamped,
@@ -120,7 +120,7 @@ namespace Guidewire.Core
             OfMotion("distalMotionFile", p => p.Scene.DistalMotion,
                 p => p.HasDistalClamp || !p.Scene.DistalMotion!.Turns, "rotations of 0 where the end is only held"),
             OfSheath(p => p.Scene.ProximalMotion == null, "no proximalMotionFile"),
-            new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls, HubHoldsWithoutWalls),
+            new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls, NoSlipWithoutWalls),
             OfSheath(p => p.HasWalls, "a vessel"),
             OfSheath(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfSheath(p => p.Drive.Steering != null || p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
@@ -140,7 +140,7 @@ namespace Guidewire.Core
             OfCatheters(p => !p.HasWalls || p.Method.Integrator == Integrator.ImplicitEuler,
                 "integrator \"implicitEuler\" between walls"),
             new Rule("catheters[0].hubForceLimit", p => p.Scene.Catheters.Count > 0 && !p.HasWalls
-                && p.Scene.Catheters[0].Drive.HubForceLimit > 0.0, HubHoldsWithoutWalls),
+                && p.Scene.Catheters[0].Drive.HubForceLimit > 0.0, NoSlipWithoutWalls),
             OfCatheters(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfCatheters(p => p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
                 "drive \"displace\" or \"hold\""),
@@ -157,7 +157,7 @@ namespace Guidewire.Core
             OfCatheters(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
         };
 
-        private const string HubHoldsWithoutWalls = "a vessel or obstacles: without walls the hub does not slip";
+        private const string NoSlipWithoutWalls = "a vessel or obstacles: without walls the hub does not slip";
         private const string ClampedByDrive = "proximalEnd \"clamped\", and no drive \"force\"";
         private const string MovingDrive = "drive \"displace\" or \"push\"";
 

@@ -30,7 +30,7 @@ namespace Guidewire.Core
         /// <param name="coaxial">Null without a catheter.</param>
         public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial)
         {
-            List<string> lines = Doubts(state, contacts);
+            List<string> lines = CollectWarnings(state, contacts);
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
                 string? play = one.PlayWarning;
@@ -48,9 +48,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether there is none but that of a rim.</summary>
-        public bool AreNoDoubts(RodState state, ContactRecord? contacts)
+        public bool IsTrustworthy(RodState state, ContactRecord? contacts)
         {
-            return Doubts(state, contacts).Count == 0;
+            return CollectWarnings(state, contacts).Count == 0;
         }
 
         /// <summary>The wire starts in this state.</summary>
@@ -73,7 +73,7 @@ namespace Guidewire.Core
             _rims.Serialize(snapshot, state);
         }
 
-        private List<string> Doubts(RodState state, ContactRecord? contacts)
+        private List<string> CollectWarnings(RodState state, ContactRecord? contacts)
         {
             var lines = new List<string>();
             if (contacts != null && contacts.Passages > 0)

@@ -67,7 +67,7 @@ namespace Guidewire.Core
         /// reason has no "but", nothing passed a wall or penetrated one more than the method allows, the wire has kept
         /// its length, and the drive did not fall short.</summary>
         public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
-            && (StepCount == 0 || _warnings.AreNoDoubts(State, Contacts));
+            && (StepCount == 0 || _warnings.IsTrustworthy(State, Contacts));
 
         /// <summary>Whether the state is that after <see cref="StepCount"/> steps, all of it finite: a step that lost
         /// the wire may have left none.</summary>

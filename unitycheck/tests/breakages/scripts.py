@@ -98,12 +98,12 @@ BREAKAGES = {
     "behaviour in the editor's assembly": Breakage(
         write("Assets/Guidewire/Editor/Odd.cs", behaviour("", namespace="Guidewire.Editor")),
         "Assets/Guidewire/Editor/Odd.cs", "script-form"),
-    "initialise with an overload": Breakage(replace(BATCH, r"void RunIfAsked\(\)", "void Run()"), BATCH,
+    "initialise with an overload": Breakage(replace(BATCH, r"void RunIfRequested\(\)", "void Run()"), BATCH,
                                             "initialize-method"),
-    "initialise not static": Breakage(replace(BATCH, "private static void RunIfAsked", "private void RunIfAsked"),
+    "initialise not static": Breakage(replace(BATCH, "private static void RunIfRequested", "private void RunIfRequested"),
                                       BATCH,
                                       "initialize-method"),
-    "initialise with a parameter": Breakage(replace(BATCH, r"void RunIfAsked\(\)", "void RunIfAsked(int a)"), BATCH,
+    "initialise with a parameter": Breakage(replace(BATCH, r"void RunIfRequested\(\)", "void RunIfRequested(int a)"), BATCH,
                                             "initialize-method"),
     # Messages
     "message with a letter exchanged": Breakage(replace(LOOP, r"void Update\(\)", "void Udpate()"), LOOP,

@@ -45,7 +45,7 @@ namespace Guidewire.Core
                 case MeshShape mesh:
                     return Of(mesh.Wall.Corners);
                 case TubeShape tube:
-                    return OfBalls(tube.Knots, tube.Radii, tube.FirstKnot, tube.LastKnot);
+                    return OfSpheres(tube.Knots, tube.Radii, tube.FirstKnot, tube.LastKnot);
                 case ConvexObstacle obstacle:
                     Extents box = Of(obstacle.Points);
                     Vector3d around = obstacle.Radius * new Vector3d(1.0, 1.0, 1.0);
@@ -63,7 +63,7 @@ namespace Guidewire.Core
                 Low.X, Low.Y, Low.Z, High.X, High.Y, High.Z);
         }
 
-        private static Extents OfBalls(Vector3d[] centres, double[] radii, int first, int last)
+        private static Extents OfSpheres(Vector3d[] centres, double[] radii, int first, int last)
         {
             var corners = new List<Vector3d>();
             for (int i = first; i <= last; i++)

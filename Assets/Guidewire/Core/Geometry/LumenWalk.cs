@@ -6,9 +6,9 @@ namespace Guidewire.Core
     /// <summary>Walks along a lumen, in both directions from a point, to its narrowest cross-section, beyond which it
     /// widens again.
     /// Lengths in units.</summary>
-    /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenBall"/>), along the direction e in
+    /// <remarks>The walk goes by balls that are centred across it (<see cref="LumenSphere"/>), along the direction e in
     /// which the lesser of d(c + h e) and d(c - h e) is largest, d the distance from the wall. It ends where the lumen
-    /// has become wider than its narrowest by <see cref="WideAgain"/>, or where d falls by more than half of the
+    /// has become wider than its narrowest by <see cref="WideningFactor"/>, or where d falls by more than half of the
     /// distance travelled: there is the end of the vessel, and the last <see cref="EndLength"/> widths before it do not
     /// count, because a corner has balls of any width. Where even short steps lead aside into a wider lumen the walk
     /// was in a fold of the wall, which is no throat. The result depends on d alone, not on how the wall is
@@ -16,8 +16,8 @@ namespace Guidewire.Core
     /// barriers are, and does not count.</remarks>
     internal sealed class LumenWalk
     {
-        private const double StepOverWidth = 0.25;
-        private const double WideAgain = 1.05;
+        private const double StepFraction = 0.25;
+        private const double WideningFactor = 1.05;
         private const double EndSlope = 0.5;
         private const double Fineness = 2e-3;        // of the width, during the walk
         private const double LastFineness = 2e-4;    // at the end of it
@@ -28,7 +28,7 @@ namespace Guidewire.Core
         private const double EndLength = 3.0;        // widths before an end of the vessel that do not count
         private const int MostSteps = 2000;
         private const int Thirds = 16;               // of the last bracket
-        private readonly LumenBall _ball;
+        private readonly LumenSphere _ball;
         private readonly double _above;
         private readonly List<(Vector3d Centre, double Width)> _walked = new List<(Vector3d, double)>();
         private readonly List<(double Travel, Vector3d Centre, Vector3d Along, double Width)> _path =
@@ -40,7 +40,7 @@ namespace Guidewire.Core
         /// <summary>For a wall, and positions that are wider than a radius.</summary>
         public LumenWalk(ContactShape wall, double above)
         {
-            _ball = new LumenBall(wall);
+            _ball = new LumenSphere(wall);
             _above = above;
         }
 
@@ -92,13 +92,13 @@ namespace Guidewire.Core
         // count. What counts ends some widths before an end of the vessel: near a corner of it any width is met.
         private bool Walk(Vector3d centre, double width, Vector3d along, double side, out double last)
         {
-            double fraction = StepOverWidth;
+            double fraction = StepFraction;
             double travel = 0.0;
             bool isAside = false;
             last = double.PositiveInfinity;
-            for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideAgain * _narrowest; k++)
+            for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideningFactor * _narrowest; k++)
             {
-                _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideAgain * width);
+                _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideningFactor * width);
                 double distance = Vector3d.Distance(centre, _ball.Centre);
                 if (width - _ball.Width > EndSlope * distance || !(_ball.Width > 0.0))
                 {
@@ -114,7 +114,7 @@ namespace Guidewire.Core
                     continue;
                 }
                 isAside = false;
-                fraction = Math.Min(2.0 * fraction, StepOverWidth);
+                fraction = Math.Min(2.0 * fraction, StepFraction);
                 centre = _ball.Centre;
                 width = _ball.Width;
                 if (width <= _above)
@@ -131,7 +131,7 @@ namespace Guidewire.Core
             {
                 return false;
             }
-            bool isWide = width > WideAgain * _narrowest;
+            bool isWide = width > WideningFactor * _narrowest;
             last = side * (isWide ? double.PositiveInfinity : travel - EndLength * width);
             return true;
         }
@@ -155,7 +155,7 @@ namespace Guidewire.Core
                 return least;
             }
             _narrowest = least;
-            double length = StepOverWidth * _narrowest;
+            double length = StepFraction * _narrowest;
             double low = -length;
             double high = length;
             for (int k = 0; k < Thirds; k++)
@@ -180,7 +180,8 @@ namespace Guidewire.Core
 
         private double Across(double distance)
         {
-            _ball.Climb(_position + distance * _along, _along, LastFineness * _narrowest, 2.0 * WideAgain * _narrowest);
+            _ball.Climb(_position + distance * _along, _along, LastFineness * _narrowest,
+                2.0 * WideningFactor * _narrowest);
             return _ball.Width;
         }
 

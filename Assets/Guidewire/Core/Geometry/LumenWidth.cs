@@ -11,18 +11,18 @@ namespace Guidewire.Core
     internal sealed class LumenWidth
     {
         private const double Fineness = 0.005;
-        private const double StepOverWidth = 0.25;   // from one position of the walk to the next
+        private const double StepFraction = 0.25;   // from one position of the walk to the next
         private const double Ample = 4.0;            // radii, from which on nothing is centred
         private const int MostSteps = 4000;
         private readonly ContactShape _wall;
-        private readonly LumenBall _ball;
+        private readonly LumenSphere _ball;
         private readonly double _radius;
 
         /// <summary>The lumen of a vessel, for a wire of this radius.</summary>
         public LumenWidth(ContactShape wall, double radius)
         {
             _wall = wall;
-            _ball = new LumenBall(wall);
+            _ball = new LumenSphere(wall);
             _radius = radius;
         }
 
@@ -80,7 +80,7 @@ namespace Guidewire.Core
             for (int k = 0; k < MostSteps && gone < travel && Width > Fineness * _radius; k++)
             {
                 Vector3d before = Centre;
-                Vector3d next = before + (StepOverWidth * Math.Min(Width, Ample * _radius)) * along;
+                Vector3d next = before + (StepFraction * Math.Min(Width, Ample * _radius)) * along;
                 bool isOut = !_wall.Contains(next);
                 if (!isOut)
                 {
@@ -133,7 +133,8 @@ namespace Guidewire.Core
             for (int k = 0; k <= last; k++)
             {
                 int i = forward ? k : last - k;
-                if (tube.Radii[i] < _radius && stations[i] > from && stations[i] < to && GoesOn(tube, i, forward))
+                if (tube.Radii[i] < _radius && stations[i] > from && stations[i] < to
+                    && ContinuesNarrow(tube, i, forward))
                 {
                     Take(tube.Radii[i], tube.Knots[i]);
                     return true;
@@ -143,16 +144,16 @@ namespace Guidewire.Core
         }
 
         // Whether a lumen that is too narrow at a knot is wide enough behind it, or open.
-        private bool GoesOn(TubeShape tube, int knot, bool forward)
+        private bool ContinuesNarrow(TubeShape tube, int knot, bool forward)
         {
             int end = forward ? tube.Knots.Length - 1 : 0;
             bool isOpen = forward ? tube.LastKnot < end : tube.FirstKnot > end;
-            bool isWideAgain = false;
+            bool hasWidened = false;
             for (int i = knot; i != end; i += forward ? 1 : -1)
             {
-                isWideAgain |= tube.Radii[i + (forward ? 1 : -1)] >= _radius;
+                hasWidened |= tube.Radii[i + (forward ? 1 : -1)] >= _radius;
             }
-            return isOpen || isWideAgain;
+            return isOpen || hasWidened;
         }
 
         private void Take(double width, in Vector3d centre)

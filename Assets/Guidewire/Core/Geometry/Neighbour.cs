@@ -57,24 +57,24 @@ namespace Guidewire.Core
         }
 
         /// <summary>False where the wall is certainly farther from segment a b than a range.</summary>
-        public readonly bool MayReach(in Vector3d a, in Vector3d b, double range)
+        public readonly bool MayBeInRange(in Vector3d a, in Vector3d b, double range)
         {
-            return MayReach(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
+            return MayBeInRange(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
         }
 
         /// <summary>The same for its first end alone.</summary>
-        public readonly bool MayReachA(in Vector3d a, double range)
+        public readonly bool FirstMayBeInRange(in Vector3d a, double range)
         {
-            return MayReach((a - _a).LengthSquared, range);
+            return MayBeInRange((a - _a).LengthSquared, range);
         }
 
         /// <summary>The same for its second end.</summary>
-        public readonly bool MayReachB(in Vector3d b, double range)
+        public readonly bool SecondMayBeInRange(in Vector3d b, double range)
         {
-            return MayReach((b - _b).LengthSquared, range);
+            return MayBeInRange((b - _b).LengthSquared, range);
         }
 
-        private readonly bool MayReach(double squaredMotion, double range)
+        private readonly bool MayBeInRange(double squaredMotion, double range)
         {
             double left = _clearance - range;
             return _skin < 0.0 || !(left > 0.0 && squaredMotion < left * left);

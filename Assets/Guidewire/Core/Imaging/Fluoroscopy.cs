@@ -78,8 +78,8 @@ namespace Guidewire.Core
 
         private void SetLayer(CArm arm, FluoroscopySettings settings)
         {
-            bool isSeenAnew = !arm.Equals(_arm);
-            if (isSeenAnew)
+            bool isNewView = !arm.Equals(_arm);
+            if (isNewView)
             {
                 SetSize(arm.Pixels);
                 Array.Clear(_thickness, 0, _thickness.Length);
@@ -90,7 +90,7 @@ namespace Guidewire.Core
                 _arm = arm;
             }
             var shown = (settings.Vessel, settings.Contrast, settings.Background);
-            if (isSeenAnew || !shown.Equals(_shown))
+            if (isNewView || !shown.Equals(_shown))
             {
                 _shown = shown;
                 for (int i = 0; i < _layer.Length; i++)

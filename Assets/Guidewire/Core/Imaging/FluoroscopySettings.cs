@@ -44,13 +44,13 @@ namespace Guidewire.Core
                 case VesselContrast.Contrast:
                     return Math.Exp(-Contrast * thickness);
                 case VesselContrast.RoadMap:
-                    return 1.0 + RoadMapGain * (1.0 - Math.Exp(-Contrast * thickness));
+                    return 1.0 + RoadMapContrast * (1.0 - Math.Exp(-Contrast * thickness));
                 default:
                     return 1.0;
             }
         }
 
         // How much brighter than the background a road map is where it was opaque: at most 0.75 (1 + 0.3) = 0.975.
-        private const double RoadMapGain = 0.3;
+        private const double RoadMapContrast = 0.3;
     }
 }

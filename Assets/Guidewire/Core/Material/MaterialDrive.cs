@@ -158,7 +158,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same since another insertion, m.</summary>
-        public double GoneSince(double insertion)
+        public double DisplacementSince(double insertion)
         {
             return _sense * (Insertion - insertion);
         }

@@ -83,7 +83,7 @@ namespace Guidewire.Core
         public double WireAsked => _wireAsked;
 
         /// <summary>What it went of that, m.</summary>
-        public double WireGone => _wireGone;
+        public double WireDisplacement => _wireGone;
 
         /// <summary>Displacement that the wire's hub has lost, m.</summary>
         public double WireShortfall { get; private set; }
@@ -226,9 +226,9 @@ namespace Guidewire.Core
         internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
         {
             _asked += drive.Asked;
-            _gone += drive.GoneSince(from);
+            _gone += drive.DisplacementSince(from);
             _wireAsked += wireDrive.Asked;
-            _wireGone += wireDrive.GoneSince(wireFrom);
+            _wireGone += wireDrive.DisplacementSince(wireFrom);
             _friction.Slide(wireDrive.Insertion - wireFrom - (drive.Insertion - from));
         }
 

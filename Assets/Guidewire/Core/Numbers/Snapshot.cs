@@ -25,14 +25,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>What comes next is written from the start on, in the memory that is there.</summary>
-        public void WriteAnew()
+        public void RewindForWriting()
         {
             _count = 0;
             IsWritten = true;
         }
 
         /// <summary>What has been written is read, from its start.</summary>
-        public void ReadAnew()
+        public void RewindForReading()
         {
             _at = 0;
             IsWritten = false;

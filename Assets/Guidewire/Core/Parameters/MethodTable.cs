@@ -42,7 +42,7 @@ namespace Guidewire.Core
                 Slides = true,
                 TakesTipMoment = true,
                 TakesDarbouxLaw = true,
-                WindsUpAtOnce = true,
+                TakesSuddenRotation = true,
                 Integrators = new[]
                 {
                     Integrator.Esdirk3, Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2,

@@ -37,7 +37,7 @@ namespace Guidewire.Core
 
         /// <summary>Whether it winds a clamp up that is turned at once by more than a joint can tell from the shorter
         /// way round.</summary>
-        public bool WindsUpAtOnce { get; internal set; }
+        public bool TakesSuddenRotation { get; internal set; }
 
         /// <summary>Its integrators, the default first; empty where it has one of its own.</summary>
         public IReadOnlyList<Integrator> Integrators { get; internal set; } = Array.Empty<Integrator>();

@@ -106,7 +106,7 @@ namespace Guidewire.Io
         /// <param name="defaults">The method's.</param>
         /// <exception cref="ParameterException">A part that is not there, that the method does not take, or whose value
         /// is not allowed.</exception>
-        public void LayParts(RunParameters defaults)
+        public void ApplyParts(RunParameters defaults)
         {
             // A stable order: of two words on the same part the later counts.
             _parts = _parts.OrderBy(part => part.Path.Depth).ToList();
@@ -115,12 +115,12 @@ namespace Guidewire.Io
             {
                 if (laid.Add(path.Key))
                 {
-                    LayParts(ParameterTable.Find(path.Key)!, defaults, source);
+                    ApplyParts(ParameterTable.Find(path.Key)!, defaults, source);
                 }
             }
         }
 
-        private void LayParts(ParameterEntry entry, RunParameters defaults, string source)
+        private void ApplyParts(ParameterEntry entry, RunParameters defaults, string source)
         {
             JToken whole = (_wholes.TryGetValue(entry.Key, out (JToken Value, string Source) given) ? given.Value
                 : entry.Write(defaults)).DeepClone();

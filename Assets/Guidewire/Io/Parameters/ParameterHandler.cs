@@ -158,7 +158,7 @@ namespace Guidewire.Io
         {
             ApplyKey(ParameterTable.SolverKey);
             Values = new RunParameters(Method);
-            _given.LayParts(Values);
+            _given.ApplyParts(Values);
             PassOver();
             foreach ((string older, string _) in Twins)
             {
@@ -233,7 +233,7 @@ namespace Guidewire.Io
                         entry.Allowed);
                 }
                 if (given.Source == CommandLineHandler.Source
-                    || (entry.IsRefusedElsewhere && AsksForMore(entry, given)))
+                    || (entry.IsRefusedElsewhere && HasEffect(entry, given)))
                 {
                     throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
                         + ChoiceEntry<Solver>.Word(Method.ToString())
@@ -249,7 +249,7 @@ namespace Guidewire.Io
             }
         }
 
-        private bool AsksForMore(ParameterEntry entry, (JToken Value, string Source) given)
+        private bool HasEffect(ParameterEntry entry, (JToken Value, string Source) given)
         {
             var read = new RunParameters(Method);
             entry.TryRead(read, given.Value);

@@ -56,7 +56,7 @@ namespace Guidewire.Io
             Warn(result.Warnings);
             bool isDone = result.Outcome == Outcome.Converged || result.Outcome == Outcome.Finished;
             string ending = result.Word + (isDone && !result.IsReliable ? ", not reliable: " : ": ") + result.Reason;
-            if (result.KeptEarlier)
+            if (result.KeptPreviousRun)
             {
                 ending += "; the complete run that " + run.Folder + " held before is kept, the log of the new one is "
                     + RunFolder.PartialLogOf(handler);
@@ -71,7 +71,7 @@ namespace Guidewire.Io
             }
             else
             {
-                Say(ending + (result.KeptEarlier ? "" : " -> " + run.Folder));
+                Say(ending + (result.KeptPreviousRun ? "" : " -> " + run.Folder));
             }
             return ExitCodes.Of(result.Outcome);
         }

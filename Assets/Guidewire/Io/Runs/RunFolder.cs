@@ -44,10 +44,10 @@ namespace Guidewire.Io
         public double Elapsed => _clock.Elapsed.TotalMilliseconds;
 
         /// <summary>Outcomes that replace no result that the folder held before; none where this is not set.</summary>
-        public IReadOnlyList<Outcome> OutcomesThatKeepEarlier { get; set; } = Array.Empty<Outcome>();
+        public IReadOnlyList<Outcome> OutcomesKeepingPreviousRun { get; set; } = Array.Empty<Outcome>();
 
         /// <summary>Whether such a result is there still, after <see cref="Finish"/>.</summary>
-        public bool KeptEarlier { get; private set; }
+        public bool KeptPreviousRun { get; private set; }
 
         /// <summary>A folder that takes a run; made where it is missing.</summary>
         /// <param name="handler">The parameters.</param>
@@ -201,11 +201,11 @@ namespace Guidewire.Io
 
         private bool MustKeepEarlierRun(Simulation simulation)
         {
-            foreach (Outcome outcome in OutcomesThatKeepEarlier)
+            foreach (Outcome outcome in OutcomesKeepingPreviousRun)
             {
-                KeptEarlier |= simulation.Outcome == outcome && EarlierRun.In(_folder) != null;
+                KeptPreviousRun |= simulation.Outcome == outcome && EarlierRun.In(_folder) != null;
             }
-            return KeptEarlier;
+            return KeptPreviousRun;
         }
 
         private void Publish(Simulation simulation)

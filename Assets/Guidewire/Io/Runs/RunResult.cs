@@ -13,7 +13,7 @@ namespace Guidewire.Io
             Outcome = outcome;
             Reason = reason;
             Reused = reused;
-            KeptEarlier = keptEarlier;
+            KeptPreviousRun = keptEarlier;
         }
 
         /// <summary>The outcome's one word, as in summary.json.</summary>
@@ -37,6 +37,6 @@ namespace Guidewire.Io
 
         /// <summary>True when the run came to no end of its own, and a whole result that the folder held before it is
         /// there still.</summary>
-        public bool KeptEarlier { get; }
+        public bool KeptPreviousRun { get; }
     }
 }

@@ -80,7 +80,7 @@ namespace Guidewire.Io
             if (catheters.Count > 0)
             {
                 CoaxialRecord first = catheters[0];
-                var hubs = new JArray(HubTravel(first.WireAsked, first.WireGone, first.WireShortfall));
+                var hubs = new JArray(HubTravel(first.WireAsked, first.WireDisplacement, first.WireShortfall));
                 foreach (CoaxialRecord one in catheters)
                 {
                     hubs.Add(HubTravel(one.Asked, one.Gone, one.Shortfall));

@@ -64,7 +64,7 @@ namespace Guidewire.Io
             Simulation simulation = Simulation.Create(_handler.Values.Simulation);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             using RunFolder results = RunFolder.Open(_handler, _folder, _repeat, KeepsLog);
-            results.OutcomesThatKeepEarlier = new[] { Outcome.Interrupted, Outcome.Failed };
+            results.OutcomesKeepingPreviousRun = new[] { Outcome.Interrupted, Outcome.Failed };
             results.Begin(simulation, setUp);
             if (_handler.Values.Simulation.Method.MaxSimulationSteps == 0 && simulation.Outcome == Outcome.Running)
             {
@@ -82,7 +82,7 @@ namespace Guidewire.Io
             }
             results.Finish(simulation);
             return new RunResult(simulation.Outcome, simulation.Reason, simulation.IsReliable, false,
-                results.KeptEarlier)
+                results.KeptPreviousRun)
             {
                 Warnings = simulation.Warnings,
             };

@@ -36,16 +36,16 @@ namespace Guidewire.Io
         public JObject ToJson()
         {
             bool isReached = !double.IsNaN(_reachedAt);
-            bool isAsked = _path.Target >= 0;
+            bool isRequested = _path.Target >= 0;
             return new JObject
             {
                 ["inlet"] = _path.Inlet.Name,
                 ["distance"] = _distance,
                 ["farthest"] = _farthest,
                 ["path"] = new JArray(_path.BranchesTo(_near)),
-                ["target"] = isAsked ? _path.TargetName : null,
-                ["targetDistance"] = isAsked ? _path.Distances[_path.Target] : (double?)null,
-                ["reached"] = isAsked ? isReached : (bool?)null,
+                ["target"] = isRequested ? _path.TargetName : null,
+                ["targetDistance"] = isRequested ? _path.Distances[_path.Target] : (double?)null,
+                ["reached"] = isRequested ? isReached : (bool?)null,
                 ["reachedAt"] = isReached ? _reachedAt : (double?)null,
             };
         }

@@ -13,7 +13,7 @@ namespace Guidewire.Runtime
             Application.isBatchMode && BatchRun.Own(Environment.GetCommandLineArgs()) != null;
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSceneLoad)]
-        private static void RunIfAsked()
+        private static void RunIfRequested()
         {
             Run(Environment.GetCommandLineArgs());
         }

@@ -13,12 +13,12 @@ namespace Guidewire.Runtime
     {
         private const int RingsPerElement = 4;
         private const int Sides = 12;
-        private const float SeenThrough = 0.5f;   // as in rendered pictures
+        private const float Opacity = 0.5f;   // as in rendered pictures
 
         private static readonly Color[] Colours =
         {
-            new Color(1f, 0.62f, 0.18f, SeenThrough), new Color(0.71f, 0.55f, 1f, SeenThrough),
-            new Color(0.37f, 0.83f, 0.55f, SeenThrough),
+            new Color(1f, 0.62f, 0.18f, Opacity), new Color(0.71f, 0.55f, 1f, Opacity),
+            new Color(0.37f, 0.83f, 0.55f, Opacity),
         };
 
         private readonly List<Drawn> _drawn = new List<Drawn>();

@@ -29,7 +29,7 @@ namespace Guidewire.Runtime
 
         private void Awake()
         {
-            _ball = Marks.CreateBall();
+            _ball = Marks.CreateSphere();
             _yellow = Marks.Coloured(_material, 1f, 0.85f, 0.1f);
         }
 
@@ -72,7 +72,7 @@ namespace Guidewire.Runtime
                 Vector3d b = state.Positions[j + 1];
                 if (wall.Nearest(a, b, range, ref _hints[k], out SurfaceContact contact))
                 {
-                    Marks.DrawBall(_ball, place, contact.Point.ToUnity(), radius, _yellow);
+                    Marks.DrawSphere(_ball, place, contact.Point.ToUnity(), radius, _yellow);
                 }
             }
         }

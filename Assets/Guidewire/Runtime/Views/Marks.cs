@@ -10,7 +10,7 @@ namespace Guidewire.Runtime
         private const int Columns = 12;
 
         /// <summary>A ball of radius 1 around the origin.</summary>
-        public static Mesh CreateBall()
+        public static Mesh CreateSphere()
         {
             var normals = new Vector3[(Rows + 1) * Columns];
             var triangles = new int[6 * Rows * Columns];
@@ -47,7 +47,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Draws a ball; nothing where its position is not finite.</summary>
         /// <param name="place">From the wire's frame to the world.</param>
-        public static void DrawBall(Mesh ball, in Matrix4x4 place, Vector3 centre, float radius, Material material)
+        public static void DrawSphere(Mesh ball, in Matrix4x4 place, Vector3 centre, float radius, Material material)
         {
             if (centre.IsFinite())
             {

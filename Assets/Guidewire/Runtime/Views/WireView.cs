@@ -120,7 +120,7 @@ namespace Guidewire.Runtime
                 Marks.Coloured(_material, 0.9f, 0.2f, 0.2f), Marks.Coloured(_material, 0.2f, 0.8f, 0.3f),
                 Marks.Coloured(_material, 0.3f, 0.4f, 0.9f),
             };
-            _ball = Marks.CreateBall();
+            _ball = Marks.CreateSphere();
             _catheters = gameObject.AddComponent<CatheterView>();
             _catheters.Begin(_loop, this, _catheterMaterial);
             gameObject.AddComponent<MeshFilter>();
@@ -187,7 +187,7 @@ namespace Guidewire.Runtime
             Matrix4x4 place = transform.localToWorldMatrix;
             for (int i = 0; i < state.SphereCount; i++)
             {
-                Marks.DrawBall(_ball, place, state.Positions[i].ToUnity(), radius, _coloured);
+                Marks.DrawSphere(_ball, place, state.Positions[i].ToUnity(), radius, _coloured);
             }
         }
 

@@ -235,7 +235,7 @@ namespace Guidewire.UnityCheck.Rules
                 return;
             }
             // What runs later, in a lambda, may ask anything; names in nameof and typeof are not asked at all.
-            foreach (SyntaxNode node in value.DescendantNodesAndSelf(IsAskedNow))
+            foreach (SyntaxNode node in value.DescendantNodesAndSelf(IsRequestedNow))
             {
                 string? early = node switch
                 {
@@ -254,7 +254,7 @@ namespace Guidewire.UnityCheck.Rules
             }
         }
 
-        private static bool IsAskedNow(SyntaxNode node)
+        private static bool IsRequestedNow(SyntaxNode node)
         {
             return !(node is AnonymousFunctionExpressionSyntax || node is TypeOfExpressionSyntax
                 || (node is InvocationExpressionSyntax call && CallTable.CalledName(call) == "nameof"));

@@ -170,7 +170,7 @@ namespace Guidewire.Core
             _edgeTree?.Within(swept, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                if (!IsBeside(_found[k], swept))
+                if (!IsInRange(_found[k], swept))
                 {
                     ImpactWithEdge(_convexEdge[_found[k]], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
@@ -215,12 +215,12 @@ namespace Guidewire.Core
         }
 
         // Whether the motion stays on one side of a plane, or a thin slab, that a convex edge lies in.
-        private bool IsBeside(int edgeContact, in SweptSegment swept)
+        private bool IsInRange(int edgeContact, in SweptSegment swept)
         {
             _mesh.EndsOf(_convexEdge[edgeContact], out int from, out int to);
             double start = Vector3d.Dot(_edgeNormal[edgeContact], _mesh.Corners[from]);
             double end = Vector3d.Dot(_edgeNormal[edgeContact], _mesh.Corners[to]);
-            return swept.IsBeside(_edgeNormal[edgeContact], Math.Min(start, end), Math.Max(start, end));
+            return swept.IsInRange(_edgeNormal[edgeContact], Math.Min(start, end), Math.Max(start, end));
         }
 
         private void ImpactWithEdge(int edge, in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
@@ -242,8 +242,8 @@ namespace Guidewire.Core
 
         private double LeastDistance(in Vector3d x, int triangle)
         {
-            double fromBall = Vector3d.Distance(x, _centre[triangle]) - _radius[triangle];
-            return Math.Max(fromBall, _planes.LeastDistance(x, triangle));
+            double fromSphere = Vector3d.Distance(x, _centre[triangle]) - _radius[triangle];
+            return Math.Max(fromSphere, _planes.LeastDistance(x, triangle));
         }
     }
 }

@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private const int MostSamples = 600_000;
         private const int LeastSamples = 2_000;
         private const double SamplesOverRadius = 2.0;    // in a square of the least radius
-        private const double LeastBall = 0.7;            // of that radius: smaller balls lie in folds of the wall
+        private const double SmallestSphere = 0.7;            // of that radius: smaller balls lie in folds of the wall
         private const int MostShrinks = 30;
         private const double Converged = 2e-3;    // of a ball's radius squared
         private const double Least = 1e-6;    // of the mesh's size, for a radius
@@ -48,7 +48,7 @@ namespace Guidewire.Core
                 {
                     double start = Math.Min(size, narrowest);
                     double radius = Ball(mesh, t, PlaceOn(mesh, t, k, rows), start, out Vector3d centre);
-                    if (radius < start && radius > LeastBall * least)
+                    if (radius < start && radius > SmallestSphere * least)
                     {
                         narrowest = Math.Min(narrowest, walk.From(centre, start));
                     }

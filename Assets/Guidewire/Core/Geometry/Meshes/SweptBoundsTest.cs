@@ -39,11 +39,11 @@ namespace Guidewire.Core
                 Overlaps(ref bounds, 0, _centre.X, _extent.X) & Overlaps(ref bounds, 1, _centre.Y, _extent.Y)
                 & Overlaps(ref bounds, 2, _centre.Z, _extent.Z);
             uint hits = overlaps.ExtractMostSignificantBits();
-            return hits == 0 ? 0 : hits & _start.MayHold(ref bounds) & ~IsBeside(ref bounds);
+            return hits == 0 ? 0 : hits & _start.MayHold(ref bounds) & ~IsInRange(ref bounds);
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private uint IsBeside(ref float bounds)
+        private uint IsInRange(ref float bounds)
         {
             Vector256<float> w = Height(ref bounds, _a0);
             Vector256<float> x = Height(ref bounds, _b0);

@@ -59,7 +59,7 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool MayMeet(in BvhNode node)
         {
-            return _box.Overlaps(node) && !IsBeside(node.Normal, node.Low, node.High);
+            return _box.Overlaps(node) && !IsInRange(node.Normal, node.Low, node.High);
         }
 
         /// <summary>Whether the motion stays, by more than the distance, on one side of all that lies between two
@@ -68,7 +68,7 @@ namespace Guidewire.Core
         /// <param name="low">normal.x of the lower plane, units.</param>
         /// <param name="high">normal.x of the upper plane, units.</param>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public bool IsBeside(in Vector3d normal, double low, double high)
+        public bool IsInRange(in Vector3d normal, double low, double high)
         {
             double w = Vector3d.Dot(normal, A0);
             double x = Vector3d.Dot(normal, B0);

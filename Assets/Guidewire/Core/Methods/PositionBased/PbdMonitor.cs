@@ -16,8 +16,8 @@ namespace Guidewire.Core
     /// cref="RestMonitor"/>.</remarks>
     internal sealed class PbdMonitor
     {
-        private const double LostDistance = 10.0;     // wire lengths
-        private const double LostStrain = 0.2;        // |length/l - 1|
+        private const double DivergedDistance = 10.0;     // wire lengths
+        private const double DivergedStrain = 0.2;        // |length/l - 1|
 
         private readonly double _threshold;
         private Vector3d _origin;
@@ -96,7 +96,7 @@ namespace Guidewire.Core
             }
             // A wire that hardly moves because its pbd stiffness is tiny is not at rest while its elements are wrong in
             // length.
-            if (!(predictionError < _threshold) || strain > LostStrain)
+            if (!(predictionError < _threshold) || strain > DivergedStrain)
             {
                 _disturbed |= predictionError >= _threshold;
                 _quietSteps = 0;
@@ -113,7 +113,7 @@ namespace Guidewire.Core
         private string? FindLoss(RodState state, out double worst)
         {
             double l = state.ElementLength;
-            double limit = LostDistance * l * state.ElementCount;
+            double limit = DivergedDistance * l * state.ElementCount;
             worst = 0.0;
             double squareSum = 0.0;
             Vector3d[] x = state.Positions;
@@ -122,7 +122,7 @@ namespace Guidewire.Core
                 if ((x[i] - _origin).LengthSquared > limit * limit)
                 {
                     return Text("sphere {0} is farther than {1} wire lengths from the start at step {2}", i,
-                        LostDistance, _step);
+                        DivergedDistance, _step);
                 }
                 if (i > 0)
                 {
@@ -142,8 +142,8 @@ namespace Guidewire.Core
         private string? FindStrainThatStays(double worst, double squareSum)
         {
             _largestSquareSum = Math.Max(_largestSquareSum, squareSum);
-            bool shortLost = _shortMonitor.HasNotFallen(worst, LostStrain);
-            bool longLost = _longMonitor.HasNotFallen(worst, LostStrain);
+            bool shortLost = _shortMonitor.HasNotFallen(worst, DivergedStrain);
+            bool longLost = _longMonitor.HasNotFallen(worst, DivergedStrain);
             if (shortLost && _largestSquareSum <= _strainPutIn * _strainPutIn)
             {
                 shortLost = false;

@@ -151,9 +151,9 @@ namespace Guidewire.Core.Tests
                 Throws.TypeOf<ParameterException>().With.Message.Contains("maxSimulationSteps is 3 there and 9 here"));
             var stopped = new SimulationRun(other, Results, null) { StopRequested = () => true };
             RunResult result = stopped.Execute(Existing.Replace);
-            Assert.That((result.Outcome, result.KeptEarlier), Is.EqualTo((Outcome.Interrupted, true)));
+            Assert.That((result.Outcome, result.KeptPreviousRun), Is.EqualTo((Outcome.Interrupted, true)));
             Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(3));
-            Assert.That(new SimulationRun(other, Results, null).Execute(Existing.Replace).KeptEarlier, Is.False);
+            Assert.That(new SimulationRun(other, Results, null).Execute(Existing.Replace).KeptPreviousRun, Is.False);
             Assert.That((int)Read("summary.json")["steps"]!, Is.EqualTo(9));
             Assert.That(Directory.GetFiles(Results), Has.Length.EqualTo(3));
         }

@@ -102,7 +102,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            bool isDone = _isLimited ? StepWithSlip() : StepAsAsked();
+            bool isDone = _isLimited ? StepWithSlip() : StepAsRequested();
             Failure = _whole.Failure;
             Divergence = _whole.Divergence;
             SteadyState = _whole.SteadyState;
@@ -140,7 +140,7 @@ namespace Guidewire.Core
                     }
                     inner = _drives[wire].Insertion;
                     _drives[wire].Give(wireSlip.Displacement);
-                    isDone = StepAsAsked();
+                    isDone = StepAsRequested();
                 }
                 while (wireSlip.NeedsAnother(_drives[wire].Insertion - inner,
                     isDone ? Coaxial()!.WireForce : double.NaN));
@@ -153,7 +153,7 @@ namespace Guidewire.Core
             return isDone;
         }
 
-        private bool StepAsAsked()
+        private bool StepAsRequested()
         {
             BeginStep();
             double start = _dynamics.Time;

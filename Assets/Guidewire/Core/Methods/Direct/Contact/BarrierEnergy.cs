@@ -172,7 +172,7 @@ namespace Guidewire.Core
             for (int k = 0; k < MostCuts; k++)
             {
                 double fraction = MaxStepTo(_nodes.Move(shape, direction, tried * step, _x, _to));
-                if (!_nodes.LeavesLumen && (fraction == 1.0 || !_nodes.ComesOut))
+                if (!_nodes.LeavesLumen && (fraction == 1.0 || !_nodes.LeavesSheath))
                 {
                     return tried * fraction;
                 }
@@ -252,7 +252,7 @@ namespace Guidewire.Core
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
             double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
-            bool isFar = motion < QuickFraction * gap || !_near.MayReach(w, j, _x, most);
+            bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
         }
@@ -338,11 +338,11 @@ namespace Guidewire.Core
             int n = _elementRadius.Length;
             for (int j = Math.Max(_inside - 1, 0); j <= n; j++)
             {
-                if (j >= _inside && _near.MayReachNode(w, j, _x))
+                if (j >= _inside && _near.NodeMayBeInRange(w, j, _x))
                 {
                     AddNode(w, j);
                 }
-                if (j < n && _near.MayReach(w, j, _x))
+                if (j < n && _near.MayBeInRange(w, j, _x))
                 {
                     AddElement(w, j);
                 }

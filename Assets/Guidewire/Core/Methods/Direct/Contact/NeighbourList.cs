@@ -111,22 +111,22 @@ namespace Guidewire.Core
 
         /// <summary>Whether wall w may be within the range of element j.</summary>
         /// <param name="x">Nodes of the wire.</param>
-        public bool MayReach(int w, int j, Vector3d[] x)
+        public bool MayBeInRange(int w, int j, Vector3d[] x)
         {
-            return IsNear(w, j) && MayReach(w, j, x, _range[j]);
+            return IsNear(w, j) && MayBeInRange(w, j, x, _range[j]);
         }
 
         /// <summary>Whether wall w may be within a range, units, of element j.</summary>
-        public bool MayReach(int w, int j, Vector3d[] x, double range)
+        public bool MayBeInRange(int w, int j, Vector3d[] x, double range)
         {
             int n = _range.Length;
-            return _element[w * n + j].MayReach(x[j], x[j + 1], range)
-                || (_caches[w] != null && (_node[w * (n + 1) + j].MayReachA(x[j], range)
-                    || _node[w * (n + 1) + j + 1].MayReachA(x[j + 1], range)));
+            return _element[w * n + j].MayBeInRange(x[j], x[j + 1], range)
+                || (_caches[w] != null && (_node[w * (n + 1) + j].FirstMayBeInRange(x[j], range)
+                    || _node[w * (n + 1) + j + 1].FirstMayBeInRange(x[j + 1], range)));
         }
 
         /// <summary>The same for node i, by what is known of it or of an element beside it.</summary>
-        public bool MayReachNode(int w, int i, Vector3d[] x)
+        public bool NodeMayBeInRange(int w, int i, Vector3d[] x)
         {
             int n = _range.Length;
             if (!IsNodeNear(w, i))
@@ -134,16 +134,16 @@ namespace Guidewire.Core
                 return false;
             }
             double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
-            return MayReachNode(w, i, x[i], range) && (_caches[w] != null
-                || ((i == n || _element[w * n + i].MayReachA(x[i], range))
-                    && (i == 0 || _element[w * n + i - 1].MayReachB(x[i], range))));
+            return NodeMayBeInRange(w, i, x[i], range) && (_caches[w] != null
+                || ((i == n || _element[w * n + i].FirstMayBeInRange(x[i], range))
+                    && (i == 0 || _element[w * n + i - 1].SecondMayBeInRange(x[i], range))));
         }
 
         /// <summary>Whether wall w may be within a range, units, of a position of node i, by where it was last asked
         /// for there.</summary>
-        public bool MayReachNode(int w, int i, in Vector3d x, double range)
+        public bool NodeMayBeInRange(int w, int i, in Vector3d x, double range)
         {
-            return _node[w * (_range.Length + 1) + i].MayReachA(x, range);
+            return _node[w * (_range.Length + 1) + i].FirstMayBeInRange(x, range);
         }
 
         /// <summary>Takes note that wall w is not nearer to a position of node i than this, units.</summary>

@@ -31,7 +31,7 @@ namespace Guidewire.Core
         public bool LeavesLumen { get; private set; }
 
         /// <summary>Whether the last motion takes a node out of the sheath.</summary>
-        public bool ComesOut { get; private set; }
+        public bool LeavesSheath { get; private set; }
 
         /// <summary>Whether any motion was a <see cref="LeavesLumen"/> since this was last set to false.</summary>
         public bool HasBuckled { get; set; }
@@ -72,7 +72,7 @@ namespace Guidewire.Core
             double longest = 0.0;
             bool isInside = _sheath != null;
             LeavesLumen = false;
-            ComesOut = false;
+            LeavesSheath = false;
             for (int i = 0; i < from.Length; i++)
             {
                 RodVector d = direction[i];
@@ -83,7 +83,7 @@ namespace Guidewire.Core
                     Vector3d x = shape.X[i] + (1.0 / _units) * move;
                     isInside = _sheath!.Outside(x) < 0.0;
                     LeavesLumen |= isInside && IsOutsideLumen(x);
-                    ComesOut |= !isInside && _sheath.Outside(shape.X[i]) < 0.0;
+                    LeavesSheath |= !isInside && _sheath.Outside(shape.X[i]) < 0.0;
                     to[i] = Place(x, isInside);
                     move = to[i] - from[i];
                 }

@@ -136,8 +136,8 @@ namespace Guidewire.Core
                 double error = failure != null || used.ErrorWeights == null ? 0.0
                     : Stage.Rates.Error(used.ErrorWeights, h, _length);
                 bool isKept = Control.Accepts(error, h, dt, failure == null);
-                bool startsAnew = isKept && failure != null && _scheme.IsFirstExplicit && !isStart;
-                if (isKept && !startsAnew)
+                bool restarts = isKept && failure != null && _scheme.IsFirstExplicit && !isStart;
+                if (isKept && !restarts)
                 {
                     done = h == left ? until : done + h;
                     _hasRates = true;
@@ -149,7 +149,7 @@ namespace Guidewire.Core
                     return failure;
                 }
                 _partStart.Restore();
-                if (startsAnew)
+                if (restarts)
                 {
                     isStart = true;
                     used = _starter;

@@ -21,7 +21,7 @@ namespace Guidewire.Core
     internal sealed class StageSolver
     {
         private const double WorstContraction = 0.3;
-        private const int MostKept = 6;
+        private const int MaxReusedSteps = 6;
         private const int MostFactorisations = 6;
         private const int MostOnTrust = 16;   // stages
         private const double Caution = 10.0;  // on a force that is not measured but extrapolated
@@ -157,7 +157,7 @@ namespace Guidewire.Core
         private bool? KeptSteps(RodShape shape, double first, double rounding, double loads, ref double unbalanced)
         {
             double size = first;
-            for (int k = 0; k < MostKept; k++)
+            for (int k = 0; k < MaxReusedSteps; k++)
             {
                 double last = unbalanced;
                 unbalanced = Unbalanced(shape);

@@ -19,14 +19,14 @@ namespace Guidewire.Core
         /// <summary>A step begins.</summary>
         public void Save()
         {
-            _kept.WriteAnew();
+            _kept.RewindForWriting();
             _exchange(_kept);
         }
 
         /// <summary>Goes back to where it began.</summary>
         public void Restore()
         {
-            _kept.ReadAnew();
+            _kept.RewindForReading();
             _exchange(_kept);
         }
     }

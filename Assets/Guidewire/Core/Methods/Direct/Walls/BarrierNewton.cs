@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private const int MostStiffened = 4;             // iterations of a stage
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
-        private const int MostKept = 2;                  // steps with one factorisation
+        private const int MaxReusedSteps = 2;                  // steps with one factorisation
 
         private readonly MaterialRod _rod;
         private readonly EnergyTerm[] _terms;
@@ -85,7 +85,7 @@ namespace Guidewire.Core
             double rounding = _rounding.BeginStage(shape, stageLength);
             double left = double.PositiveInfinity;
             bool hasValues = false;    // of the terms in this shape
-            int kept = MostKept;       // steps with the last factorisation
+            int kept = MaxReusedSteps;       // steps with the last factorisation
             for (int k = 0; k < MostIterations; k++)
             {
                 double before = left;
@@ -132,7 +132,7 @@ namespace Guidewire.Core
                 }
                 shape.CopyFrom(_newton.Trial);
                 hasValues = !isHidden;
-                kept = isPlain && scale == 1.0 ? 0 : MostKept;
+                kept = isPlain && scale == 1.0 ? 0 : MaxReusedSteps;
                 // A full step that no longer lowers the residual force is at the limit of rounding.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
                 {
@@ -163,7 +163,7 @@ namespace Guidewire.Core
         private bool KeptStep(RodShape shape, double left, double before, double allowed, ref int kept)
         {
             double rate = kept == 0 ? 2.0 * left / before : left / before;
-            if (kept >= MostKept || !(left * Math.Pow(rate, MostKept - kept) <= allowed))
+            if (kept >= MaxReusedSteps || !(left * Math.Pow(rate, MaxReusedSteps - kept) <= allowed))
             {
                 return false;
             }
@@ -171,7 +171,7 @@ namespace Guidewire.Core
             double size = _newton.Size(out double relative);
             if (_newton.MaxStep(shape, size, relative, out _) < 1.0)
             {
-                kept = MostKept;
+                kept = MaxReusedSteps;
                 return false;
             }
             Iterations++;

@@ -63,7 +63,7 @@ namespace Guidewire.Core
             _contactPoints.Clear();
             Vector3d point = _units * x;
             double range = _units * (radius + nearest);
-            if (near.MayReachNode(w, i, point, range))
+            if (near.NodeMayBeInRange(w, i, point, range))
             {
                 double found = _barrier.Walls[w].FindContactPoints(
                     point, range, near.FeaturesOfNode(w, i, point), _contactPoints);

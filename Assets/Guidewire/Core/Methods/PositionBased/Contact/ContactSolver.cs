@@ -96,12 +96,12 @@ namespace Guidewire.Core
         private void MoveInParts(RodState state)
         {
             Vector3d start = state.Positions[0];
-            Vector3d askedTo = _target[0];
-            double asked = state.InverseMasses[0] == 0.0 ? Vector3d.Distance(askedTo, start) : 0.0;
+            Vector3d targetPosition = _target[0];
+            double asked = state.InverseMasses[0] == 0.0 ? Vector3d.Distance(targetPosition, start) : 0.0;
             double most = MostParts * _longestPart;
             if (asked > most)
             {
-                _target[0] = Vector3d.Lerp(start, askedTo, most / asked);
+                _target[0] = Vector3d.Lerp(start, targetPosition, most / asked);
             }
             int parts = (int)Math.Max(1.0, Math.Ceiling(Math.Min(asked, most) / _longestPart));
             int left = 2 * parts;
@@ -124,7 +124,7 @@ namespace Guidewire.Core
                     halves = 1;
                 }
             }
-            _record.AddDrive(asked, asked > 0.0 ? Vector3d.Distance(askedTo, state.PredictedPositions[0]) : 0.0);
+            _record.AddDrive(asked, asked > 0.0 ? Vector3d.Distance(targetPosition, state.PredictedPositions[0]) : 0.0);
         }
 
         // False where it would have passed a wall and a smaller part may not.

@@ -25,7 +25,7 @@ namespace Guidewire.Core
         private const double CopyCost = 0.5;
         private const double ContactCost = 0.5;
 
-        private const int JointLag = 2;    // slots from a frame's stretch to the joint before it
+        private const int JointDelay = 2;    // slots from a frame's stretch to the joint before it
 
         // Columns of the table. The first two mark slots that have an element, and slots that have a joint.
         private const int IsElement = 0;
@@ -64,15 +64,15 @@ namespace Guidewire.Core
             _darbouxScale = bendTwist.DarbouxScale;
             _table = new LaneTable(Columns, _period, T.Count);
             _table.Write(IsElement, 0, Marks(stretch.Count));
-            _table.Write(IsJoint, JointLag, Marks(bendTwist.Count));
+            _table.Write(IsJoint, JointDelay, Marks(bendTwist.Count));
             _table.Write(Lower, 0, stretch.Lower);
             _table.Write(Upper, 0, stretch.Upper);
             _table.Write(Orientation, 0, stretch.Orientation);
-            _table.Write(First, JointLag, bendTwist.First);
-            _table.Write(Second, JointLag, bendTwist.Second);
-            _table.Write(RestX, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.X));
-            _table.Write(RestY, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.Y));
-            _table.Write(RestZ, JointLag, Array.ConvertAll(bendTwist.Rest, omega => omega.Z));
+            _table.Write(First, JointDelay, bendTwist.First);
+            _table.Write(Second, JointDelay, bendTwist.Second);
+            _table.Write(RestX, JointDelay, Array.ConvertAll(bendTwist.Rest, omega => omega.X));
+            _table.Write(RestY, JointDelay, Array.ConvertAll(bendTwist.Rest, omega => omega.Y));
+            _table.Write(RestZ, JointDelay, Array.ConvertAll(bendTwist.Rest, omega => omega.Z));
             _nodes = new double[Node * _period];
             _end = new double[T.Count];
             _contacts = new PipelinedContacts(_elements, _period, T.Count);
@@ -139,7 +139,7 @@ namespace Guidewire.Core
             int[] lanesInContact = _contacts.Lanes;
             ref double held = ref _contacts.Held[0];
             int slot = 0;
-            int leaving = -Lag * (T.Count - 1) - JointLag;    // the slot of what leaves the last lane
+            int leaving = -Lag * (T.Count - 1) - JointDelay;    // the slot of what leaves the last lane
             for (long tick = 0; tick < ticks; tick++)
             {
                 ref double entering = ref Unsafe.Add(ref nodes, Node * slot);

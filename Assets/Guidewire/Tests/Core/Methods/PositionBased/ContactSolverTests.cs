@@ -137,8 +137,8 @@ namespace Guidewire.Core.Tests
             {
                 Vector3d u = x[j + 1] - x[j];
                 double s = Math.Min(1.0, Math.Max(0.0, Vector3d.Dot(centre - x[j], u) / u.LengthSquared));
-                double fromBall = Vector3d.Distance(centre, x[j] + s * u) - 0.5;
-                least = Math.Min(least, Math.Min(fromBall, Math.Min(x[j].Y, x[j + 1].Y) + 4.0));
+                double fromSphere = Vector3d.Distance(centre, x[j] + s * u) - 0.5;
+                least = Math.Min(least, Math.Min(fromSphere, Math.Min(x[j].Y, x[j + 1].Y) + 4.0));
             }
             return Math.Max(0.0, 3.0 - least);
         }

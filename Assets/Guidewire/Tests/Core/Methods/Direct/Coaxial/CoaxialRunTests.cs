@@ -94,7 +94,7 @@ namespace Guidewire.Core.Tests
             Assert.That(record.Asked, Is.EqualTo(asked * Math.Abs(catheter)).Within(1e-9));
             Assert.That(record.WireAsked, Is.EqualTo(asked * Math.Abs(wire)).Within(1e-9));
             Assert.That(record.Gone, Is.EqualTo(went).Within(1e-9));
-            Assert.That(record.WireGone, Is.EqualTo(wireWent).Within(1e-9));
+            Assert.That(record.WireDisplacement, Is.EqualTo(wireWent).Within(1e-9));
             Assert.That(record.WireShortfall, Is.EqualTo(asked * Math.Abs(wire) - wireWent).Within(1e-9));
             Assert.That(Math.Abs(run.Hub()!.Insertion) + (wire == 0.0 ? 0.0 : WireShortfall(run, asked * wire)),
                 Is.EqualTo(asked * Math.Abs(wire)).Within(1e-9));
@@ -252,7 +252,7 @@ namespace Guidewire.Core.Tests
             Assert.That(mostWire, wire > 0.0 ? Is.InRange(0.9 * wire, 1.001 * wire) : Is.GreaterThan(0.0));
             Assert.That(mostCatheter, catheter > 0.0 ? Is.LessThan(1.001 * catheter) : Is.GreaterThan(0.0));
             Assert.That(record.WireShortfall > 1e-3, Is.EqualTo(wire > 0.0));
-            Assert.That(record.WireAsked, Is.EqualTo(record.WireGone + record.WireShortfall).Within(1e-12));
+            Assert.That(record.WireAsked, Is.EqualTo(record.WireDisplacement + record.WireShortfall).Within(1e-12));
             Assert.That(record.Asked, Is.EqualTo(record.Gone + record.Shortfall).Within(1e-12));
             Assert.That(run.Contacts!.Passages, Is.Zero);
         }

@@ -53,7 +53,7 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Coaxial()!.FrictionForce, Is.EqualTo(run.Coaxial()!.WireForce + Load)
                 .Within(Tolerance * Load));
             Assert.That(run.Coaxial()!.WireShortfall, Is.GreaterThan(0.9 * run.Coaxial()!.WireAsked));
-            Assert.That(run.Coaxial()!.WireGone + run.Coaxial()!.WireShortfall,
+            Assert.That(run.Coaxial()!.WireDisplacement + run.Coaxial()!.WireShortfall,
                 Is.EqualTo(run.Coaxial()!.WireAsked).Within(1e-12));
             Assert.That(free.Coaxial()!.WireShortfall, Is.Zero, "without friction it does not slip");
         }

@@ -100,7 +100,7 @@ namespace Guidewire.Core.Tests
                 double outer = outermost == record ? 0.0
                     : Math.Abs(_outerAsked - outermost.Gone - outermost.Shortfall);
                 return Math.Max(outer, Math.Max(Math.Abs(CatheterAsked - record.Gone - record.Shortfall),
-                    Math.Abs(WireAsked - record.WireGone - record.WireShortfall)));
+                    Math.Abs(WireAsked - record.WireDisplacement - record.WireShortfall)));
             }
         }
 

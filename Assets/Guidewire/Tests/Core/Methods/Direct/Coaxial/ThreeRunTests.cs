@@ -81,7 +81,7 @@ namespace Guidewire.Core.Tests
             CoaxialRecord inside = first.Inside!;
             AssertSum(first.Asked, first.Gone, first.Shortfall);
             AssertSum(inside.Asked, inside.Gone, inside.Shortfall);
-            AssertSum(first.WireAsked, first.WireGone, first.WireShortfall);
+            AssertSum(first.WireAsked, first.WireDisplacement, first.WireShortfall);
             Assert.That(inside.Gone, Is.GreaterThan(0.1));
             Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.0).Within(1e-9));
         }

@@ -4,7 +4,7 @@ namespace Guidewire.Core
 {
     /// <summary>The largest sphere in a lumen centred in a plane across a direction, for walks along a vessel. In
     /// units.</summary>
-    internal sealed class LumenBall
+    internal sealed class LumenSphere
     {
         private const double Golden = 0.6180339887498949;
         private const int Sections = 12;
@@ -12,7 +12,7 @@ namespace Guidewire.Core
         private int _hint = -1;
 
         /// <summary>In the lumen of this wall.</summary>
-        public LumenBall(ContactShape wall)
+        public LumenSphere(ContactShape wall)
         {
             _wall = wall;
         }
