@@ -11,7 +11,9 @@ namespace Guidewire.Core
     /// along the segment, which bends their paths by up to a quarter of both changes. Where the pieces between the
     /// planes do not contain their corners at the start, pieces are searched: the patch of a part of the segment in a
     /// part of the time is free if one piece contains its corners, else its longer side is halved; if that decides
-    /// nothing after some halvings, the motion counts as not free.</remarks>
+    /// nothing after some halvings, the motion counts as not free. Near a crease where the radius changes as well the
+    /// planes are too far from where the pieces meet, and a gap may be smaller than any part: there the segment is
+    /// divided where it is equally deep in both pieces, the least deep of its points.</remarks>
     internal sealed class TubeCcd
     {
         private const int MaxHalvings = 14;
@@ -21,6 +23,8 @@ namespace Guidewire.Core
         private const double LeastPart = 1e-6;    // of the time
         private const double LeastFraction = 0.05;   // of what is proven: the least gain for which the search continues
         private const double LeastGrowth = 0.25;
+        private const double SmallFraction = 0.01;   // below it, the segment is divided at the creases
+        private const int CreaseIterations = 3;      // from the plane to the crease
         private readonly TubePiece[] _pieces;
         private readonly TubePlanes _planes;
         private readonly int[] _near;
@@ -31,6 +35,7 @@ namespace Guidewire.Core
         private Vector3d _moveA;
         private Vector3d _moveB;
         private double _clearance;
+        private bool _isDividedAtCreases;
 
         /// <summary>In these pieces.</summary>
         public TubeCcd(TubePiece[] pieces, TubePlanes planes)
@@ -51,8 +56,18 @@ namespace Guidewire.Core
             _moveA = a1 - a0;
             _moveB = b1 - b0;
             _clearance = clearance;
+            _isDividedAtCreases = false;
             double fraction = BetweenPlanes(guess, out bool isTold);
-            return isTold ? fraction : Math.Max(fraction, BySearch(a0, b0, a1, b1));
+            if (!isTold)
+            {
+                fraction = BySearch(a0, b0, a1, b1);
+            }
+            if (fraction < SmallFraction)
+            {
+                _isDividedAtCreases = true;
+                fraction = Math.Max(fraction, BetweenCreases(guess));
+            }
+            return fraction;
         }
 
         // The fraction of the motion that is free by the pieces between the planes, one part after another in time: up
@@ -93,6 +108,50 @@ namespace Guidewire.Core
             return time;
         }
 
+        // The fraction of the motion that is free by the pieces between the creases, one part after another in time.
+        private double BetweenCreases(int guess)
+        {
+            int first = guess;
+            int last = guess;
+            double time = 0.0;
+            double longest = 1.0;
+            for (int k = 0; k < MostParts && time < 1.0 - LeastPart; k++)
+            {
+                first = Deepest(_a + time * _moveA, first);
+                last = Deepest(_b + time * _moveB, k == 0 ? first : last);
+                double until = Math.Min(longest, 1.0 - time);
+                double fraction = PartFraction(first, last, time, time + until);
+                time += fraction * until;
+                longest = fraction < 1.0 ? until * Math.Max(LeastGrowth, Math.Min(fraction, 0.5)) : 2.0 * longest;
+                if (longest < Math.Max(LeastFraction * time, LeastPart))
+                {
+                    return time;
+                }
+            }
+            return time >= 1.0 - LeastPart ? ContactShape.NoImpact : time;
+        }
+
+        // The piece in which a point is deeper than in its neighbours, from a guess on.
+        private int Deepest(in Vector3d x, int guess)
+        {
+            int piece = guess;
+            double depth = _pieces[piece].Distance(x);
+            for (int way = 1; way >= -1; way -= 2)
+            {
+                for (int next = piece + way; next >= 0 && next < _pieces.Length; next += way)
+                {
+                    double there = _pieces[next].Distance(x);
+                    if (!(there > depth))
+                    {
+                        break;
+                    }
+                    piece = next;
+                    depth = there;
+                }
+            }
+            return piece;
+        }
+
         // The fraction of a part of the motion in which the ends stay in the same pieces.
         private double PartFraction(int first, int last, double from, double to)
         {
@@ -112,8 +171,8 @@ namespace Guidewire.Core
             Vector3d x1 = a1;
             for (int i = first; i <= last; i++)
             {
-                double end0 = i < last ? _planes.Cut(i + 1, a0, u0) : 1.0;
-                double end1 = i < last ? _planes.Cut(i + 1, a1, u1) : 1.0;
+                double end0 = i < last ? Cut(i + 1, a0, u0, begin0) : 1.0;
+                double end1 = i < last ? Cut(i + 1, a1, u1, begin1) : 1.0;
                 if (!(end0 >= begin0 && end1 >= begin1))
                 {
                     return 0.0;
@@ -136,6 +195,26 @@ namespace Guidewire.Core
                 x1 = y1;
             }
             return fraction;
+        }
+
+        // Where the segment is divided: in the plane of a knot or, from there by Newton's method, at the crease. Any
+        // point would do for the proof.
+        private double Cut(int k, in Vector3d a, in Vector3d u, double from)
+        {
+            double s = _planes.Cut(k, a, u);
+            for (int i = 0; i < CreaseIterations && _isDividedAtCreases && s >= from; i++)
+            {
+                Vector3d x = a + s * u;
+                double difference = _pieces[k - 1].Distance(x, out Vector3d before, out _)
+                    - _pieces[k].Distance(x, out Vector3d after, out _);
+                double slope = Vector3d.Dot(Vector3d.Normalize(before - x) - Vector3d.Normalize(after - x), u);
+                if (!(slope < 0.0))
+                {
+                    break;
+                }
+                s = Math.Min(1.0, Math.Max(from, s - difference / slope));
+            }
+            return s;
         }
 
         private static double CornerFraction(in TubePiece piece, in Vector3d from, in Vector3d to, double need)
