@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private const double LeastFraction = 0.05;   // of what is proven: the least gain for which the search continues
         private const double LeastGrowth = 0.25;
         private const double SmallFraction = 0.01;   // below it, the segment is divided at the creases
-        private const int CreaseIterations = 3;      // from the plane to the crease
+        private const int CreaseIterations = 20;     // from the plane to the crease
         private readonly TubePiece[] _pieces;
         private readonly TubePlanes _planes;
         private readonly int[] _near;
@@ -111,14 +111,18 @@ namespace Guidewire.Core
         // The fraction of the motion that is free by the pieces between the creases, one part after another in time.
         private double BetweenCreases(int guess)
         {
-            int first = guess;
-            int last = guess;
+            int first = Deepest(_a, guess);
+            int last = Deepest(_b, first);
+            if (last < first)
+            {
+                (_a, _b, _moveA, _moveB, first, last) = (_b, _a, _moveB, _moveA, last, first);
+            }
             double time = 0.0;
             double longest = 1.0;
             for (int k = 0; k < MostParts && time < 1.0 - LeastPart; k++)
             {
                 first = Deepest(_a + time * _moveA, first);
-                last = Deepest(_b + time * _moveB, k == 0 ? first : last);
+                last = Deepest(_b + time * _moveB, last);
                 double until = Math.Min(longest, 1.0 - time);
                 double fraction = PartFraction(first, last, time, time + until);
                 time += fraction * until;
@@ -202,17 +206,23 @@ namespace Guidewire.Core
         private double Cut(int k, in Vector3d a, in Vector3d u, double from)
         {
             double s = _planes.Cut(k, a, u);
-            for (int i = 0; i < CreaseIterations && _isDividedAtCreases && s >= from; i++)
+            if (!_isDividedAtCreases)
+            {
+                return s;
+            }
+            s = s >= from ? s : 0.5 * (from + 1.0);
+            for (int i = 0; i < CreaseIterations; i++)
             {
                 Vector3d x = a + s * u;
                 double difference = _pieces[k - 1].Distance(x, out Vector3d before, out _)
                     - _pieces[k].Distance(x, out Vector3d after, out _);
                 double slope = Vector3d.Dot(Vector3d.Normalize(before - x) - Vector3d.Normalize(after - x), u);
-                if (!(slope < 0.0))
+                double next = Math.Min(1.0, Math.Max(from, s - difference / slope));
+                if (!(slope < 0.0) || next == s)
                 {
                     break;
                 }
-                s = Math.Min(1.0, Math.Max(from, s - difference / slope));
+                s = next;
             }
             return s;
         }

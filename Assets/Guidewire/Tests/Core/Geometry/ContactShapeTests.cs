@@ -145,6 +145,67 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Tube_ASmallGapAtACrease_AllowsAMotionOfAboutItsSize()
+        {
+            // A sharp bend where the tube narrows and widens, and a segment whose interior is nearest to it, down to
+            // 1e-8 of the tube's radius; the true fraction by distances at many times.
+            const double Radius = 0.2;
+            var random = new RandomGeometry(41);
+            int tried = 0;
+            for (int i = 0; i < RandomGeometry.Cases(5_000); i++)
+            {
+                double bend = random.Number(0.3, 2.2);
+                var shape = new TubeShape(new[] { new Vector3d(0.0, 0.0, -6.0), Vector3d.Zero,
+                        6.0 * new Vector3d(Math.Sin(bend), 0.0, Math.Cos(bend)) },
+                    new[] { random.Number(0.6, 1.4), 1.0, random.Number(0.6, 1.4) }, true, true);
+                double gap = Math.Pow(10.0, random.Number(-8.0, -2.0));
+                double clearance = Radius + 0.3 * gap;
+                if (!SegmentAtCrease(shape, random, Radius + gap, out Vector3d a0, out Vector3d b0))
+                {
+                    continue;
+                }
+                tried++;
+                double motion = gap * Math.Pow(10.0, random.Number(-1.0, 1.5));
+                Vector3d a1 = a0 + motion * random.Point();
+                Vector3d b1 = b0 + motion * random.Point();
+                double fraction = Math.Min(1.0, shape.ConservativeTimeOfImpact(
+                    a0, b0, a1, b1, clearance, 0.0, -1, default));
+                double free = 0.0;
+                for (int k = 1; k <= 200 && Smallest(shape, Vector3d.Lerp(a0, a1, free), Vector3d.Lerp(b0, b1, free))
+                    >= clearance; k++)
+                {
+                    free = k / 200.0;
+                }
+                Assert.That(Smallest(shape, Vector3d.Lerp(a0, a1, fraction), Vector3d.Lerp(b0, b1, fraction)),
+                    Is.GreaterThanOrEqualTo(clearance - 1e-14), "case " + i);
+                Assert.That(fraction, Is.GreaterThanOrEqualTo(Math.Min(0.01, 0.5 * free)),
+                    "case " + i + ", gap " + gap);
+            }
+            Assert.That(tried, Is.GreaterThan(50));
+        }
+
+        // A segment through the tube's bend at the origin whose interior is this far from the wall.
+        private static bool SegmentAtCrease(ContactShape shape, RandomGeometry random, double distance,
+            out Vector3d a, out Vector3d b)
+        {
+            a = new Vector3d(0.5 * random.Number(-1.0, 1.0), 0.5 * random.Number(-1.0, 1.0), -1.0);
+            b = a + random.Number(1.5, 4.0) * random.Direction();
+            int hint = -1;
+            for (int k = 0; k < 60; k++)
+            {
+                shape.Nearest(a, b, double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                Vector3d shift = (contact.Distance - distance) * contact.Normal;
+                if (shift.Length < 1e-13)
+                {
+                    return contact.Position > 0.01 && contact.Position < 0.99;
+                }
+                a -= shift;
+                b -= shift;
+            }
+            return false;
+        }
+
+        [Test]
         public void Tube_OfManyPieces_IsAsDeepAsItsDeepestPiece()
         {
             // The pieces' terms one by one: h from the axis, z along it, and the best centre by the slope k.
