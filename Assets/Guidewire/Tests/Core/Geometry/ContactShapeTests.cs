@@ -160,7 +160,7 @@ namespace Guidewire.Core.Tests
                     new[] { random.Number(0.6, 1.4), 1.0, random.Number(0.6, 1.4) }, true, true);
                 double gap = Math.Pow(10.0, random.Number(-8.0, -2.0));
                 double clearance = Radius + 0.3 * gap;
-                if (!SegmentAtCrease(shape, random, Radius + gap, out Vector3d a0, out Vector3d b0))
+                if (!SegmentAtCrease(shape, bend, random, Radius + gap, out Vector3d a0, out Vector3d b0))
                 {
                     continue;
                 }
@@ -181,15 +181,18 @@ namespace Guidewire.Core.Tests
                 Assert.That(fraction, Is.GreaterThanOrEqualTo(Math.Min(0.01, 0.5 * free)),
                     "case " + i + ", gap " + gap);
             }
-            Assert.That(tried, Is.GreaterThan(50));
+            Assert.That(tried, Is.GreaterThan(RandomGeometry.Cases(1_000)));
         }
 
-        // A segment through the tube's bend at the origin whose interior is this far from the wall.
-        private static bool SegmentAtCrease(ContactShape shape, RandomGeometry random, double distance,
+        // A segment across the tube's bend at the origin, in either direction, whose interior is this far from the wall.
+        private static bool SegmentAtCrease(ContactShape shape, double bend, RandomGeometry random, double distance,
             out Vector3d a, out Vector3d b)
         {
-            a = new Vector3d(0.5 * random.Number(-1.0, 1.0), 0.5 * random.Number(-1.0, 1.0), -1.0);
-            b = a + random.Number(1.5, 4.0) * random.Direction();
+            double sign = random.Index(2) == 0 ? 1.0 : -1.0;
+            Vector3d along = sign * new Vector3d(Math.Sin(0.5 * bend), 0.0, Math.Cos(0.5 * bend));
+            Vector3d at = 0.5 * new Vector3d(Math.Cos(0.5 * bend), 0.0, -Math.Sin(0.5 * bend)) + 0.3 * random.Point();
+            a = at - random.Number(0.3, 2.0) * (along + 0.5 * random.Point());
+            b = at + random.Number(0.3, 2.0) * (along + 0.5 * random.Point());
             int hint = -1;
             for (int k = 0; k < 60; k++)
             {
