@@ -175,8 +175,9 @@ namespace Guidewire.Core
             Vector3d x1 = a1;
             for (int i = first; i <= last; i++)
             {
-                double end0 = i < last ? Cut(i + 1, a0, u0, begin0) : 1.0;
-                double end1 = i < last ? Cut(i + 1, a1, u1, begin1) : 1.0;
+                // Planes of a short piece may cross: then nothing of the segment is left to it.
+                double end0 = i < last ? Math.Max(begin0, Cut(i + 1, a0, u0, begin0)) : 1.0;
+                double end1 = i < last ? Math.Max(begin1, Cut(i + 1, a1, u1, begin1)) : 1.0;
                 if (!(end0 >= begin0 && end1 >= begin1))
                 {
                     return 0.0;
