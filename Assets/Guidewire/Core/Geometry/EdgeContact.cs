@@ -59,6 +59,13 @@ namespace Guidewire.Core
             WeightAlongB = weightAlongB;
         }
 
+        /// <summary>The same of the segment b a.</summary>
+        public EdgeContact Reversed()
+        {
+            return new EdgeContact(1.0 - Position, Distance, Normal, Weight, WeightAlongB, WeightAlongA,
+                -SlideAlongB, -SlideAlongA, Curvature);
+        }
+
         /// <summary>The same with what its second derivative takes.</summary>
         public EdgeContact Sliding(in Vector3d alongA, in Vector3d alongB, in Symmetric3 curvature)
         {

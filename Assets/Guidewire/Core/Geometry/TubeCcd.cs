@@ -76,6 +76,7 @@ namespace Guidewire.Core
         {
             int first = _planes.PieceAt(_a, guess);
             int last = _planes.PieceAt(_b, first);
+            TurnAlongTube(ref first, ref last);
             double time = 0.0;
             double longest = 1.0;
             isTold = true;
@@ -113,10 +114,7 @@ namespace Guidewire.Core
         {
             int first = Deepest(_a, guess);
             int last = Deepest(_b, first);
-            if (last < first)
-            {
-                (_a, _b, _moveA, _moveB, first, last) = (_b, _a, _moveB, _moveA, last, first);
-            }
+            TurnAlongTube(ref first, ref last);
             double time = 0.0;
             double longest = 1.0;
             for (int k = 0; k < MostParts && time < 1.0 - LeastPart; k++)
@@ -133,6 +131,15 @@ namespace Guidewire.Core
                 }
             }
             return time >= 1.0 - LeastPart ? ContactShape.NoImpact : time;
+        }
+
+        // A segment that runs back in the tube, from its other end.
+        private void TurnAlongTube(ref int first, ref int last)
+        {
+            if (last < first)
+            {
+                (_a, _b, _moveA, _moveB, first, last) = (_b, _a, _moveB, _moveA, last, first);
+            }
         }
 
         // The piece in which a point is deeper than in its neighbours, from a guess on.

@@ -65,10 +65,7 @@ namespace Guidewire.Core
             double size = Vector3d.Distance(a, b);
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                if (MayCross(k, a, b, size))
-                {
-                    Add(k, a, b, range, edgeContacts);
-                }
+                Find(k, a, b, size, range, edgeContacts);
             }
         }
 
@@ -79,24 +76,40 @@ namespace Guidewire.Core
             double size = Vector3d.Distance(a, b);
             for (int i = pieces.From + 1; i < pieces.To; i++)
             {
-                if (pieces[i] == pieces[i - 1] + 1 && MayCross(pieces[i], a, b, size))
+                if (pieces[i] == pieces[i - 1] + 1)
                 {
-                    Add(pieces[i], a, b, range, edgeContacts);
+                    Find(pieces[i], a, b, size, range, edgeContacts);
                 }
+            }
+        }
+
+        // In the direction of the tube, or against it where the wire has turned back.
+        private void Find(int k, in Vector3d a, in Vector3d b, double size, double range,
+            StructList<EdgeContact> edgeContacts)
+        {
+            if (MayCross(k, a, b, size) && Find(k, a, b, range, out EdgeContact contact))
+            {
+                edgeContacts.Add(contact);
+            }
+            else if (MayCross(k, b, a, size) && Find(k, b, a, range, out contact))
+            {
+                edgeContacts.Add(contact.Reversed());
             }
         }
 
         private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
         {
-            return MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing) ? crossing.Distance
+            return (MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing))
+                || (MayCross(k, b, a, size) && Cross(k, b, a, out crossing)) ? crossing.Distance
                 : double.PositiveInfinity;
         }
 
-        private void Add(int k, in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        private bool Find(int k, in Vector3d a, in Vector3d b, double range, out EdgeContact contact)
         {
+            contact = default;
             if (IsFar(k, a, b, range) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
             {
-                return;
+                return false;
             }
             Vector3d u = b - a;
             Vector3d m = c.First - c.Second;
@@ -122,8 +135,9 @@ namespace Guidewire.Core
             }
             double fraction = Vector3d.Dot(c.First, u) / along;
             Vector3d slide = (-1.0 / along) * m;
-            edgeContacts.Add(new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope).Sliding(
-                (1.0 - s) * slide, s * slide, (1.0 - fraction) * first + fraction * second));
+            contact = new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope).Sliding(
+                (1.0 - s) * slide, s * slide, (1.0 - fraction) * first + fraction * second);
+            return true;
         }
 
         // No crossing is farther from the knot than the wall's radius there, nor from a than b is; and it goes from

@@ -46,6 +46,36 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Min(found, left), Is.GreaterThan(100));
         }
 
+        /// <summary>A wire that has turned back in the tube meets its creases as one that runs along it.</summary>
+        [Test]
+        public void EdgeContacts_OfASegmentThatRunsBack_AreThoseOfOneThatRunsAlongTheTube()
+        {
+            var random = new RandomGeometry(33);
+            var along = new StructList<EdgeContact>(8);
+            var back = new StructList<EdgeContact>(8);
+            int found = 0;
+            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
+            {
+                TubeShape tube = Tube(random, 0.3);
+                Segment(random, tube, out Vector3d a, out Vector3d b);
+                along.Clear();
+                back.Clear();
+                tube.FindEdgeContacts(a, b, 1.0, default, along);
+                tube.FindEdgeContacts(b, a, 1.0, default, back);
+                Assert.That(back.Count, Is.EqualTo(along.Count), "case " + i);
+                for (int k = 0; k < along.Count; k++)
+                {
+                    Assert.That(back[k].Position, Is.EqualTo(1.0 - along[k].Position).Within(1e-12), "case " + i);
+                    Assert.That(back[k].Distance, Is.EqualTo(along[k].Distance).Within(1e-12), "case " + i);
+                    Assert.That(back[k].Weight, Is.EqualTo(along[k].Weight).Within(1e-9), "case " + i);
+                    Assert.That((back[k].WeightAlongA - along[k].WeightAlongB).Length, Is.LessThan(1e-9), "case " + i);
+                    Assert.That((back[k].SlideAlongA + along[k].SlideAlongB).Length, Is.LessThan(1e-9), "case " + i);
+                    found++;
+                }
+            }
+            Assert.That(found, Is.GreaterThan(100));
+        }
+
         /// <summary>No sample along a segment is nearer to the wall than the nearest point, and none is within a range
         /// that nothing was found in.</summary>
         [TestCase(0.0)]
