@@ -21,6 +21,7 @@ namespace Guidewire.Core
         private readonly bool[] _isCrease;        // by knot
         private readonly TubePlanes _planes;
         private readonly double[] _slack;         // by knot: the crease is no farther from that plane, units
+        private readonly double[] _extent;        // by knot: and no farther from the knot, units
 
         /// <summary>For this tube.</summary>
         public TubeCreases(TubeShape tube, TubePiece[] pieces, TubePlanes planes)
@@ -31,6 +32,7 @@ namespace Guidewire.Core
             _radii = tube.Radii;
             _isCrease = new bool[_knots.Length];
             _slack = new double[_knots.Length];
+            _extent = new double[_knots.Length];
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
                 Vector3d before = _knots[k] - _knots[k - 1];
@@ -39,6 +41,8 @@ namespace Guidewire.Core
                 double narrows = (_radii[k] - _radii[k - 1]) / before.Length;
                 double widens = (_radii[k + 1] - _radii[k]) / after.Length;
                 _isCrease[k] = turn + Math.Asin(widens) - Math.Asin(narrows) > LeastAngle;
+                // At the inner side of a sharp bend the walls of two cylinders meet at r/cos(turn/2).
+                _extent[k] = _radii[k] * Math.Max(1.5, 1.5 / Math.Cos(0.5 * turn));
                 _slack[k] = 2.0 * _radii[k] * (Math.Abs(narrows) + Math.Abs(widens) + 1e-9);
             }
         }
@@ -140,11 +144,11 @@ namespace Guidewire.Core
             return true;
         }
 
-        // No crossing is farther from the knot than the wall's radius there, nor from a than b is; and it goes from
-        // one side of the knot's plane to the other, but for the slack.
+        // No crossing is farther from the knot than its crease, nor from a than b is; and it goes from one side of the
+        // knot's plane to the other, but for the slack.
         private bool MayCross(int k, in Vector3d a, in Vector3d b, double size)
         {
-            double limit = 1.5 * _radii[k] + size;
+            double limit = _extent[k] + size;
             Vector3d offset = a - _knots[k];
             return _isCrease[k] && offset.LengthSquared <= limit * limit
                 && _planes.Past(k, a) <= _slack[k] && _planes.Past(k, b) >= -_slack[k];

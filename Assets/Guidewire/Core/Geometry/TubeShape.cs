@@ -20,6 +20,7 @@ namespace Guidewire.Core
         private TubeCreases? _edgeContacts;
         private TubeCcd? _ccd;
         private TubePlanes? _planes;
+        private TubeOverlaps? _overlaps;
 
         /// <summary>The tube through <paramref name="knots"/> (at least 2, units) with a radius at each (positive,
         /// units). It ends in half spheres; an open end continues straight with the radius of its last knot.</summary>
@@ -169,7 +170,8 @@ namespace Guidewire.Core
             var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
             Deepest(b, found, out double atB);
-            return Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
+            return Overlaps.Has(found) ? LeastDistance(a, b)
+                : Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
         }
 
         /// <summary>The contact point of the deepest piece. On a piece's centreline the normal is 0 and no curvature is
@@ -194,8 +196,41 @@ namespace Guidewire.Core
             return distance;
         }
 
-        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>.</summary>
+        /// <summary>The creases at its knots; see <see cref="TubeCreases"/>. Where the segment crosses from one leg of
+        /// the tube to another the contact has no weight: the wire stops there without a force.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+            StructList<EdgeContact> edgeContacts)
+        {
+            int from = edgeContacts.Count;
+            FindCreases(a, b, range, features, edgeContacts);
+            if (!Overlaps.Has(features))
+            {
+                return;
+            }
+            // A crease in the lumen of another leg is none.
+            int left = from;
+            for (int k = from; k < edgeContacts.Count; k++)
+            {
+                EdgeContact crease = edgeContacts[k];
+                _tree.Deepest(Vector3d.Lerp(a, b, crease.Position), 0, out double depth);
+                if (depth <= crease.Distance + _tree.Resolution)
+                {
+                    edgeContacts[left++] = crease;
+                    range = Math.Min(range, crease.Distance - _tree.Resolution);
+                }
+            }
+            edgeContacts.Truncate(left);
+            int piece = FindLeast(a, b, 0, range, out double s, out double distance);
+            if (s > 0.0 && s < 1.0 && distance < range)
+            {
+                Vector3d x = Vector3d.Lerp(a, b, s);
+                _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
+                edgeContacts.Add(new EdgeContact(s, distance, Vector3d.Normalize(centre - x), 0.0, Vector3d.Zero,
+                    Vector3d.Zero));
+            }
+        }
+
+        private void FindCreases(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             if (features.IsKnown)
@@ -238,6 +273,8 @@ namespace Guidewire.Core
         private TubeCreases EdgeContacts => _edgeContacts ??= new TubeCreases(this, _tree.Pieces, Planes);
 
         private TubeCcd Ccd => _ccd ??= new TubeCcd(_tree.Pieces, Planes);
+
+        private TubeOverlaps Overlaps => _overlaps ??= new TubeOverlaps(_knots, _radii);
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 

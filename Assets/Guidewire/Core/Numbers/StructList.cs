@@ -30,6 +30,12 @@ namespace Guidewire.Core
             Count = 0;
         }
 
+        /// <summary>Removes the items from index <paramref name="count"/> on.</summary>
+        public void Truncate(int count)
+        {
+            Count = Math.Min(Count, count);
+        }
+
         /// <summary>Sorts the items from index <paramref name="from"/> on; allocates nothing where items say themselves
         /// which comes first.</summary>
         public void Sort(int from)

@@ -184,7 +184,7 @@ namespace Guidewire.Core.Tests
             Assert.That(tried, Is.GreaterThan(RandomGeometry.Cases(1_000)));
         }
 
-        // A segment across the tube's bend at the origin, in either direction, whose interior is this far from the wall.
+        // A segment across the tube's bend at the origin, in either direction, this far from the wall in between.
         private static bool SegmentAtCrease(ContactShape shape, double bend, RandomGeometry random, double distance,
             out Vector3d a, out Vector3d b)
         {

@@ -76,6 +76,59 @@ namespace Guidewire.Core.Tests
             Assert.That(found, Is.GreaterThan(100));
         }
 
+        /// <summary>In a tube of hairpins, whose legs overlap, the ends of a segment and its edge contacts are as near to
+        /// the wall as the segment.</summary>
+        [Test]
+        public void EdgeContacts_WhereLegsOverlap_HoldTheNearestPoint()
+        {
+            var random = new RandomGeometry(34);
+            var edges = new StructList<EdgeContact>(8);
+            var features = new StructList<WallFeature>(64);
+            int inside = 0;
+            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
+            {
+                TubeShape tube = Hairpins(random);
+                Vector3d[] knots = tube.Knots;
+                int k = 1 + random.Index(knots.Length - 2);
+                Vector3d a = knots[k] + random.Point();
+                Vector3d b = knots[k] + 2.0 * random.Point();
+                double least = tube.LeastDistance(a, b);
+                if (!(least > 0.0))
+                {
+                    continue;
+                }
+                double range = least + 0.1;
+                features.Clear();
+                edges.Clear();
+                int hint = -1;
+                double found = tube.FindFeatures(a, b, range, range, ref hint, features);
+                tube.FindEdgeContacts(a, b, range, new FeatureRange(features, 0, features.Count, 0.0), edges);
+                double seen = Math.Min(tube.LeastDistance(a, a), tube.LeastDistance(b, b));
+                inside += seen > least + 1e-6 ? 1 : 0;
+                for (int c = 0; c < edges.Count; c++)
+                {
+                    seen = Math.Min(seen, edges[c].Distance);
+                }
+                Assert.That(seen, Is.EqualTo(least).Within(1e-9), "case " + i);
+                Assert.That(found, Is.EqualTo(least).Within(1e-9), "case " + i);
+            }
+            Assert.That(inside, Is.GreaterThan(100));
+        }
+
+        private static TubeShape Hairpins(RandomGeometry random)
+        {
+            var knots = new Vector3d[Knots];
+            var radii = new double[Knots];
+            Vector3d direction = Vector3d.UnitZ;
+            for (int k = 0; k < Knots; k++)
+            {
+                radii[k] = random.Number(0.8, 1.2);
+                knots[k] = k == 0 ? Vector3d.Zero : knots[k - 1] + random.Number(1.0, 4.0) * direction;
+                direction = Vector3d.Normalize(direction + random.Number(0.3, 2.0) * random.Direction());
+            }
+            return new TubeShape(knots, radii, true, true);
+        }
+
         /// <summary>No sample along a segment is nearer to the wall than the nearest point, and none is within a range
         /// that nothing was found in.</summary>
         [TestCase(0.0)]
