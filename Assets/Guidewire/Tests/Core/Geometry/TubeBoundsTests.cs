@@ -77,8 +77,8 @@ namespace Guidewire.Core.Tests
             Assert.That(found, Is.GreaterThan(100));
         }
 
-        /// <summary>In a tube of hairpins, whose legs overlap, the ends of a segment and its edge contacts are as near to
-        /// the wall as the segment.</summary>
+        /// <summary>In a tube of hairpins, whose legs overlap, a segment is as near to the wall as its ends and edge
+        /// contacts are.</summary>
         [Test]
         public void EdgeContacts_WhereLegsOverlap_HoldTheNearestPoint()
         {
