@@ -8,6 +8,7 @@ namespace Guidewire.Core
     {
         private const double LargestTurn = 1.0;    // radians between axes of pieces that pieces between them separate
         private readonly bool[] _isIn;             // by piece
+        private readonly bool _hasAny;
 
         /// <summary>Of the tube through these knots with these radii, units.</summary>
         public TubeOverlaps(Vector3d[] knots, double[] radii)
@@ -41,6 +42,7 @@ namespace Guidewire.Core
                     {
                         _isIn[i] = true;
                         _isIn[j] = true;
+                        _hasAny = true;
                     }
                 }
             }
@@ -49,14 +51,14 @@ namespace Guidewire.Core
         /// <summary>Whether one of these pieces is such a one; of all pieces, where they are not known.</summary>
         public bool Has(FeatureRange pieces)
         {
-            for (int i = pieces.From; i < pieces.To; i++)
+            for (int i = pieces.From; i < pieces.To && _hasAny; i++)
             {
                 if (_isIn[pieces[i]])
                 {
                     return true;
                 }
             }
-            return !pieces.IsKnown && Array.IndexOf(_isIn, true) >= 0;
+            return _hasAny && !pieces.IsKnown;
         }
     }
 }
