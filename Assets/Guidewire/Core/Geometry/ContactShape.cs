@@ -195,15 +195,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>A lower bound of the time of impact of segment a b in linear motion from (a0, b0) to (a1, b1), as a
-        /// fraction during which it has at least a clearance, in units: <see cref="NoImpact"/> for all of it, 0 where
-        /// it starts nearer. Of a surface it is that of the segment's interior, not of its ends, or that of a point
-        /// (a = b). Approaches below <paramref name="resolution"/>, units, are ignored. The hint is that of a query of
-        /// the start, or -1; the features, where they are known, those of the start, for a skin that the motion does
-        /// not leave.</summary>
+        /// fraction during which it has at least a clearance, in units: <paramref name="limit"/> where that is less or
+        /// there is no impact, 0 where it starts nearer. Of a surface it is that of the segment's interior, not of its
+        /// ends, or that of a point (a = b). Approaches below <paramref name="resolution"/>, units, are ignored. The
+        /// hint is that of a query of the start, or -1; the features, where they are known, those of the start, for a
+        /// skin that the motion up to the limit does not leave.</summary>
         internal virtual double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit)
         {
-            return TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
+            return Math.Min(limit, TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint));
         }
 
         /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b: where the wall is convex

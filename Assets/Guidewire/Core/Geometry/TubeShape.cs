@@ -280,9 +280,9 @@ namespace Guidewire.Core
 
         /// <summary>What <see cref="TubeCcd"/> proves at once.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit)
         {
-            return Ccd.SafeFraction(a0, b0, a1, b1, clearance, Guess(a0, hint));
+            return Math.Min(limit, Ccd.SafeFraction(a0, b0, a1, b1, clearance, Guess(a0, hint)));
         }
 
         /// <summary>The part of the motion that <see cref="TubeCcd"/> proves to be free, and again from where it ends:

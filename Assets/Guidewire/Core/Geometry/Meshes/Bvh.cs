@@ -53,6 +53,9 @@ namespace Guidewire.Core
             Refit(corners);
         }
 
+        /// <summary>All triangles, those of a node one after another.</summary>
+        public int[] Order => _order;
+
         /// <summary>Takes over new corners of the same triangles; the topology of the tree stays.</summary>
         public void Refit(Vector3d[] corners)
         {

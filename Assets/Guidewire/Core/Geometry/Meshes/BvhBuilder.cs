@@ -9,27 +9,24 @@ namespace Guidewire.Core
     {
         private const int LeafSize = 2;
         private const int Bins = 16;
-        private readonly Vector3d[] _low;
-        private readonly Vector3d[] _high;
-        private readonly Vector3d[] _middle;
-        private readonly int[] _order;
-        private readonly BvhNode[] _nodes;
+        private readonly Box[] _boxes; // moved as nodes are cut, so that those of a node stand side by side
+        private readonly Vector3d[] _lows = new Vector3d[Bins];
+        private readonly Vector3d[] _highs = new Vector3d[Bins];
+        private readonly int[] _firstOf; // triangle or child, per node
+        private readonly int[] _countOf; // triangles of a leaf, per node
         private int _nodeCount = 1;
 
         private BvhBuilder(Vector3d[] corners)
         {
             int count = corners.Length / 3;
-            _low = new Vector3d[count];
-            _high = new Vector3d[count];
-            _middle = new Vector3d[count];
-            _order = new int[count];
-            _nodes = new BvhNode[2 * count];
+            _boxes = new Box[count];
+            _firstOf = new int[2 * count];
+            _countOf = new int[2 * count];
             for (int k = 0; k < count; k++)
             {
-                _low[k] = BvhNode.Min(corners[3 * k], BvhNode.Min(corners[3 * k + 1], corners[3 * k + 2]));
-                _high[k] = BvhNode.Max(corners[3 * k], BvhNode.Max(corners[3 * k + 1], corners[3 * k + 2]));
-                _middle[k] = 0.5 * (_low[k] + _high[k]);
-                _order[k] = k;
+                _boxes[k].Low = BvhNode.Min(corners[3 * k], BvhNode.Min(corners[3 * k + 1], corners[3 * k + 2]));
+                _boxes[k].High = BvhNode.Max(corners[3 * k], BvhNode.Max(corners[3 * k + 1], corners[3 * k + 2]));
+                _boxes[k].Triangle = k;
             }
         }
 
@@ -43,9 +40,13 @@ namespace Guidewire.Core
             }
             var builder = new BvhBuilder(corners);
             builder.Divide(0, 0, corners.Length / 3);
-            order = builder._order;
+            order = Array.ConvertAll(builder._boxes, box => box.Triangle);
             var nodes = new BvhNode[builder._nodeCount];
-            Array.Copy(builder._nodes, nodes, nodes.Length);
+            for (int i = 0; i < nodes.Length; i++)
+            {
+                nodes[i].First = builder._firstOf[i];
+                nodes[i].Count = builder._countOf[i];
+            }
             return nodes;
         }
 
@@ -57,8 +58,7 @@ namespace Guidewire.Core
                 int leftCount = Cut(first, count) - first;
                 int children = _nodeCount;
                 _nodeCount += 2;
-                _nodes[node].First = children;
-                _nodes[node].Count = 0;
+                _firstOf[node] = children;
                 if (leftCount <= count - leftCount)
                 {
                     Divide(children, first, leftCount);
@@ -73,18 +73,19 @@ namespace Guidewire.Core
                     count = leftCount;
                 }
             }
-            _nodes[node].First = first;
-            _nodes[node].Count = count;
+            _firstOf[node] = first;
+            _countOf[node] = count;
         }
 
         private int Cut(int first, int count)
         {
-            Vector3d low = _middle[_order[first]];
+            Vector3d low = _boxes[first].Middle;
             Vector3d high = low;
             for (int k = first; k < first + count; k++)
             {
-                low = BvhNode.Min(low, _middle[_order[k]]);
-                high = BvhNode.Max(high, _middle[_order[k]]);
+                Vector3d middle = _boxes[k].Middle;
+                low = BvhNode.Min(low, middle);
+                high = BvhNode.Max(high, middle);
             }
             Vector3d size = high - low;
             int axis = size.X >= size.Y && size.X >= size.Z ? 0 : size.Y >= size.Z ? 1 : 2;
@@ -101,19 +102,17 @@ namespace Guidewire.Core
         private int Partition(int first, int count, int axis, double from, double width)
         {
             Span<int> counts = stackalloc int[Bins];
-            var lows = new Vector3d[Bins];
-            var highs = new Vector3d[Bins];
             for (int k = first; k < first + count; k++)
             {
-                int t = _order[k];
-                int bin = Bin(t, axis, from, width);
-                lows[bin] = counts[bin] == 0 ? _low[t] : BvhNode.Min(lows[bin], _low[t]);
-                highs[bin] = counts[bin] == 0 ? _high[t] : BvhNode.Max(highs[bin], _high[t]);
+                ref readonly Box box = ref _boxes[k];
+                int bin = Bin(box, axis, from, width);
+                _lows[bin] = counts[bin] == 0 ? box.Low : BvhNode.Min(_lows[bin], box.Low);
+                _highs[bin] = counts[bin] == 0 ? box.High : BvhNode.Max(_highs[bin], box.High);
                 counts[bin]++;
             }
             Span<double> costs = stackalloc double[Bins];
-            AddCosts(counts, lows, highs, costs, forward: true);
-            AddCosts(counts, lows, highs, costs, forward: false);
+            AddCosts(counts, costs, forward: true);
+            AddCosts(counts, costs, forward: false);
             int best = 1;
             for (int bin = 2; bin < Bins; bin++)
             {
@@ -122,9 +121,9 @@ namespace Guidewire.Core
             int next = first;
             for (int k = first; k < first + count; k++)
             {
-                if (Bin(_order[k], axis, from, width) < best)
+                if (Bin(_boxes[k], axis, from, width) < best)
                 {
-                    (_order[next], _order[k]) = (_order[k], _order[next]);
+                    (_boxes[next], _boxes[k]) = (_boxes[k], _boxes[next]);
                     next++;
                 }
             }
@@ -132,8 +131,7 @@ namespace Guidewire.Core
         }
 
         // costs[bin] is the cost of a cut between bin - 1 and bin: forward adds the part below, backward that above.
-        private static void AddCosts(
-            Span<int> counts, Vector3d[] lows, Vector3d[] highs, Span<double> costs, bool forward)
+        private void AddCosts(Span<int> counts, Span<double> costs, bool forward)
         {
             int total = 0;
             Vector3d low = default;
@@ -143,8 +141,8 @@ namespace Guidewire.Core
                 int bin = forward ? i : Bins - 1 - i;
                 if (counts[bin] > 0)
                 {
-                    low = total == 0 ? lows[bin] : BvhNode.Min(low, lows[bin]);
-                    high = total == 0 ? highs[bin] : BvhNode.Max(high, highs[bin]);
+                    low = total == 0 ? _lows[bin] : BvhNode.Min(low, _lows[bin]);
+                    high = total == 0 ? _highs[bin] : BvhNode.Max(high, _highs[bin]);
                     total += counts[bin];
                 }
                 Vector3d e = high - low;
@@ -157,23 +155,33 @@ namespace Guidewire.Core
             var keys = new double[count];
             for (int k = 0; k < count; k++)
             {
-                keys[k] = Component(_middle[_order[first + k]], axis);
+                keys[k] = Component(_boxes[first + k].Middle, axis);
             }
-            var part = new int[count];
-            Array.Copy(_order, first, part, 0, count);
+            var part = new Box[count];
+            Array.Copy(_boxes, first, part, 0, count);
             Array.Sort(keys, part);
-            Array.Copy(part, 0, _order, first, count);
+            Array.Copy(part, 0, _boxes, first, count);
             return first + count / 2;
         }
 
-        private int Bin(int triangle, int axis, double from, double width)
+        private static int Bin(in Box box, int axis, double from, double width)
         {
-            return Math.Min(Bins - 1, (int)(Bins * ((Component(_middle[triangle], axis) - from) / width)));
+            return Math.Min(Bins - 1, (int)(Bins * ((Component(box.Middle, axis) - from) / width)));
         }
 
         private static double Component(in Vector3d v, int axis)
         {
             return axis == 0 ? v.X : axis == 1 ? v.Y : v.Z;
+        }
+
+        // Around a triangle, units.
+        private struct Box
+        {
+            public Vector3d Low;
+            public Vector3d High;
+            public int Triangle;
+
+            public readonly Vector3d Middle => 0.5 * (Low + High);
         }
     }
 }

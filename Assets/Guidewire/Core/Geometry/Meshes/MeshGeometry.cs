@@ -32,12 +32,17 @@ namespace Guidewire.Core
             }
             _rest = vertices.ToArray();
             _triangles = triangles.ToArray();
+            _twin = HalfEdges.Pair(_triangles, _rest.Length, out _);
             _isRimVertex = new bool[_rest.Length];
-            _twin = FindTwins(_triangles, _isRimVertex);
             _halfEdgeOfVertex = new int[_rest.Length];
             for (int halfEdge = _triangles.Length - 1; halfEdge >= 0; halfEdge--)
             {
                 _halfEdgeOfVertex[_triangles[halfEdge]] = halfEdge;
+                if (_twin[halfEdge] < 0)
+                {
+                    _isRimVertex[_triangles[halfEdge]] = true;
+                    _isRimVertex[_triangles[HalfEdges.Next(halfEdge)]] = true;
+                }
             }
             _vertices = new Vector3d[_rest.Length];
             _corners = new Vector3d[_triangles.Length];
@@ -103,7 +108,7 @@ namespace Guidewire.Core
         public void EndsOf(int edge, out int from, out int to)
         {
             from = edge;
-            to = NextHalfEdge(edge);
+            to = HalfEdges.Next(edge);
             if (_triangles[from] > _triangles[to])
             {
                 (from, to) = (to, from);
@@ -197,41 +202,6 @@ namespace Guidewire.Core
                 triangles.Add(rim[i]);
                 triangles.Add(centre);
             }
-        }
-
-        // The half-edge in the opposite direction of each, -1 at a rim.
-        private static int[] FindTwins(int[] triangles, bool[] isRimVertex)
-        {
-            var twins = new int[triangles.Length];
-            var entered = new Dictionary<(int, int), int>(triangles.Length);
-            for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
-            {
-                twins[halfEdge] = -1;
-                entered[(triangles[halfEdge], End(triangles, halfEdge))] = halfEdge;
-            }
-            for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
-            {
-                if (entered.TryGetValue((End(triangles, halfEdge), triangles[halfEdge]), out int other))
-                {
-                    twins[halfEdge] = other;
-                }
-                else
-                {
-                    isRimVertex[triangles[halfEdge]] = true;
-                    isRimVertex[End(triangles, halfEdge)] = true;
-                }
-            }
-            return twins;
-        }
-
-        private static int End(int[] triangles, int halfEdge)
-        {
-            return triangles[NextHalfEdge(halfEdge)];
-        }
-
-        private static int NextHalfEdge(int halfEdge)
-        {
-            return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
         }
     }
 }

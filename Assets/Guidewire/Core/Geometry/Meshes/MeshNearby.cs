@@ -122,8 +122,9 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Lowers the fraction of a point's motion during which it stays at least <paramref name="clearance"/>
-        /// from every triangle, as <see cref="Bvh.TimeOfImpact"/> does, but without convex edges.</summary>
+        /// <summary>Lowers the fraction, at most 1, of a point's motion during which it stays at least <paramref
+        /// name="clearance"/> from every triangle, as <see cref="Bvh.TimeOfImpact"/> does, but without convex
+        /// edges.</summary>
         public void ImpactOfPoint(in Vector3d from, in Vector3d to, double clearance, double resolution,
             FeatureRange among, ref double impact)
         {
@@ -133,15 +134,16 @@ namespace Guidewire.Core
                 return;
             }
             double motion = Vector3d.Distance(from, to);
-            if (motion <= clearance && KeepsClearance(to, clearance, motion, among))
+            Vector3d end = Vector3d.Lerp(from, to, impact);
+            if (impact * motion <= clearance && KeepsClearance(end, clearance, impact * motion, among))
             {
                 return;
             }
-            double limit = (clearance + motion) * RoundedUp;
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
+            for (int k = among.From;
+                k < among.To && among.LeastDistance(k) <= (clearance + impact * motion) * RoundedUp; k++)
             {
                 int i = among[k];
-                if (_planes.MayMeet(from, to, clearance, i))
+                if (_planes.MayMeet(from, end, clearance, i))
                 {
                     SegmentImpact.WithTriangle(_mesh.Corners[3 * i], _mesh.Corners[3 * i + 1], _mesh.Corners[3 * i + 2],
                         from, from, to, to, clearance, resolution, motion, ref impact);
@@ -158,15 +160,15 @@ namespace Guidewire.Core
             double motion = Math.Sqrt(Math.Max(stepA.LengthSquared, stepB.LengthSquared));
             if (among.IsKnown)
             {
-                double limit = (clearance + motion) * RoundedUp;
-                for (int k = among.From; k < among.To && among.LeastDistance(k) <= limit; k++)
+                for (int k = among.From;
+                    k < among.To && among.LeastDistance(k) <= (clearance + impact * motion) * RoundedUp; k++)
                 {
                     ImpactWithEdge(among[k], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
                 return;
             }
             _found.Clear();
-            var swept = new SweptSegment(a0, b0, a1, b1, clearance);
+            var swept = new SweptSegment(a0, b0, a0 + impact * stepA, b0 + impact * stepB, clearance);
             _edgeTree?.Within(swept, _found);
             for (int k = 0; k < _found.Count; k++)
             {
@@ -182,11 +184,12 @@ namespace Guidewire.Core
             ref double impact)
         {
             double motion = Vector3d.Distance(from, to);
+            Vector3d end = Vector3d.Lerp(from, to, impact);
             _found.Clear();
-            _mesh.Tree.Within(from, to, clearance * RoundedUp, _found);
+            _mesh.Tree.Within(from, end, clearance * RoundedUp, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                if (!_planes.MayMeet(from, to, clearance, _found[k]))
+                if (!_planes.MayMeet(from, end, clearance, _found[k]))
                 {
                     continue;
                 }

@@ -106,9 +106,9 @@ namespace Guidewire.Core
 
         /// <summary>A point against the triangles, a segment against the convex edges.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features)
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit)
         {
-            double impact = NoImpact;
+            double impact = limit;
             if (a0 == b0 && a1 == b1)
             {
                 Nearby.ImpactOfPoint(a0, a1, clearance, resolution, features, ref impact);

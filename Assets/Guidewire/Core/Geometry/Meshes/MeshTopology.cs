@@ -13,8 +13,6 @@ namespace Guidewire.Core
         // Beyond it squares and volumes lose digits, and no vessel is that large; units.
         private const double FarthestCoordinate = 1e9;
 
-        private readonly Dictionary<(int, int), EdgeUse> _edges = new Dictionary<(int, int), EdgeUse>();
-
         private MeshTopology(Vector3d[] vertices, int[] triangles)
         {
             Vertices = vertices;
@@ -41,7 +39,6 @@ namespace Guidewire.Core
             var topology = new MeshTopology(vertices, triangles);
             topology.Weld();
             topology.DropTriangles();
-            topology.JoinEdges();
             topology.TurnAlike();
             topology.FindRims();
             topology.Report.Vertices = topology.Vertices.Length;
@@ -103,7 +100,9 @@ namespace Guidewire.Core
         private void DropTriangles()
         {
             var kept = new List<int>(Triangles.Length);
-            var known = new HashSet<(int, int, int)>();
+            int[] use = HalfEdges.CountUse(Triangles, Vertices.Length);
+            var next = new int[Triangles.Length / 3]; // in the list of triangles of one vertex, by their places in kept
+            int[] first = HalfEdges.Unset(Vertices.Length);
             for (int t = 0; t < Triangles.Length; t += 3)
             {
                 int i = Triangles[t];
@@ -114,13 +113,19 @@ namespace Guidewire.Core
                     Report.CollapsedTriangles++;
                     continue;
                 }
-                int low = Math.Min(i, Math.Min(j, k));
-                int high = Math.Max(i, Math.Max(j, k));
-                if (!known.Add((low, i + j + k - low - high, high)))
+                int vertex = HalfEdges.Rarer(use, i, HalfEdges.Rarer(use, j, k));
+                int known = first[vertex];
+                while (known >= 0 && !AreCorners(kept, 3 * known, i, j, k))
+                {
+                    known = next[known];
+                }
+                if (known >= 0)
                 {
                     Report.RepeatedTriangles++;
                     continue;
                 }
+                next[kept.Count / 3] = first[vertex];
+                first[vertex] = kept.Count / 3;
                 Vector3d area = Vector3d.Cross(Vertices[j] - Vertices[i], Vertices[k] - Vertices[i]);
                 Report.FlatTriangles += area.LengthSquared > 0.0 ? 0 : 1;
                 kept.Add(i);
@@ -134,27 +139,26 @@ namespace Guidewire.Core
             }
         }
 
-        private void JoinEdges()
+        private static bool AreCorners(List<int> triangles, int at, int i, int j, int k)
         {
-            int crowded = 0;
-            for (int t = 0; t < Triangles.Length; t += 3)
-            {
-                for (int e = 0; e < 3; e++)
-                {
-                    (int, int) key = Key(t, e);
-                    _edges.TryGetValue(key, out EdgeUse use);
-                    crowded += use.Count == 2 ? 1 : 0;
-                    _edges[key] = use.With(t + e);
-                }
-            }
-            if (crowded > 0)
-            {
-                throw new MeshException(crowded + " edges belong to more than two triangles");
-            }
+            return Has(triangles, at, i) && Has(triangles, at, j) && Has(triangles, at, k);
+        }
+
+        private static bool Has(List<int> triangles, int at, int vertex)
+        {
+            return triangles[at] == vertex || triangles[at + 1] == vertex || triangles[at + 2] == vertex;
+        }
+
+        private int[] JoinEdges()
+        {
+            int[] others = HalfEdges.Pair(Triangles, Vertices.Length, out int crowded);
+            return crowded == 0
+                ? others : throw new MeshException(crowded + " edges belong to more than two triangles");
         }
 
         private void TurnAlike()
         {
+            int[] others = JoinEdges();
             int count = Triangles.Length / 3;
             var turned = new bool[count];
             var seen = new bool[count];
@@ -176,7 +180,7 @@ namespace Guidewire.Core
                     int t = queue.Dequeue();
                     for (int e = 0; e < 3; e++)
                     {
-                        int other = _edges[Key(3 * t, e)].Other(3 * t + e);
+                        int other = others[3 * t + e];
                         if (other < 0)
                         {
                             continue;
@@ -216,16 +220,14 @@ namespace Guidewire.Core
 
         private void FindRims()
         {
+            int[] others = JoinEdges();
             var next = new Dictionary<int, int>();
             int pinched = 0;
-            for (int t = 0; t < Triangles.Length; t += 3)
+            for (int halfEdge = 0; halfEdge < Triangles.Length; halfEdge++)
             {
-                for (int e = 0; e < 3; e++)
+                if (others[halfEdge] < 0)
                 {
-                    if (_edges[Key(t, e)].Count == 1)
-                    {
-                        pinched += next.TryAdd(Triangles[t + e], Triangles[t + (e + 1) % 3]) ? 0 : 1;
-                    }
+                    pinched += next.TryAdd(Triangles[halfEdge], Triangles[HalfEdges.Next(halfEdge)]) ? 0 : 1;
                 }
             }
             if (pinched > 0)
@@ -255,41 +257,9 @@ namespace Guidewire.Core
             return least;
         }
 
-        private (int, int) Key(int triangle, int edge)
-        {
-            int i = Triangles[triangle + edge];
-            int j = Triangles[triangle + (edge + 1) % 3];
-            return (Math.Min(i, j), Math.Max(i, j));
-        }
-
         private void Turn(int triangle)
         {
             (Triangles[triangle + 1], Triangles[triangle + 2]) = (Triangles[triangle + 2], Triangles[triangle + 1]);
-        }
-
-        // An edge's triangles, each by its half-edge, an index into Triangles.
-        private readonly struct EdgeUse
-        {
-            public readonly int Count;
-            private readonly int _first;
-            private readonly int _second;
-
-            private EdgeUse(int count, int first, int second)
-            {
-                Count = count;
-                _first = first;
-                _second = second;
-            }
-
-            public EdgeUse With(int halfEdge)
-            {
-                return Count == 0 ? new EdgeUse(1, halfEdge, -1) : new EdgeUse(2, _first, halfEdge);
-            }
-
-            public int Other(int halfEdge)
-            {
-                return Count < 2 ? -1 : halfEdge == _first ? _second : _first;
-            }
         }
     }
 }

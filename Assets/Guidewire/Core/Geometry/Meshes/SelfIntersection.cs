@@ -9,29 +9,34 @@ namespace Guidewire.Core
         // How far both ends of an edge lie off a triangle's plane at least, over the mesh's size.
         private const double RelativeDepth = 1e-9;
 
-        /// <summary>How many times an edge pierces a triangle, and where it does first.</summary>
+        /// <summary>How many times an edge pierces a triangle, and where the first such edge does.</summary>
         public static int Count(MeshGeometry wall, out Vector3d position)
         {
             position = Vector3d.Zero;
             double depth = RelativeDepth * Extents.Of(wall.Corners).LargestSide;
             var near = new StructList<int>(64);
+            int first = int.MaxValue;
             int count = 0;
-            for (int edge = 0; edge < wall.Corners.Length; edge++)
+            foreach (int triangle in wall.Tree.Order) // so that each search is near the last one
             {
-                if (wall.EdgeOf(edge) != edge)
+                for (int edge = 3 * triangle; edge < 3 * triangle + 3; edge++)
                 {
-                    continue;
-                }
-                wall.EndsOf(edge, out int from, out int to);
-                near.Clear();
-                wall.Tree.Within(wall.Corners[from], wall.Corners[to], depth, near);
-                for (int k = 0; k < near.Count; k++)
-                {
-                    if (!SharesVertex(wall, from, to, near[k])
-                        && Pierces(wall, wall.Corners[from], wall.Corners[to], near[k], depth, out Vector3d point))
+                    if (wall.EdgeOf(edge) != edge)
                     {
-                        position = count == 0 ? point : position;
-                        count++;
+                        continue;
+                    }
+                    wall.EndsOf(edge, out int from, out int to);
+                    near.Clear();
+                    wall.Tree.Within(wall.Corners[from], wall.Corners[to], depth, near);
+                    for (int k = 0; k < near.Count; k++)
+                    {
+                        if (Pierces(wall, wall.Corners[from], wall.Corners[to], near[k], depth, out Vector3d point)
+                            && !SharesVertex(wall, from, to, near[k]))
+                        {
+                            position = edge < first ? point : position;
+                            first = Math.Min(first, edge);
+                            count++;
+                        }
                     }
                 }
             }

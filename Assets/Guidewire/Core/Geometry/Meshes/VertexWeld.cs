@@ -22,40 +22,15 @@ namespace Guidewire.Core
         /// own coordinates.</summary>
         public static int[] Join(Vector3d[] vertices, out Vector3d[] kept)
         {
-            int[] index = JoinEqual(vertices, out kept);
-            int[] group = JoinNear(kept);
-            if (Array.TrueForAll(group, first => first < 0))
-            {
-                return index;
-            }
-            var merged = new int[kept.Length];
-            var different = new List<Vector3d>(kept.Length);
-            for (int i = 0; i < kept.Length; i++)
-            {
-                merged[i] = group[i] < 0 ? different.Count : merged[First(group, i)];
-                if (group[i] < 0)
-                {
-                    different.Add(kept[i]);
-                }
-            }
-            kept = different.ToArray();
-            return Array.ConvertAll(index, i => merged[i]);
-        }
-
-        private static int[] JoinEqual(Vector3d[] vertices, out Vector3d[] kept)
-        {
-            var first = new Dictionary<Vector3d, int>(vertices.Length);
-            var different = new List<Vector3d>(vertices.Length);
+            int[] group = FindNear(vertices);
             var index = new int[vertices.Length];
+            var different = new List<Vector3d>(vertices.Length);
             for (int i = 0; i < vertices.Length; i++)
             {
-                // Adding 0 makes -0 a 0: the two are equal but differ in their bits.
-                Vector3d vertex = vertices[i] + Vector3d.Zero;
-                if (!first.TryGetValue(vertex, out index[i]))
+                index[i] = group[i] < 0 ? different.Count : index[First(group, i)];
+                if (group[i] < 0)
                 {
-                    index[i] = different.Count;
-                    first.Add(vertex, different.Count);
-                    different.Add(vertex);
+                    different.Add(vertices[i] + Vector3d.Zero); // makes -0 a 0
                 }
             }
             kept = different.ToArray();
@@ -64,7 +39,7 @@ namespace Guidewire.Core
 
         // For each vertex an earlier one that it is merged with, -1 for none. Vertices within the tolerance of each
         // other are within it along the sort direction too.
-        private static int[] JoinNear(Vector3d[] vertices)
+        private static int[] FindNear(Vector3d[] vertices)
         {
             double tolerance = RelativeTolerance * Extents.Of(vertices).LargestSide;
             var along = new double[vertices.Length];
@@ -75,31 +50,40 @@ namespace Guidewire.Core
                 order[i] = i;
             }
             Array.Sort(along, order);
-            var group = new int[vertices.Length];
-            Array.Fill(group, -1);
+            int[] group = HalfEdges.Unset(vertices.Length);
             for (int a = 0; a < order.Length; a++)
             {
-                for (int b = a + 1; b < order.Length && along[b] - along[a] <= tolerance; b++)
+                bool isRepeated = false; // by b, which finds what is near both
+                for (int b = a + 1; b < order.Length && along[b] - along[a] <= tolerance && !isRepeated; b++)
                 {
                     if (Vector3d.Distance(vertices[order[a]], vertices[order[b]]) <= tolerance)
                     {
-                        int i = First(group, order[a]);
-                        int j = First(group, order[b]);
-                        if (i != j)
-                        {
-                            group[Math.Max(i, j)] = Math.Min(i, j);
-                        }
+                        Unite(group, order[a], order[b]);
+                        isRepeated = vertices[order[a]].Equals(vertices[order[b]]);
                     }
                 }
             }
             return group;
         }
 
+        private static void Unite(int[] group, int one, int other)
+        {
+            int i = First(group, one);
+            int j = First(group, other);
+            if (i != j)
+            {
+                group[Math.Max(i, j)] = Math.Min(i, j);
+            }
+        }
+
+        // Halves the path that it follows, so that long ones do not add up.
         private static int First(int[] group, int i)
         {
             while (group[i] >= 0)
             {
-                i = group[i];
+                int next = group[i];
+                group[i] = group[next] >= 0 ? group[next] : next;
+                i = next;
             }
             return i;
         }

@@ -34,7 +34,7 @@ namespace Guidewire.Core
         /// <summary>The same tree as that of binary nodes, children side by side behind their parent.</summary>
         public WideBvh(BvhNode[] nodes)
         {
-            int most = nodes.Length;
+            int most = nodes.Length / 2 + 1; // binary nodes with children, at least the root
             var source = new int[Lanes * most];
             var child = new int[Lanes * most];
             var root = new int[most];    // the binary node of a node

@@ -190,7 +190,7 @@ namespace Guidewire.Core
             double fraction = 1.0;
             for (int w = 0; w < _walls.Length && !(longestSquared < sure * sure); w++)
             {
-                fraction = Math.Min(fraction, MaxStepAt(w));
+                fraction = MaxStepAt(w, fraction);
             }
             return fraction;
         }
@@ -217,26 +217,26 @@ namespace Guidewire.Core
             return _edgeGap[w * _elementRadius.Length + j];
         }
 
-        // Along the wire. A node has the larger clearance that its two elements need, and is tested once.
-        private double MaxStepAt(int w)
+        // Along the wire, the fraction that is known to be the most or a lower one. A node has the larger clearance that
+        // its two elements need, and is tested once.
+        private double MaxStepAt(int w, double fraction)
         {
-            double fraction = 1.0;
             double gapBefore = 0.0;       // of the element before, 0 where it is not tested
             double radiusBefore = 0.0;
             for (int j = 0; j <= _elementRadius.Length; j++)
             {
                 double gap = 0.0;
                 double radius = 0.0;
-                if (j < _elementRadius.Length && IsTested(w, j, out gap))
+                if (j < _elementRadius.Length && IsTested(w, j, fraction, out gap))
                 {
                     radius = _units * _elementRadius[j];
-                    fraction = Math.Min(fraction, MaxStepOf(w, j, radius, ref gap));
+                    fraction = MaxStepOf(w, j, fraction, radius, ref gap);
                 }
                 if (_walls[w].IsSurface && (gap != 0.0 || gapBefore != 0.0))
                 {
                     bool isBefore = radiusBefore + Left(gapBefore) > radius + Left(gap);
-                    fraction = Math.Min(fraction, isBefore ? MaxStepOfNode(w, j, radiusBefore, gapBefore)
-                        : MaxStepOfNode(w, j, radius, gap));
+                    fraction = isBefore ? MaxStepOfNode(w, j, fraction, radiusBefore, gapBefore)
+                        : MaxStepOfNode(w, j, fraction, radius, gap);
                 }
                 gapBefore = gap;
                 radiusBefore = radius;
@@ -244,11 +244,13 @@ namespace Guidewire.Core
             return fraction;
         }
 
-        // Whether the wall may limit the motion of element j, and the least gap between them that is known, units.
-        private bool IsTested(int w, int j, out double gap)
+        // Whether the wall may limit this fraction of the motion of element j, and the least gap between them that is
+        // known, units.
+        private bool IsTested(int w, int j, double fraction, out double gap)
         {
             int n = _elementRadius.Length;
-            double motion = Math.Sqrt(Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
+            double motion = fraction * Math.Sqrt(
+                Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
             double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
@@ -257,35 +259,36 @@ namespace Guidewire.Core
             return !isFar;
         }
 
-        private double MaxStepOf(int w, int j, double radius, ref double gap)
+        private double MaxStepOf(int w, int j, double fraction, double radius, ref double gap)
         {
             ref int hint = ref _near.HintOf(w, j);
-            double fraction = MaxStepOf(w, j, radius, gap, hint);
-            if (fraction == 0.0)
+            double free = MaxStepOf(w, j, fraction, radius, gap, hint);
+            if (free == 0.0)
             {
                 _walls[w].Nearest(_x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = contact.Distance - radius;
-                fraction = MaxStepOf(w, j, radius, gap, hint);
+                free = MaxStepOf(w, j, fraction, radius, gap, hint);
             }
-            return fraction;
+            return free;
         }
 
-        private double MaxStepOf(int w, int j, double radius, double gap, int hint)
+        private double MaxStepOf(int w, int j, double fraction, double radius, double gap, int hint)
         {
             return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1],
-                radius + Left(gap), Resolution(radius, gap), hint, _near.FeaturesAlong(w, j, _x, _to)) : 0.0;
+                radius + Left(gap), Resolution(radius, gap), hint, _near.FeaturesAlong(w, j, _x, _to, fraction),
+                fraction) : 0.0;
         }
 
-        private double MaxStepOfNode(int w, int i, double radius, double gap)
+        private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap)
         {
             double distance = _units * (_nodeRadius[i] + _nodeGap[w * _x.Length + i]);
             double clearance = radius + Left(gap);
-            if (Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
+            if (fraction * Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
             {
-                return 1.0;
+                return fraction;
             }
             return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _x[i], _to[i], _to[i], clearance,
-                Resolution(radius, gap), -1, _near.FeaturesAlongNode(w, i, _x, _to)) : 0.0;
+                Resolution(radius, gap), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction) : 0.0;
         }
 
         // What a step leaves of a gap.

@@ -177,17 +177,20 @@ namespace Guidewire.Core
                 : _element[j - 1].FeaturesAtB(_features, x);
         }
 
-        /// <summary>Features about the motion of element j, where they are known for all of it.</summary>
-        public FeatureRange FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to)
+        /// <summary>Features about a fraction of the motion of element j, where they are known for all of
+        /// it.</summary>
+        public FeatureRange FeaturesAlong(int w, int j, Vector3d[] x, Vector3d[] to, double fraction)
         {
-            return _element[w * _range.Length + j].Covers(to[j], to[j + 1]) ? FeaturesOf(w, j, x[j], x[j + 1])
-                : default;
+            Vector3d a = Vector3d.Lerp(x[j], to[j], fraction);
+            Vector3d b = Vector3d.Lerp(x[j + 1], to[j + 1], fraction);
+            return _element[w * _range.Length + j].Covers(a, b) ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
         }
 
         /// <summary>The same for node i, where the wall has features of points.</summary>
-        public FeatureRange FeaturesAlongNode(int w, int i, Vector3d[] x, Vector3d[] to)
+        public FeatureRange FeaturesAlongNode(int w, int i, Vector3d[] x, Vector3d[] to, double fraction)
         {
-            return _node[w * (_range.Length + 1) + i].Covers(to[i], to[i]) ? FeaturesOfNode(w, i, x[i]) : default;
+            Vector3d end = Vector3d.Lerp(x[i], to[i], fraction);
+            return _node[w * (_range.Length + 1) + i].Covers(end, end) ? FeaturesOfNode(w, i, x[i]) : default;
         }
 
         /// <summary>Where element j was nearest to wall w, for <see cref="ContactShape.Nearest"/>.</summary>
