@@ -402,7 +402,8 @@ namespace Guidewire.Core
                 return;
             }
             _resultant[w] -= gradient;
-            _sums.AddNode(w, i, gradient, mayBeNegative ? second.PositivePart() : second);
+            Symmetric3 positive = mayBeNegative ? second.PositivePart() : second;
+            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive);
         }
 
         private void AddElement(int w, int j)

@@ -58,12 +58,14 @@ namespace Guidewire.Core
         /// <param name="i">Which node.</param>
         /// <param name="gradient">N.</param>
         /// <param name="second">N/m.</param>
-        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second)
+        /// <param name="bending">What the second derivative has besides, N/m.</param>
+        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second, in Symmetric3 bending)
         {
             bool isLast = i == _coupling.Length;
             Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient, true);
             _gradient[i] += gradient;
             _own[i] += second;
+            _ownBending[i] += bending;
         }
 
         /// <summary>A contact of the interior of element j with a convex edge.</summary>
