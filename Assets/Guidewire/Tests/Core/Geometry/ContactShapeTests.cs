@@ -145,6 +145,31 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Mesh_TheTimeOfImpactUpToALimit_IsThatOfTheWholeMotion_WhereItIsLess()
+        {
+            var random = new RandomGeometry(61);
+            var shape = new MeshShape(TestMeshes.Ball(24, 0.2).Build());
+            int hits = 0;
+            for (int i = 0; i < RandomGeometry.Cases(4_000); i++)
+            {
+                Vector3d a0 = 0.4 * random.Point();
+                Vector3d b0 = i % 2 == 0 ? a0 : a0 + 0.2 * random.Point();
+                Vector3d motion = 1.5 * random.Point();
+                Vector3d turn = i % 2 == 0 ? Vector3d.Zero : 0.3 * random.Point();
+                double limit = random.Number(0.0, 1.0);
+                double Impact(double upTo)
+                {
+                    return shape.ConservativeTimeOfImpact(
+                        a0, b0, a0 + motion, b0 + motion + turn, 0.02, 1e-9, -1, default, upTo);
+                }
+                double whole = Impact(1.0);
+                hits += whole < limit ? 1 : 0;
+                Assert.That(Impact(limit), Is.EqualTo(Math.Min(limit, whole)).Within(1e-8), "case " + i);
+            }
+            Assert.That(hits, Is.GreaterThan(RandomGeometry.Cases(400)));
+        }
+
+        [Test]
         public void Tube_ASmallGapAtACrease_AllowsAMotionOfAboutItsSize()
         {
             // A sharp bend where the tube narrows and widens, and a segment whose interior is nearest to it, down to
@@ -169,7 +194,7 @@ namespace Guidewire.Core.Tests
                 Vector3d a1 = a0 + motion * random.Point();
                 Vector3d b1 = b0 + motion * random.Point();
                 double fraction = Math.Min(1.0, shape.ConservativeTimeOfImpact(
-                    a0, b0, a1, b1, clearance, 0.0, -1, default));
+                    a0, b0, a1, b1, clearance, 0.0, -1, default, 1.0));
                 double free = 0.0;
                 for (int k = 1; k <= 200 && Smallest(shape, Vector3d.Lerp(a0, a1, free), Vector3d.Lerp(b0, b1, free))
                     >= clearance; k++)
