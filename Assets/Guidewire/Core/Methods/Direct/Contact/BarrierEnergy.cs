@@ -217,8 +217,8 @@ namespace Guidewire.Core
             return _edgeGap[w * _elementRadius.Length + j];
         }
 
-        // Along the wire: the given fraction or a lower one. A node has the larger clearance that its two elements need,
-        // and is tested once.
+        // Along the wire: the given fraction or a lower one. A node has the larger clearance that its two elements
+        // need, and is tested once.
         private double MaxStepAt(int w, double fraction)
         {
             double gapBefore = 0.0;       // of the element before, 0 where it is not tested
