@@ -176,7 +176,8 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
     start = float((positions[0, -1] - exit_at) @ along)  # of the wire out of the sheath, mm
     return [*claims, *_depth(vessel, scene, summary, positions, body, bool(crossing.any())),
             *_drive_claims(scene, summary, positions),
-            *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]))]
+            *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]),
+                          _tilt(positions[-1], int(first[-1]), along))]
 
 
 def _depth(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, body: np.ndarray,
@@ -230,12 +231,24 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
     return claims
 
 
-def _body_claims(scene: dict[str, Any], hub: dict[str, Any], start: float, outside: int) -> list[str]:
+def _tilt(nodes: np.ndarray, first: int, along: np.ndarray) -> float:
+    """How much longer the element that passes the exit is than it is along the sheath, mm: by at most that more of the
+    wire is in the sheath than the sheath's own length says."""
+    if not 0 < first < len(nodes):
+        return 0.0
+    element = nodes[first] - nodes[first - 1]
+    return float(np.linalg.norm(element) - element @ along / np.linalg.norm(along))
+
+
+def _body_claims(
+        scene: dict[str, Any], hub: dict[str, Any], start: float, outside: int, tilt: float) -> list[str]:
     """What the summary says is in the body: the length out of the sheath at the start, mm, and what the hub pushed in
-    since, less what the wire is shortened by under its push; the nodes counted outside of the sheath at the end."""
+    since, less what the wire is shortened by under its push and what the element at the exit is tilted by; the nodes
+    counted outside of the sheath at the end."""
     area = np.pi * (scene["wireRadius"]**2 - scene["innerRadius"]**2)
-    stiffness = scene["axialStiffness"] or scene["youngsModulus"] * area  # EA, N
-    slack = _SAME_LENGTH + scene["guidewireLength"] * abs(hub["force"]) / stiffness
+    softest = min(part.get("youngsModulus", scene["youngsModulus"]) for part in [scene, *(scene["wireSections"] or [])])
+    stiffness = scene["axialStiffness"] or softest * area  # least EA, N
+    slack = _SAME_LENGTH + scene["guidewireLength"] * abs(hub["force"]) / stiffness + tilt
     claims = []
     if abs(1e3 * (hub["lengthInBody"] - hub["insertion"]) - start) > slack:
         claims.append(f"{hub['lengthInBody']} m in the body, pushed in by {hub['insertion']} m after {start} mm")
