@@ -232,8 +232,8 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
 
 
 def _tilt(nodes: np.ndarray, first: int, along: np.ndarray) -> float:
-    """How much longer the element that passes the exit is than it is along the sheath, mm: by at most that more of the
-    wire is in the sheath than the sheath's own length says."""
+    """Length of the element across the exit less its projection on the sheath's axis, mm: at most by that much is the
+    part of the wire in the sheath longer than the distance that it covers there."""
     if not 0 < first < len(nodes):
         return 0.0
     element = nodes[first] - nodes[first - 1]
@@ -246,8 +246,7 @@ def _body_claims(
     since, less what the wire is shortened by under its push and what the element at the exit is tilted by; the nodes
     counted outside of the sheath at the end."""
     area = np.pi * (scene["wireRadius"]**2 - scene["innerRadius"]**2)
-    softest = min(part.get("youngsModulus", scene["youngsModulus"]) for part in [scene, *(scene["wireSections"] or [])])
-    stiffness = scene["axialStiffness"] or softest * area  # least EA, N
+    stiffness = scene["axialStiffness"] or scene["youngsModulus"] * area  # EA, N
     slack = _SAME_LENGTH + scene["guidewireLength"] * abs(hub["force"]) / stiffness + tilt
     claims = []
     if abs(1e3 * (hub["lengthInBody"] - hub["insertion"]) - start) > slack:

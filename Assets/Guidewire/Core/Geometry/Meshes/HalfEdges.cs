@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// with the same two ends are one edge.</summary>
     internal static class HalfEdges
     {
-        /// <summary>The half-edge after another around their triangle.</summary>
+        /// <summary>The next half-edge around the same triangle.</summary>
         public static int Next(int halfEdge)
         {
             return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
@@ -15,22 +15,22 @@ namespace Guidewire.Core
         /// <summary>For each half-edge the other one of its edge, -1 where there is none.</summary>
         /// <param name="triangles">Three vertices a triangle.</param>
         /// <param name="vertexCount">Number of vertices.</param>
-        /// <param name="crowded">Number of half-edges beyond two an edge; 0 in a surface.</param>
-        /// <remarks>An edge is looked up among those of the end that has fewer triangles, which takes a time linear in
-        /// their number for a surface of any genus, even with a vertex that all triangles share (Chiba and Nishizeki
+        /// <param name="crowded">Number of half-edges beyond the second of an edge; 0 in a manifold.</param>
+        /// <remarks>An edge is looked up among those stored at its end of lower valence. For the triangles of a surface
+        /// of bounded genus the time is linear in their number, even where all share one vertex (Chiba and Nishizeki
         /// 1985, Arboricity and subgraph listing algorithms).</remarks>
         public static int[] Pair(int[] triangles, int vertexCount, out int crowded)
         {
-            int[] use = CountUse(triangles, vertexCount);
-            var others = Unset(triangles.Length);
-            var next = new int[triangles.Length]; // in the list of edges of one vertex
+            int[] valence = Valences(triangles, vertexCount);
+            int[] others = Unset(triangles.Length);
+            var next = new int[triangles.Length]; // in the list of half-edges stored at a vertex
             int[] first = Unset(vertexCount);
             crowded = 0;
             for (int halfEdge = 0; halfEdge < triangles.Length; halfEdge++)
             {
                 int from = triangles[halfEdge];
                 int to = triangles[Next(halfEdge)];
-                int vertex = Rarer(use, from, to);
+                int vertex = LowerValence(valence, from, to);
                 int known = first[vertex];
                 while (known >= 0 && triangles[known] + triangles[Next(known)] != from + to)
                 {
@@ -54,24 +54,24 @@ namespace Guidewire.Core
             return others;
         }
 
-        /// <summary>How many corners lie at each vertex.</summary>
-        public static int[] CountUse(int[] triangles, int vertexCount)
+        /// <summary>Number of triangles at each vertex.</summary>
+        public static int[] Valences(int[] triangles, int vertexCount)
         {
-            var use = new int[vertexCount];
+            var valences = new int[vertexCount];
             foreach (int vertex in triangles)
             {
-                use[vertex]++;
+                valences[vertex]++;
             }
-            return use;
+            return valences;
         }
 
-        /// <summary>Of two vertices the one with fewer corners, of equal ones the lower.</summary>
-        public static int Rarer(int[] use, int i, int j)
+        /// <summary>The vertex of lower valence of two, the lower index where they are equal.</summary>
+        public static int LowerValence(int[] valence, int i, int j)
         {
-            return use[i] < use[j] || (use[i] == use[j] && i < j) ? i : j;
+            return valence[i] < valence[j] || (valence[i] == valence[j] && i < j) ? i : j;
         }
 
-        /// <summary>So many times -1.</summary>
+        /// <summary>An array of -1.</summary>
         public static int[] Unset(int count)
         {
             var values = new int[count];

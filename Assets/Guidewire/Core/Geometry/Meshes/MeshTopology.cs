@@ -100,8 +100,8 @@ namespace Guidewire.Core
         private void DropTriangles()
         {
             var kept = new List<int>(Triangles.Length);
-            int[] use = HalfEdges.CountUse(Triangles, Vertices.Length);
-            var next = new int[Triangles.Length / 3]; // in the list of triangles of one vertex, by their places in kept
+            int[] valence = HalfEdges.Valences(Triangles, Vertices.Length);
+            var next = new int[Triangles.Length / 3]; // in the list of kept triangles stored at a vertex
             int[] first = HalfEdges.Unset(Vertices.Length);
             for (int t = 0; t < Triangles.Length; t += 3)
             {
@@ -113,7 +113,7 @@ namespace Guidewire.Core
                     Report.CollapsedTriangles++;
                     continue;
                 }
-                int vertex = HalfEdges.Rarer(use, i, HalfEdges.Rarer(use, j, k));
+                int vertex = HalfEdges.LowerValence(valence, i, HalfEdges.LowerValence(valence, j, k));
                 int known = first[vertex];
                 while (known >= 0 && !AreCorners(kept, 3 * known, i, j, k))
                 {

@@ -53,7 +53,7 @@ namespace Guidewire.Core
             int[] group = HalfEdges.Unset(vertices.Length);
             for (int a = 0; a < order.Length; a++)
             {
-                bool isRepeated = false; // by b, which finds what is near both
+                bool isRepeated = false; // an equal vertex b finds all further neighbours of a
                 for (int b = a + 1; b < order.Length && along[b] - along[a] <= tolerance && !isRepeated; b++)
                 {
                     if (Vector3d.Distance(vertices[order[a]], vertices[order[b]]) <= tolerance)
@@ -76,7 +76,7 @@ namespace Guidewire.Core
             }
         }
 
-        // Halves the path that it follows, so that long ones do not add up.
+        // Union-find with path halving.
         private static int First(int[] group, int i)
         {
             while (group[i] >= 0)
