@@ -60,6 +60,20 @@ namespace Guidewire.Core
         /// <returns>The number of eigenvalues that are not positive: 0 when the energy is convex here.</returns>
         public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
         {
+            return Factorise(terms, shape, gradient, y, shift, false);
+        }
+
+        /// <summary>The same, given up where an eigenvalue is not positive: gradient and right-hand side are then of no
+        /// use.</summary>
+        /// <returns>Whether all are positive.</returns>
+        public bool TryFactorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
+        {
+            return Factorise(terms, shape, gradient, y, shift, true) == 0;
+        }
+
+        private int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift,
+            bool onlyPositive)
+        {
             int last = _count - 1;
             y[0] = default;
             gradient[0] = default;
@@ -67,7 +81,7 @@ namespace Guidewire.Core
             BeginTwists(gradient, y);
             int negative = 0;
             int from = 0;
-            while (from < _count)
+            while (from < _count && !(onlyPositive && negative > 0))
             {
                 int to = from + Piece;
                 if (to >= last)

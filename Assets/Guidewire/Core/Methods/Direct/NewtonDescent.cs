@@ -58,12 +58,19 @@ namespace Guidewire.Core
             return System.Factorise(_terms, shape, Gradient, Direction, shift);
         }
 
+        /// <summary>The same, given up where an eigenvalue is negative: the gradient is then of no use.</summary>
+        /// <returns>Whether all are positive.</returns>
+        public bool TryFactorise(RodShape shape, double shift)
+        {
+            return System.TryFactorise(_terms, shape, Gradient, Direction, shift);
+        }
+
         /// <summary>Raises the multiple until no eigenvalue is negative, and sets the direction.</summary>
         /// <returns>Factorisations made.</returns>
         public int FactoriseShifted(RodShape shape, ref double shift)
         {
             int count = 1;
-            while (Factorise(shape, shift) > 0 && shift <= double.MaxValue)
+            while (!TryFactorise(shape, shift) && shift <= double.MaxValue)
             {
                 shift *= 4.0;
                 count++;

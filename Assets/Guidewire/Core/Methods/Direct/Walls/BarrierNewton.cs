@@ -190,9 +190,8 @@ namespace Guidewire.Core
         private bool FindDirection(RodShape shape, bool isStiffened)
         {
             Factorisations++;
-            int negative = _newton.Factorise(shape, 0.0);
-            bool isPlain = negative == 0;
-            if (negative > 0 && _hasFriction)
+            bool isPlain = _hasFriction ? _newton.Factorise(shape, 0.0) == 0 : _newton.TryFactorise(shape, 0.0);
+            if (!isPlain && _hasFriction)
             {
                 _newton.System.ReflectNegativePivots(_newton.Direction);
                 _newton.System.Back(_newton.Direction);
@@ -201,19 +200,20 @@ namespace Guidewire.Core
                     return false;
                 }
             }
-            if (negative > 0)
+            bool isPositive = isPlain;
+            if (!isPositive)
             {
                 Stiffen(isStiffened, true);
                 Factorisations++;
-                negative = _newton.Factorise(shape, 0.0);
-                if (negative > 0)
+                isPositive = _newton.TryFactorise(shape, 0.0);
+                if (!isPositive)
                 {
                     _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
                     Factorisations += _newton.FactoriseShifted(shape, ref _shift);
                 }
                 Stiffen(isStiffened, false);
             }
-            if (negative == 0)
+            if (isPositive)
             {
                 _newton.System.Back(_newton.Direction);
             }
