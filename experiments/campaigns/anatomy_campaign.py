@@ -173,11 +173,10 @@ def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positi
     after = np.minimum(SAMPLES * (first + 1), lumen.shape[1] - 1)
     if not (lumen[np.arange(len(lumen)), after] | (first > n)).all():
         claims.append("the wire is outside where it leaves its sheath")
-    start = float((positions[0, -1] - exit_at) @ along)  # of the wire out of the sheath, mm
     return [*claims, *_depth(vessel, scene, summary, positions, body, bool(crossing.any())),
             *_drive_claims(scene, summary, positions),
-            *_body_claims(scene, summary["hub"], start, n + 1 - int(first[-1]),
-                          _tilt(positions[-1], int(first[-1]), along))]
+            *_body_claims(summary["hub"], positions, int(first[-1]),
+                          (positions[-1] - exit_at) @ along / np.linalg.norm(along))]
 
 
 def _depth(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, body: np.ndarray,
@@ -231,28 +230,21 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
     return claims
 
 
-def _tilt(nodes: np.ndarray, first: int, along: np.ndarray) -> float:
-    """Length of the element across the exit less its projection on the sheath's axis, mm: at most by that much is the
-    part of the wire in the sheath longer than the distance that it covers there."""
-    if not 0 < first < len(nodes):
-        return 0.0
-    element = nodes[first] - nodes[first - 1]
-    return float(np.linalg.norm(element) - element @ along / np.linalg.norm(along))
+def _body_claims(hub: dict[str, Any], positions: np.ndarray, first: int, beyond: np.ndarray) -> list[str]:
+    """What the summary says is in the body, against the last entry of the log.
 
-
-def _body_claims(
-        scene: dict[str, Any], hub: dict[str, Any], start: float, outside: int, tilt: float) -> list[str]:
-    """What the summary says is in the body: the length out of the sheath at the start, mm, and what the hub pushed in
-    since, less what the wire is shortened by under its push and what the element at the exit is tilted by; the nodes
-    counted outside of the sheath at the end."""
-    area = np.pi * (scene["wireRadius"]**2 - scene["innerRadius"]**2)
-    stiffness = scene["axialStiffness"] or scene["youngsModulus"] * area  # EA, N
-    slack = _SAME_LENGTH + scene["guidewireLength"] * abs(hub["force"]) / stiffness + tilt
+    Parameters
+    ----------
+    first : the first node out of the sheath at the end; the number of nodes where there is none.
+    beyond : (n + 1,), distance of each node from the exit along the sheath's axis at the end, mm.
+    """
+    at_rest = np.linalg.norm(np.diff(positions[0], axis=0), axis=1)  # a wire begins without strain
+    length = at_rest[first:].sum() + beyond[first] if first < len(beyond) else 0.0
     claims = []
-    if abs(1e3 * (hub["lengthInBody"] - hub["insertion"]) - start) > slack:
-        claims.append(f"{hub['lengthInBody']} m in the body, pushed in by {hub['insertion']} m after {start} mm")
-    if hub["spheresInBody"] != outside:
-        claims.append(f"{hub['spheresInBody']} spheres in the body, counted {outside}")
+    if abs(1e3 * hub["lengthInBody"] - length) > _SAME_LENGTH:
+        claims.append(f"{hub['lengthInBody']} m in the body, counted {1e-3 * length}")
+    if hub["spheresInBody"] != len(beyond) - first:
+        claims.append(f"{hub['spheresInBody']} spheres in the body, counted {len(beyond) - first}")
     return claims
 
 

@@ -34,5 +34,11 @@ namespace Guidewire.Core
         {
             return Vector3d.Dot(node - Exit, Axis);
         }
+
+        /// <summary>The point of the sheath's axis beside a node, m.</summary>
+        public Vector3d OnAxis(in Vector3d node)
+        {
+            return Exit + Outside(node) * Axis;
+        }
     }
 }

@@ -22,6 +22,7 @@ namespace Guidewire.Core
         private readonly SpinLoss? _spinLoss;  // of a wire that nothing holds
         private long _startFactorisations;  // of the rest shape
         private readonly HalvedSteps _halved;
+        private readonly StepStart _start;
         private readonly WallSteps? _walls;
         private readonly WallMonitor? _monitor;
         private readonly ElementContactForces? _elementForces;
@@ -44,6 +45,7 @@ namespace Guidewire.Core
             Contacts = record;
             dynamics.Reactions.AreKept = record != null;
             _halved = new HalvedSteps(dynamics);
+            _start = new StepStart(SerializeStep);
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
@@ -92,13 +94,25 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One step.</summary>
+        /// <summary>One step. Between walls one without a solution leaves everything, hub and wire, as it was before.
+        /// </summary>
         /// <returns>False where it has no solution or has lost the wire.</returns>
         public bool Step()
         {
+            if (_walls != null)
+            {
+                _start.Save();
+            }
             (double insertion, double turn) = (Drive.Insertion, Drive.Turn);
             Drive.Prepare(Shape, Time);
-            return Step(TimeStep, insertion, turn);
+            bool isDone = Step(TimeStep, insertion, turn);
+            if (!isDone && _walls != null)
+            {
+                (string? failure, string? divergence) = (Failure, Divergence);
+                _start.Restore();
+                (Failure, Divergence) = (failure, divergence);
+            }
+            return isDone;
         }
 
         /// <summary>A part of a step whose drive has been prepared.</summary>

@@ -102,7 +102,11 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            bool isDone = _isLimited ? StepWithSlip() : StepAsRequested();
+            if (!_isLimited)
+            {
+                _start.Save();
+            }
+            bool isDone = Step();
             Failure = _whole.Failure;
             Divergence = _whole.Divergence;
             SteadyState = _whole.SteadyState;
@@ -115,6 +119,18 @@ namespace Guidewire.Core
                 TakeContacts();
                 WriteWire(state);
             }
+            else
+            {
+                // Hubs and instruments as in the state, that of the step before.
+                _start.Restore();
+            }
+        }
+
+        /// <summary>One step of all instruments; with limited hubs its start is saved first.</summary>
+        /// <returns>False where it has no solution or has lost an instrument.</returns>
+        public bool Step()
+        {
+            return _isLimited ? StepWithSlip() : StepAsRequested();
         }
 
         // Taken again until neither hub has more than its force: the wire's in each trial of the catheter's.

@@ -6,9 +6,10 @@ namespace Guidewire.Core
     /// own, and elements come and go with the hub. The sheathed part is straight on the sheath's axis and massless: a
     /// spring along it and one about it, in series with the hub.</summary>
     /// <remarks>What is simulated begins with an element that is wholly in the sheath until the step's end, however far
-    /// the hub goes: so every joint that comes out, or goes in, does so within a step, and no force and no energy
-    /// changes where an element comes in, with the strain and the twist that the springs have. It goes again where the
-    /// next one is well inside too. What is simulated is rebuilt whenever that happens.</remarks>
+    /// the hub goes, by the hub's position and, where the wire is stretched, by its own: so every joint that comes out,
+    /// or goes in, does so within a step, and no force and no energy changes where an element comes in, with the strain
+    /// and the twist that the springs have. It goes again where the next one is well inside too. What is simulated is
+    /// rebuilt whenever that happens.</remarks>
     internal sealed class SheathStep : TimeStepper
     {
         private const double Late = 0.3;        // of an element's length, by which it goes late
@@ -131,15 +132,16 @@ namespace Guidewire.Core
         {
             int first = _window.First;
             double[] station = _setup.Stations;
-            double exit = _window.ExitFrom(_drive.Hub.PositionAt(_dynamics.Time))
-                - Math.Max(0.0, _drive.NextMove(_dynamics.Time));
-            while (first > 0 && station[first + 1] > exit)
+            double move = Math.Max(0.0, _drive.NextMove(_dynamics.Time));
+            double exit = _window.ExitFrom(_drive.Hub.PositionAt(_dynamics.Time)) - move;
+            while (first > 0 && Math.Max(station[first + 1] - exit, _window.Outside(_shape.X[first + 1]) + move) > 0.0)
             {
                 first--;
                 Enter(first);
             }
             int last = _shape.ElementCount - LeastElements;
-            while (first < last && station[first + 2] < exit - Late * _whole.Rod.Length[first + 1])
+            while (first < last && Math.Max(station[first + 2] - exit, _window.Outside(_shape.X[first + 2]) + move)
+                < -Late * _whole.Rod.Length[first + 1])
             {
                 first++;
             }

@@ -9,8 +9,8 @@ namespace Guidewire.Core
     /// p'), where ' was a stage before, x' = 2 x - x~ with x~ where the nodes would go without forces: where p is 0,
     /// that is free flight, and a wire that slides along its walls preserves its shape. Free flight alone would leave
     /// the curve by p^2/2 of its curvature, and lengthen elements that turn. Beyond the tip of an outer instrument s,
-    /// p and p' are the inner one's: what slid out in the stage before is no change of shape. Each element turns with
-    /// its chord, and about it by its spin.</remarks>
+    /// p and p' are the inner one's: what slid out in the stage before is no change of shape. Nodes in a
+    /// sheath stay on its axis. Each element turns with its chord, and about it by its spin.</remarks>
     internal sealed class WallPrediction
     {
         private const int MostParts = 16;
@@ -111,6 +111,7 @@ namespace Guidewire.Core
                 double travel = _travel + _slide[i];
                 _point[i] = PointOn(_before, _at[i] + fraction * travel, ref at) + fraction * _change[i];
             }
+            StraightenInSheath(last);
             predicted.X[0] = _isHeld ? Vector3d.Lerp(_before[0], _start, fraction) : _point[0];
             PlaceAtLengths(_point, predicted.X, last, fraction);
             _projection.Apply(shape, predicted, last);
@@ -140,6 +141,16 @@ namespace Guidewire.Core
             Vector3d spin = RotationVector.Log(shape.Q[j].Conjugate * orientations[j]);
             predicted.Q[j] = ShortestRotation(before, after) * shape.Q[j]
                 * RotationVector.Exp(new Vector3d(0.0, 0.0, spin.Z));
+        }
+
+        // The curve through nodes near the exit bends before it, which no sheath lets a wire do.
+        private void StraightenInSheath(int last)
+        {
+            SheathEnd? sheath = _supports.SheathEnd;
+            for (int i = 0; i <= last && sheath != null && sheath.Outside(_point[i]) < 0.0; i++)
+            {
+                _point[i] = sheath.OnAxis(_point[i]);
+            }
         }
 
         // What slides out of outer instruments in the stage, and where nodes are before it does; in the stage before,

@@ -185,7 +185,7 @@ namespace Guidewire.Core.Tests
         {
             if (start.Stepper is CoaxialStep coaxial)
             {
-                return (coaxial.SerializeStep, () => coaxial.Advance(start.State));
+                return (coaxial.SerializeStep, () => coaxial.Step());
             }
             DirectStep step = start.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)start.Stepper;
             return (step.SerializeStep, () => step.Step());
