@@ -7,7 +7,6 @@ namespace Guidewire.Unity.Tests
     /// <summary>The package's samples, in a scene that is made here: a vessel of a mesh, turned, moved and scaled,
     /// and the
     /// wire's object in another place.</summary>
-    [TestFixture]
     public sealed class SampleTests
     {
         private const float Scale = 0.001f;

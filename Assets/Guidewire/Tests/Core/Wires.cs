@@ -66,7 +66,12 @@ namespace Guidewire.Core.Tests
         /// <summary>Runs to its end.</summary>
         public static Simulation Run(SimulationParameters parameters)
         {
-            Simulation simulation = Simulation.Create(parameters);
+            return Run(Simulation.Create(parameters));
+        }
+
+        /// <summary>Goes on to the run's end.</summary>
+        public static Simulation Run(Simulation simulation)
+        {
             while (simulation.Outcome == Outcome.Running)
             {
                 simulation.Step();
@@ -77,8 +82,31 @@ namespace Guidewire.Core.Tests
         /// <summary>Runs to its end, which must be that of its last step.</summary>
         public static Simulation Finish(SimulationParameters parameters)
         {
-            Simulation simulation = Run(parameters);
+            return Finish(Simulation.Create(parameters));
+        }
+
+        /// <summary>Goes on to the run's end, which must be that of its last step.</summary>
+        public static Simulation Finish(Simulation simulation)
+        {
+            Run(simulation);
             Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+            return simulation;
+        }
+
+        /// <summary>Makes so many steps.</summary>
+        public static void Step(Simulation simulation, int steps)
+        {
+            for (int i = 0; i < steps; i++)
+            {
+                simulation.Step();
+            }
+        }
+
+        /// <summary>Makes so many steps, which must not be its last.</summary>
+        public static Simulation GoOn(Simulation simulation, int steps)
+        {
+            Step(simulation, steps);
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running), simulation.Reason);
             return simulation;
         }
 

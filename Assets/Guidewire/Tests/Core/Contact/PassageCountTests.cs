@@ -5,7 +5,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Which of the points that are outside after a step passed the wall, and which left by an open rim, at a
     /// tube of radius 1 from z = 0 on; the wire goes in from z below 0.</summary>
-    [TestFixture]
     internal sealed class PassageCountTests
     {
         private const int Elements = 15;

@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Closest points against enumeration over features, and the degenerate cases one by one.</summary>
-    [TestFixture]
     internal sealed class ClosestPointsTests
     {
         // Figures have size 1; the promise is 1e-9 of the size.

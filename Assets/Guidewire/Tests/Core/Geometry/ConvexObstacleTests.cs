@@ -5,7 +5,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>GJK and EPA against closed forms and enumeration.</summary>
-    [TestFixture]
     internal sealed class ConvexObstacleTests
     {
         private const double Tolerance = 1e-9;

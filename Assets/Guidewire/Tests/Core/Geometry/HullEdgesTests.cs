@@ -5,7 +5,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Edges of hulls, and what segments meet of them.</summary>
-    [TestFixture]
     public sealed class HullEdgesTests
     {
         private const double Flatness = 1e-9;

@@ -7,7 +7,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What a run says of whether its result is to be trusted, and what it logs where it is not.</summary>
-    [TestFixture]
     public sealed class ReliableRunTests : FolderTests
     {
         private const string Tube = "\"vessel\": {\"shape\": \"tube\", \"knots\": [[0, 0, -30], [0, 0, 65]],"

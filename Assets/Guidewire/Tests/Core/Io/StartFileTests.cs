@@ -9,7 +9,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Runs that start from a file.</summary>
-    [TestFixture]
     public sealed class StartFileTests : FolderTests
     {
         private const int N = 6;

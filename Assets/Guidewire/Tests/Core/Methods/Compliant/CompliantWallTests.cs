@@ -75,8 +75,7 @@ namespace Guidewire.Core.Tests
             scene.Scene.Gravity = Slope(Vector3d.UnitZ);
             scene.Method.ConstraintSolverSteps = sweeps;
             scene.Method.MaxSimulationSteps = steps;
-            Simulation run = Wires.Run(scene);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(scene);
             Assert.That(run.State.Positions[5].Z, Is.EqualTo(150.0).Within(creep));
         }
 
@@ -129,8 +128,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters scene = Arch(15, 60.0, ArchVessel.Shape);
             scene.Scene.Gravity = new Vector3d(0.0, -Gravity, 0.0);
-            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             Assert.That(ArchVessel.PointsOutside(run.State), Is.EqualTo(0));
             Assert.That(run.Contacts.LargestForce, Is.GreaterThan(0.0));
@@ -243,8 +241,7 @@ namespace Guidewire.Core.Tests
             scene.Drive.Kind = Drive.Displace;
             scene.Drive.DisplacementPerStep = -0.2;
             scene.Method.MaxSimulationSteps = 15;
-            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             ContactRecord contacts = run.Contacts!;
             Assert.That(contacts.Passages, Is.EqualTo(0));
             Assert.That(contacts.DriveAsked, Is.EqualTo(3.0).Within(1e-9));
@@ -260,8 +257,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters scene = Lying(0.0);
             scene.Scene.Gravity = new Vector3d(0.0, -200.0 * Gravity, 0.0);
             scene.Contact.ContactStiffness = 1e-9;
-            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             for (int i = 0; i <= 10; i++)
             {

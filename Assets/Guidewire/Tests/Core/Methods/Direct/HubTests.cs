@@ -64,10 +64,7 @@ namespace Guidewire.Core.Tests
             steered.Scene.Gravity = held.Scene.Gravity;
             steered.Drive.Steering = new Steering();
             Simulation byHand = Simulation.Create(steered);
-            for (int k = 0; k < held.Method.MaxSimulationSteps; k++)
-            {
-                byHand.Step();
-            }
+            Wires.Step(byHand, held.Method.MaxSimulationSteps);
             Assert.That(byHand.State.Positions, Is.EqualTo(Wires.Finish(held).State.Positions));
         }
 

@@ -21,8 +21,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.Substeps = substeps;
             parameters.Scene.TipForce = new Vector3d(0.0, 0.0, 0.3);
             parameters.Scene.InitialState = InitialState.Equilibrium;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double strain = run.State.Positions[30].Z / 300.0 - 1.0;
             Assert.That(strain, Is.EqualTo(0.3 / (1e6 * Rods.Area)).Within(tolerance));
         }
@@ -36,8 +35,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
             parameters.Method.Substeps = substeps;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double fall = -1e-3 * run.State.Positions[17].Y;
             Assert.That(fall, Is.EqualTo(0.5 * 9.81 * 4.0).Within(tolerance * 0.5 * 9.81 * 4.0 * 1.0001));
         }

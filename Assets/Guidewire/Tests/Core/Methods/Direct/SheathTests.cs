@@ -97,11 +97,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Sheathed(40, 0.2, 25.0);
             parameters.Drive.InsertionSpeed = -2.0 * Speed;
             parameters.Method.MaxSimulationSteps = 300;
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
+            Simulation run = Wires.Run(parameters);
             double asked = 1e3 * 2.0 * Speed * 300 * parameters.Method.TimeStep;
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(asked).Within(1e-9));
@@ -237,10 +233,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             Vector3d start = run.State.Positions[0];
             hand.Push = way;
-            for (int k = 0; k < 100; k++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 100);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "steering has no end: " + run.Reason);
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
             double gone = way * (run.State.Positions[0].Z - start.Z);
@@ -252,10 +245,7 @@ namespace Guidewire.Core.Tests
             run.Step();
             Assert.That(Vector3d.Distance(run.State.Positions[0], end), Is.LessThan(1e-6));
             hand.Push = -way;
-            for (int k = 0; k < 10; k++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 10);
             Assert.That(way * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
             run.End(Outcome.Interrupted, "that will do");
             Assert.That(run.Reason, Does.Contain("reached an end of its sheath"));

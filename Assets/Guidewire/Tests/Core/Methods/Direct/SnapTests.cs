@@ -99,8 +99,7 @@ namespace Guidewire.Core.Tests
                 SimulationParameters parameters = PulledInATube(step);
                 parameters.Method.Integrator = integrator;
                 Vector3d tip = parameters.Scene.Start!.Positions[parameters.Scene.NumberRodElements];
-                Simulation run = Wires.Run(parameters);
-                Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+                Simulation run = Wires.Finish(parameters);
                 Assert.That(run.Report()!.HalvedSteps, Is.GreaterThan(0L), "no step was too long");
                 Vector3d[] x = run.State.Positions;
                 Assert.That(Vector3d.Distance(x[x.Length - 1], tip), Is.GreaterThan(1.0), "the slack is pulled out");

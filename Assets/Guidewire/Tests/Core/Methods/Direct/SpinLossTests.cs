@@ -98,11 +98,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Start = new RodStart(x, q, v, w);
             Simulation run = Simulation.Create(parameters);
             Vector3d before = AngularMomentum(run.State);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Wires.Finish(run);
             lost = 1.0 - Vector3d.Dot(AngularMomentum(run.State), before) / before.LengthSquared;
             return run;
         }

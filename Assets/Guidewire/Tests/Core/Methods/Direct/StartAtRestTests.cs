@@ -22,8 +22,7 @@ namespace Guidewire.Core.Tests
             again.Scene.Start = new RodStart(rest.State.Positions, rest.State.Orientations, null, null);
             again.Method.MaxSimulationSteps = 300;
             again.Method.DeltaThreshold = 0.0;
-            Simulation simulation = Wires.Run(again);
-            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+            Simulation simulation = Wires.Finish(again);
             Assert.That(Vector3d.Distance(simulation.State.Positions[N], rest.State.Positions[N]),
                 Is.LessThan(millimetres));
         }
@@ -97,8 +96,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(problem != null, Is.EqualTo(isOutside), problem ?? solver.ToString());
                 if (!isOutside)
                 {
-                    Simulation simulation = Wires.Run(parameters);
-                    Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+                    Simulation simulation = Wires.Finish(parameters);
                     Assert.That(Math.Abs(simulation.State.Positions[5].Y), Is.LessThan(0.06), solver.ToString());
                 }
             }

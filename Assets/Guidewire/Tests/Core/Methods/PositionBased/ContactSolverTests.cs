@@ -6,7 +6,6 @@ namespace Guidewire.Core.Tests
     /// <summary>How a step between walls is divided, what of the drive is left, and how deep the wire is said to
     /// lie.</summary>
     [Category("Target")]
-    [TestFixture]
     internal sealed class ContactSolverTests
     {
         private const int Elements = 6;

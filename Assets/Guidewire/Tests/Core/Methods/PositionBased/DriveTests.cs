@@ -64,10 +64,7 @@ namespace Guidewire.Core.Tests
                 Pbd = { TotalMass = 0.01 },
                 Method = { ConstraintSolverSteps = 20 },
             });
-            for (int step = 0; step < 50; step++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 50);
             Vector3d centre = Vector3d.Zero;
             foreach (Vector3d x in run.State.Positions)
             {
@@ -87,10 +84,7 @@ namespace Guidewire.Core.Tests
                 Scene = { Gravity = new Vector3d(0.0, -9.81, 0.0) },
                 Method = { Integrator = Integrator.Euler },
             });
-            for (int step = 0; step < 100; step++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 100);
             foreach (Vector3d x in run.State.Positions)
             {
                 Assert.That(x.Y, Is.EqualTo(-9.81 * 1e-4 * 100 * 101 / 2.0).Within(1e-10));

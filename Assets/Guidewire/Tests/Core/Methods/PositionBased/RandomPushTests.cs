@@ -6,7 +6,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Wires of all kinds pushed hard into the vessel of the scenes: nothing passes its wall, and they
     /// move.</summary>
-    [TestFixture]
     internal sealed class RandomPushTests
     {
         [Test]

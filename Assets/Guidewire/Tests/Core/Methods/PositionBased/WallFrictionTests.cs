@@ -6,7 +6,6 @@ namespace Guidewire.Core.Tests
     /// <summary>Coulomb friction of walls: what it takes to push a wire, what a wire at rest holds, how a wire slides
     /// down a slope.</summary>
     [Category("Target")]
-    [TestFixture]
     internal sealed class WallFrictionTests
     {
         private const double Coefficient = 0.3;
@@ -72,10 +71,7 @@ namespace Guidewire.Core.Tests
             p.Drive.Kind = Drive.Force;
             p.Method.Damping = 0.0;
             Simulation simulation = Simulation.Create(p);
-            for (int k = 0; k < Steps; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, Steps);
             double speed = 0.0;
             foreach (Vector3d v in simulation.State.Velocities)
             {
@@ -145,10 +141,7 @@ namespace Guidewire.Core.Tests
             double dt = p.Method.TimeStep;
             expected = (fraction - 1.0) * friction * dt / (p.Method.Damping * p.Pbd.TotalMass) * Steps * dt;
             Simulation simulation = Simulation.Create(p);
-            for (int k = 0; k < 500; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 500);
             var before = (Vector3d[])simulation.State.Positions.Clone();
             for (int k = 0; k < 2 * Steps; k++)
             {

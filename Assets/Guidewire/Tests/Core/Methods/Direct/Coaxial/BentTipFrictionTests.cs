@@ -84,13 +84,7 @@ namespace Guidewire.Core.Tests
             catheter.Drive.InsertionSpeed = 1e-3 * Asked / 1.2;
             catheter.Drive.HubForceLimit = limit;
             parameters.Scene.Catheters = new[] { catheter };
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return run;
+            return Wires.Finish(parameters);
         }
     }
 }

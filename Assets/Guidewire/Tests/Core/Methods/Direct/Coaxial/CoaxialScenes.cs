@@ -103,21 +103,5 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             return work;
         }
-
-        /// <summary>Bytes that 20 steps of a run leave after 20 others.</summary>
-        public static long Garbage(SimulationParameters parameters)
-        {
-            Simulation run = Simulation.Create(parameters);
-            void Steps()
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            }
-
-            Steps();
-            return Tests.Garbage.LeftBy(Steps);
-        }
     }
 }

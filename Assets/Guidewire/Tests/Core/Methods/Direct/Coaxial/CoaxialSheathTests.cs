@@ -41,8 +41,8 @@ namespace Guidewire.Core.Tests
                         TorsionalStiffness = 1e-10 },
                 };
             }
-            Simulation one = Finished(alone);
-            Simulation two = Finished(both);
+            Simulation one = Wires.Finish(alone);
+            Simulation two = Wires.Finish(both);
             Vector3d tip = isCatheter ? two.Coaxial()!.Positions[60] : two.State.Positions[60];
             double force = isCatheter ? two.Coaxial()!.Force : two.Hub()!.Force;
             TestContext.WriteLine("{0} and {1}; {2:G6} and {3:G6} N", one.State.Positions[60], tip,
@@ -240,7 +240,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Fed();
             parameters.Drive.InsertionSpeed = 1e-5;
             parameters.Scene.Catheters[0].Drive.InsertionSpeed = 1e-5;
-            Assert.That(CoaxialScenes.Garbage(parameters), Is.Zero);
+            Assert.That(Garbage.LeftBySteps(Simulation.Create(parameters), 20, 20), Is.Zero);
         }
 
         [TestCase(90.0, "catheters[0] has to start with its hub in the sheath: it is 0.01 m beyond")]
@@ -298,17 +298,6 @@ namespace Guidewire.Core.Tests
         private static ContactShape[] FarWall()
         {
             return new ContactShape[] { new PlaneShape(new Vector3d(0.0, -500.0, 0.0), Vector3d.UnitY) };
-        }
-
-        private static Simulation Finished(SimulationParameters parameters)
-        {
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return run;
         }
     }
 }

@@ -179,16 +179,9 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = OnAnIncline(mu, slope);
             double angle = Math.Atan(slope);
             Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 200; k++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 200);
             double speed = run.State.Velocities[5].Z;
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Wires.Finish(run);
             double gain = run.State.Velocities[5].Z - speed;
             double excess = 9810.0 * (Math.Sin(angle) - mu * Math.Cos(angle));
             if (excess > 0.0)

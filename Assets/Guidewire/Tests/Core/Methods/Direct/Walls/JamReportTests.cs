@@ -6,7 +6,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What is said of a wire between walls whose step has no solution.</summary>
-    [TestFixture]
     internal sealed class JamReportTests
     {
         /// <summary>A hub that goes on where the walls bar its way: its force and the contact that bears most of it,

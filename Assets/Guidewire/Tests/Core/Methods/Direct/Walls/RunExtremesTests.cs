@@ -9,7 +9,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void WireThatLiesInATube_IsPushedByItsWeightPerLengthAndDiameter()
         {
-            Simulation run = Run(Level(0.0), 400);
+            Simulation run = Wires.GoOn(Simulation.Create(Level(0.0)), 400);
             double weight = 6450.0 * Math.PI * 0.16e-6 * 9.81;   // N/m
             ContactRecord contacts = run.Contacts!;
             Vector3d sum = Vector3d.Zero;
@@ -38,7 +38,7 @@ namespace Guidewire.Core.Tests
             parameters.Contact.ContactDistance = 1e-5;
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = 0.1;
-            Simulation run = Run(parameters, 200);
+            Simulation run = Wires.GoOn(Simulation.Create(parameters), 200);
             double before = run.Report()!.Extremes!.FrictionWork;
             double push = run.Contacts!.Reaction.Z;
             double drag = 40.0 * 6450.0 * Math.PI * 0.16e-6 * 0.3 * 0.02;
@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
             parameters.Material.Sections = Array.Empty<WireSection>();
             parameters.Scene.Gravity = new Vector3d(0.0, 0.0, 9.81);
             parameters.Scene.InitialState = InitialState.Equilibrium;
-            Simulation run = Run(parameters, 1);
+            Simulation run = Wires.GoOn(Simulation.Create(parameters), 1);
             double wire = 6450.0 * Math.PI * 0.445e-3 * 0.445e-3;    // kg/m
             double section = Math.PI * (0.83e-3 * 0.83e-3 - 0.6e-3 * 0.6e-3);
             // Below the middle of the first element; the catheter's axis has all of the axial force.
@@ -113,10 +113,7 @@ namespace Guidewire.Core.Tests
         public void Extremes_GoOnWithTheRun()
         {
             Simulation run = Simulation.Create(WallScenes.Arch(30, 0.01, 100.0, 60.0));
-            for (int k = 0; k < 50; k++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 50);
             Simulation next = Simulation.Restore(WallScenes.Arch(30, 0.01, 100.0, 60.0), run.Save());
             Assert.That(next.Report()!.Extremes!.WallPressure, Is.EqualTo(run.Report()!.Extremes!.WallPressure));
             Assert.That(next.Contacts!.ElementForces, Is.EqualTo(run.Contacts!.ElementForces));
@@ -144,17 +141,6 @@ namespace Guidewire.Core.Tests
             {
                 FrictionCoefficient = friction,
             };
-        }
-
-        private static Simulation Run(SimulationParameters parameters, int steps)
-        {
-            Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < steps; k++)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
-            return run;
         }
     }
 }

@@ -106,8 +106,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 12;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double change = (run.State.Positions[30].Z - run.State.Positions[0].Z) / 300.0 - 1.0;
             Assert.That(change, Is.LessThan(-0.02));
             Assert.That(run.Warnings, Does.Contain(string.Format(System.Globalization.CultureInfo.InvariantCulture,
@@ -131,8 +130,7 @@ namespace Guidewire.Core.Tests
             parameters.Material.MassDamping = 40.0;    // 1/s
             parameters.Method.SolverTolerance = 1e-9;
             parameters.Method.MaxSimulationSteps = 400;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
             Assert.That(run.Contacts!.Total.Y, Is.EqualTo(weight).Within(1e-6 * weight));
             Assert.That(Math.Abs(run.Contacts.Total.X), Is.LessThan(1e-6 * weight));
@@ -146,8 +144,7 @@ namespace Guidewire.Core.Tests
         [TestCase(1000.0, 0.01)]
         public void Push_IntoAnArch_StaysInside(double speed, double timeStep)
         {
-            Simulation run = Wires.Run(WallScenes.Arch(60, timeStep, speed, 150.0));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Arch(60, timeStep, speed, 150.0));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             Assert.That(run.Contacts.MaxPenetration, Is.EqualTo(0.0));
             Assert.That(run.Contacts.DriveAsked, Is.EqualTo(150.0).Within(1e-9));
@@ -161,8 +158,7 @@ namespace Guidewire.Core.Tests
         public void ElementsBetweenNodes_KeepOffTheInnerWall()
         {
             // 12 elements of 25 mm: their chords would cut 3 mm into the inner side of the bend.
-            Simulation run = Wires.Run(WallScenes.Arch(24, 0.01, 50.0, 100.0));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Arch(24, 0.01, 50.0, 100.0));
             Assert.That(run.Contacts!.MaxPenetration, Is.EqualTo(0.0));
             Assert.That(run.State.Positions[24].Y, Is.GreaterThan(50.0));
         }
@@ -342,8 +338,7 @@ namespace Guidewire.Core.Tests
                     new Vector3d(0.0, 0.0, 22.0), new Vector3d(0.0, 0.0, 32.0), new Vector3d(0.0, 40.0, 200.0),
                 },
                 new[] { 3.0, 3.0, 0.48, 0.48, 3.0, 3.0 }, true, true) };
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             parameters.Contact.ContactDistance = 1e-4;
             run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
