@@ -33,7 +33,7 @@ def instruments_and_sheath(run: Run, log: PositionLog) -> tuple[tuple[Instrument
             for hub in ("hub", *(f"hub{k + 1}" for k in range(len(log.catheters))))]
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")    # they were told when the run was made
+            warnings.simplefilter("ignore")    # they were shown when the run was made
             with Session(run.folder / PARAMETERS_NAME, hand=False) as session:
                 return instruments_of(session.describe()["instruments"], hubs), recording.sheath
     except SessionError as error:

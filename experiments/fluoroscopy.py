@@ -57,7 +57,7 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
     images = []
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")    # they were told when the run was made
+            warnings.simplefilter("ignore")    # they were shown when the run was made
             session = Session(run.folder / PARAMETERS_NAME, hand=False)
         with session:
             for k in chosen:

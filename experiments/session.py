@@ -91,8 +91,8 @@ class Session:
 
         Parameters
         ----------
-        push : way of the first sphere in all of them, units; negative values pull. Along the first element, or along
-            displacementDirection where the drive of a wire with a material is "displace".
+        push : displacement of the first sphere in all of them, units; negative values pull. Along the first element,
+            or along displacementDirection where the drive of a wire with a material is "displace".
         turn : turn of the first element about its axis in all of them, rad.
         steps : number of steps, from 1; push and turn are made in equal parts.
         hub : whose hub push and turn move, along and about its axis: 0 the wire's, k that of catheter k; the others

@@ -94,7 +94,7 @@ def _described(folder: Path) -> dict[str, Any]:
     """What pictures need to know of a run; empty where its parameters cannot be used any more."""
     try:
         with warnings.catch_warnings():
-            warnings.simplefilter("ignore")    # they were told when the run was made
+            warnings.simplefilter("ignore")    # they were shown when the run was made
             with Session(folder / PARAMETERS_NAME, hand=False, native=False) as session:
                 return session.describe()
     except SessionError as error:

@@ -43,7 +43,7 @@ def test_force_is_compared_at_the_measured_times_with_known_errors(tmp_path):
     assert isinstance(found, ComparedForce) and found.left_out == 1
     np.testing.assert_allclose(found.run, [0.3, 2.1, 4.2], atol=1e-12)
     np.testing.assert_allclose(found.errors, [0.0, 0.1, 0.0], atol=1e-12)
-    said = found.told()
+    said = found.summary()
     assert "RMS error 0.0577 N (1.37 % of the measured peak), largest 0.1 N at t = 0.7 s" in said
     assert "3 values within the run, 1 more outside" in said
     figure = draw_comparison(found)
@@ -57,7 +57,7 @@ def test_shape_is_compared_by_the_distance_of_its_points_from_the_wire(tmp_path)
     assert isinstance(found, ComparedShapes) and found.left_out == 0
     np.testing.assert_allclose(found.distances[0], [0.0, 3.0, 4.0], atol=1e-12)
     np.testing.assert_allclose(found.distances[1], [1.0], atol=1e-12)
-    assert "RMS distance 2.55 units, largest 4 units at t = 0.25 s; 4 points, 2 shapes" in found.told()
+    assert "RMS distance 2.55 units, largest 4 units at t = 0.25 s; 4 points, 2 shapes" in found.summary()
     figure = draw_comparison(found)
     assert [line.get_xdata().size for line in figure.axes[0].lines] == [NODES, 3, NODES, 1]
     assert figure.axes[2].lines[0].get_ydata() == pytest.approx([4.0, 1.0])

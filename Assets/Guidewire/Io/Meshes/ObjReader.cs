@@ -29,13 +29,13 @@ namespace Guidewire.Io
             while (lines.Next())
             {
                 string word = lines.Words.Length > 0 ? lines.Words[0] : "";
-                string? complaint = word == "v" ? ReadVertex(lines, vertices)
+                string? problem = word == "v" ? ReadVertex(lines, vertices)
                     : word == "f" ? ReadFace(lines, vertices.Count, triangles)
                     : word.Length == 0 || Array.IndexOf(PassedOver, word) >= 0 ? null
                     : lines.Complain("an OBJ word (v, f, ...)");
-                if (complaint != null)
+                if (problem != null)
                 {
-                    return complaint;
+                    return problem;
                 }
             }
             return triangles.Count == 0 ? "has no triangles" : null;

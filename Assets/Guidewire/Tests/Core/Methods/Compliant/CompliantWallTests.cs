@@ -79,7 +79,7 @@ namespace Guidewire.Core.Tests
             Assert.That(run.State.Positions[5].Z, Is.EqualTo(150.0).Within(creep));
         }
 
-        // A cylinder rolls with 2/3 of the slope's share of gravity where friction is above a third of tan(angle), and
+        // A cylinder rolls with 2/3 of the slope's component of gravity where friction is above a third of tan(angle), and
         // slips and spins below; a smooth slope does not turn it.
         [TestCase(0.2, 0.2, 1.0)]
         [TestCase(0.05, 0.25, 0.4)]
@@ -230,7 +230,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Hub_ThatIsPulledAgainstAWall_FallsShort()
         {
-            // Node 0 itself is pulled back to a wall across its way.
+            // Node 0 itself is pulled back to a wall across its path.
             SimulationParameters scene = Lying(0.0);
             scene.Scene.Gravity = Vector3d.Zero;
             scene.Scene.ProximalEnd = ProximalEnd.Clamped;
@@ -268,11 +268,11 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WayAskedFor_IsWhatNode0WentAndWhatIsMissing_WhereTheSweepsHaveNotConverged(
+        public void DisplacementAskedFor_IsWhatNode0WentAndWhatIsMissing_WhereTheSweepsHaveNotConverged(
             [Values(1, 3, 10, 40)] int substeps, [Values(1, 3)] int sweeps)
         {
             // Pushed against a plane across its axis, 0.4 mm a step, with substeps that are too long. A step that
-            // blew up leaves no state, so that the way it asked for is not counted either.
+            // blew up leaves no state, so that the displacement it asked for is not counted either.
             SimulationParameters scene = Lying(0.0);
             scene.Scene.Gravity = Vector3d.Zero;
             scene.Scene.ProximalEnd = ProximalEnd.Clamped;
@@ -301,9 +301,9 @@ namespace Guidewire.Core.Tests
             Assert.That(isWarned, Is.True, "the scene is to be one that does not converge: " + run.Reason);
         }
 
-        private static SimulationParameters Arch(int n, double way, ContactShape vessel)
+        private static SimulationParameters Arch(int n, double length, ContactShape vessel)
         {
-            SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, way);
+            SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, length);
             scene.Scene.Walls = new[] { vessel };
             scene.Material.MassDamping = 20.0;    // 1/s
             return scene;

@@ -267,7 +267,7 @@ namespace Guidewire.Core.Tests
             return 0.5 * Math.Log(first / last) / Periods;
         }
 
-        /// <summary>A straight wire with the velocities of a mode, whose tip would swing by this share of L.</summary>
+        /// <summary>A straight wire with the velocities of a mode, whose tip would swing by this fraction of L.</summary>
         private static RodDynamics Swinging(MaterialRod rod, int mode, Integrator integrator, double amplitude,
             out double omega)
         {

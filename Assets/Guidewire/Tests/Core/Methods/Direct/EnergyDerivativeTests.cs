@@ -194,8 +194,7 @@ namespace Guidewire.Core.Tests
         private static RodVector[] Gradient(EnergyTerm term, RodShape shape)
         {
             var gradient = new RodVector[N + 2];
-            var measured = default(GradientMeasures);
-            term.AddGradient(shape, gradient, 0, N + 1, ref measured);
+            term.AddGradient(shape, gradient);
             return gradient;
         }
 

@@ -45,20 +45,20 @@ namespace Guidewire.Core.Tests
         public void WirePushedFar_GoesThere(Drive drive)
         {
             // 10 m/s from the first step on, 4 m in all: 13 wire lengths. Jerked so, the wire bends, and a push follows
-            // its first element: the way is as asked, its end somewhat nearer.
+            // its first element: the path is as long as asked, its end somewhat nearer.
             SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, 1e-3, 400);
             parameters.Drive.Kind = drive;
             parameters.Drive.DisplacementPerStep = 10.0;
             Simulation run = Simulation.Create(parameters);
-            double way = 0.0;
+            double gone = 0.0;
             while (run.Outcome == Outcome.Running)
             {
                 Vector3d before = run.State.Positions[0];
                 run.Step();
-                way += Vector3d.Distance(before, run.State.Positions[0]);
+                gone += Vector3d.Distance(before, run.State.Positions[0]);
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(way, Is.EqualTo(4000.0).Within(1e-6));
+            Assert.That(gone, Is.EqualTo(4000.0).Within(1e-6));
             Assert.That(run.State.Positions[0].Z, Is.EqualTo(4000.0).Within(drive == Drive.Displace ? 1e-6 : 300.0));
             Assert.That(run.State.Positions[30].Z, Is.EqualTo(4300.0).Within(300.0));
         }

@@ -16,7 +16,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Esdirk4, 0.2 * Rods.Radius, 5e-5)]
         public void Pendulum_LetGoLevel_KeepsItsEnergy(Integrator scheme, double radius, double fraction)
         {
-            // On a ball joint, 2 s; as a share of m g L/2, the energy that falling turns into motion.
+            // On a ball joint, 2 s; as a fraction of m g L/2, the energy that falling turns into motion.
             const int N = 30;
             const double Gravity = 9.81;
             MaterialRod rod = MaterialRod.Round(N, Rods.Length, radius, Rods.Young, Rods.Shear, Rods.Density);

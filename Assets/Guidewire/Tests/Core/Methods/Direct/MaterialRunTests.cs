@@ -10,7 +10,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Units_AreThoseOfTheScene()
         {
-            // The same wire told in millimetres and in metres.
+            // The same wire stated in millimetres and in metres.
             SimulationParameters millimetres = Cantilever(12, Solver.Direct, Integrator.Esdirk3, 1e-3, 40);
             SimulationParameters metres = Cantilever(12, Solver.Direct, Integrator.Esdirk3, 1e-3, 40);
             metres.Scene.GuidewireLength = Rods.Length;

@@ -228,7 +228,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Bent(10, -150.0, 0.1 * TipLength);
             int on = (int)Math.Round(7.3 / perStep);
             int back = (int)Math.Round(7.3 / (1.37 * perStep));
-            double way = on * perStep * TipLength / 10.0;
+            double most = on * perStep * TipLength / 10.0;
             parameters.Scene.TipForce = new Vector3d(0.0, -0.005, 0.0);
             parameters.Material.MassDamping = 0.0;
             double dt = 40.0 * perStep;
@@ -236,7 +236,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.MaxSimulationSteps = 10 + on + back;
             parameters.Drive.Table = new DriveTable(new TimeTable(
-                new[] { 0.0, 10.0 * dt, (10 + on) * dt, (10 + on + back) * dt }, new[] { 0.0, 0.0, way, 0.0 }),
+                new[] { 0.0, 10.0 * dt, (10 + on) * dt, (10 + on + back) * dt }, new[] { 0.0, 0.0, most, 0.0 }),
                 new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
             Simulation run = Simulation.Create(parameters);
             double work = 0.0;
@@ -256,11 +256,11 @@ namespace Guidewire.Core.Tests
             return work;
         }
 
-        private static DriveTable FedAndDrawnBack(int half, double way, SimulationParameters parameters)
+        private static DriveTable FedAndDrawnBack(int half, double most, SimulationParameters parameters)
         {
             double time = half * parameters.Method.TimeStep;
             parameters.Method.MaxSimulationSteps = 2 * half;
-            return new DriveTable(new TimeTable(new[] { 0.0, time, 2.0 * time }, new[] { 0.0, way, 0.0 }),
+            return new DriveTable(new TimeTable(new[] { 0.0, time, 2.0 * time }, new[] { 0.0, most, 0.0 }),
                 new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
         }
 

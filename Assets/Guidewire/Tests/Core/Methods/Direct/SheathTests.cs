@@ -222,7 +222,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double way)
+        public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double sense)
         {
             SimulationParameters parameters = Sheathed(20, 0.1, 25.0);
             var hand = new Steering();
@@ -232,21 +232,21 @@ namespace Guidewire.Core.Tests
             parameters.Material.Sections = Array.Empty<WireSection>();
             Simulation run = Simulation.Create(parameters);
             Vector3d start = run.State.Positions[0];
-            hand.Push = way;
+            hand.Push = sense;
             Wires.Step(run, 100);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "steering has no end: " + run.Reason);
-            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
-            double gone = way * (run.State.Positions[0].Z - start.Z);
-            Assert.That(1e3 * way * run.Hub()!.Insertion, Is.EqualTo(gone).Within(1e-3));
+            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(sense > 0.0 ? 0.1 : 0.0).Within(1e-4));
+            double gone = sense * (run.State.Positions[0].Z - start.Z);
+            Assert.That(1e3 * sense * run.Hub()!.Insertion, Is.EqualTo(gone).Within(1e-3));
             Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(100.0).Within(1e-9));
             Assert.That(run.Contacts.DriveShortfall, Is.EqualTo(100.0 - gone).Within(1e-3));
             // It stays there, and comes away from there as soon as it is asked to.
             Vector3d end = run.State.Positions[0];
             run.Step();
             Assert.That(Vector3d.Distance(run.State.Positions[0], end), Is.LessThan(1e-6));
-            hand.Push = -way;
+            hand.Push = -sense;
             Wires.Step(run, 10);
-            Assert.That(way * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
+            Assert.That(sense * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
             run.End(Outcome.Interrupted, "that will do");
             Assert.That(run.Reason, Does.Contain("reached an end of its sheath"));
         }

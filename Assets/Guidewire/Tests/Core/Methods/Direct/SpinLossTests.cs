@@ -36,8 +36,8 @@ namespace Guidewire.Core.Tests
                 return;
             }
             Assert.That(run.Reason, Does.Contain(Warned));
-            string told = run.Reason.Split(new[] { "by some " }, StringSplitOptions.None)[1].Split(new[] { ' ' })[0];
-            double expected = 0.01 * double.Parse(told, System.Globalization.CultureInfo.InvariantCulture);
+            string stated = run.Reason.Split(new[] { "by some " }, StringSplitOptions.None)[1].Split(new[] { ' ' })[0];
+            double expected = 0.01 * double.Parse(stated, System.Globalization.CultureInfo.InvariantCulture);
             Assert.That(Math.Abs(lost), Is.EqualTo(expected).Within(expected / 3.0));
         }
 

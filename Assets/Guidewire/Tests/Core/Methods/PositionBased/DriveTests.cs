@@ -70,9 +70,9 @@ namespace Guidewire.Core.Tests
             {
                 centre += x / 31.0;
             }
-            double way = 1e-4 * 50 * 51 / 2.0;
-            Assert.That(centre.Y, Is.EqualTo(0.3 * way).Within(1e-10));
-            Assert.That(centre.Z - 30.0, Is.EqualTo(-0.2 * way).Within(1e-10));
+            double fall = 1e-4 * 50 * 51 / 2.0;
+            Assert.That(centre.Y, Is.EqualTo(0.3 * fall).Within(1e-10));
+            Assert.That(centre.Z - 30.0, Is.EqualTo(-0.2 * fall).Within(1e-10));
         }
 
         [Test]

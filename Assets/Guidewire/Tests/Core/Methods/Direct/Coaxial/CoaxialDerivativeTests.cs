@@ -159,8 +159,7 @@ namespace Guidewire.Core.Tests
         private static double[] Gradient(CoaxialPair pair)
         {
             var gradient = new RodVector[pair.Terms.VectorCount];
-            var measured = default(GradientMeasures);
-            pair.Bending.AddGradient(pair.Shape, gradient, 0, pair.Shape.ElementCount + 1, ref measured);
+            pair.Bending.AddGradient(pair.Shape, gradient);
             return Long(pair, gradient);
         }
 

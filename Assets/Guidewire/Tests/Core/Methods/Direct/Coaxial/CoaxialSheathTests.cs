@@ -94,7 +94,7 @@ namespace Guidewire.Core.Tests
                 return pair.Terms.Potential(pair.Shape);
             }
 
-            // The outer hub's node is at rest: what it is moved is the way into the sheath alone, and the lead.
+            // The outer hub's node is at rest: what it is moved is the displacement into the sheath alone, and the lead.
             double outer = EnergySlopes.Difference(1e-4, d => Energy(d, d, 0.0));
             double scale = Math.Abs(force) + Math.Abs(wire);
             Assert.That(Math.Abs(force), Is.GreaterThan(1e-4));

@@ -99,7 +99,7 @@ namespace Guidewire.Core.Tests
             var friction = new LumenFriction(mu, 1e-6);
             friction.Slide(1e-3);
             Assert.That(friction.Force(force, angle, end), Is.EqualTo(t + mu * end - force).Within(1e-5));
-            // Drawn back, all signs are reversed; in between after half of the way.
+            // Drawn back, all signs are reversed; in between after half of the distance.
             friction.Slide(-1e-3);
             Assert.That(friction.Force(-force, angle, end), Is.EqualTo(-(t + mu * end - force)).Within(1e-5));
             friction.Slide(1e-6);

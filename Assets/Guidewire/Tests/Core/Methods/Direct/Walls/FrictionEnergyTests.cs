@@ -17,8 +17,7 @@ namespace Guidewire.Core.Tests
         {
             FrictionEnergy friction = Create(elasticSlip, out RodShape shape);
             var gradient = new RodVector[N + 2];
-            var measured = default(GradientMeasures);
-            friction.AddGradient(shape, gradient, 0, N + 1, ref measured);
+            friction.AddGradient(shape, gradient);
             double largest = 0.0;
             double worst = 0.0;
             for (int i = 0; i < 6 * N + 3; i++)
@@ -42,13 +41,12 @@ namespace Guidewire.Core.Tests
             double[,] exact = DenseMatrix.From(blocks, N + 1);
             double largest = 0.0;
             double worst = 0.0;
-            var measured = default(GradientMeasures);
             for (int k = 0; k < 6 * N + 3; k++)
             {
                 var above = new RodVector[N + 2];
                 var below = new RodVector[N + 2];
-                friction.AddGradient(Moved(shape, k, Step), above, 0, N + 1, ref measured);
-                friction.AddGradient(Moved(shape, k, -Step), below, 0, N + 1, ref measured);
+                friction.AddGradient(Moved(shape, k, Step), above);
+                friction.AddGradient(Moved(shape, k, -Step), below);
                 for (int i = k; i < 6 * N + 3; i++)
                 {
                     double difference = (Entry(above, i) - Entry(below, i)) / (2.0 * Step);
@@ -67,14 +65,12 @@ namespace Guidewire.Core.Tests
             // f.u = change of F^2/(2k) + heat + k |change of d|^2/2, the last of which is an implicit step's own.
             FrictionEnergy friction = Create(elasticSlip, out RodShape shape);
             var random = new RandomGeometry(41);
-            var measured = default(GradientMeasures);
-            double stored = 0.0;
             double most = 0.0;
             for (int k = 0; k < 300; k++)
             {
                 friction.EndStep(shape);
                 double heat = friction.Anchors.Dissipated;
-                stored = friction.Anchors.StoredEnergy;
+                double stored = friction.Anchors.StoredEnergy;
                 RodShape before = Rods.Copy(shape);
                 // One node or element after the other goes elsewhere, farther and less far from the walls.
                 int i = random.Index(N);
@@ -82,7 +78,7 @@ namespace Guidewire.Core.Tests
                 shape.Q[i] = shape.Q[i] * RotationVector.Exp(0.1 * random.Point());
                 friction.Lag(shape);
                 var gradient = new RodVector[N + 2];
-                friction.AddGradient(shape, gradient, 0, N + 1, ref measured);
+                friction.AddGradient(shape, gradient);
                 double work = 0.0;
                 for (int j = 0; j <= N; j++)
                 {

@@ -270,8 +270,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a share of the limit at node
-        // 0; with share 0 node 0 is drawn.
+        // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a fraction of the limit at node
+        // 0; with fraction 0 node 0 is drawn.
         private static Simulation OverDrum(double mu, double fraction, out double limit)
         {
             const int n = 70;

@@ -6,7 +6,7 @@ namespace Guidewire.Core.Tests
     /// whatever the numbers of the method are.</summary>
     public sealed class WallIndependenceTests
     {
-        private const double Way = 150.0;    // mm
+        private const double Insertion = 150.0;    // mm
         private const double Gap = 0.05;     // mm
 
         [Test]
@@ -62,7 +62,7 @@ namespace Guidewire.Core.Tests
 
         private static Vector3d Tip(int n, double timeStep, double gap, ContactShape? vessel = null)
         {
-            SimulationParameters parameters = WallScenes.Arch(n, timeStep, 50.0, Way);
+            SimulationParameters parameters = WallScenes.Arch(n, timeStep, 50.0, Insertion);
             parameters.Scene.Walls = vessel == null ? parameters.Scene.Walls : new[] { vessel };
             parameters.Contact.ContactDistance = 1e-3 * gap;
             Simulation run = Wires.Finish(parameters);

@@ -58,7 +58,7 @@ namespace Guidewire.Core.Tests
         /// <summary>A nitinol wire, r = 0.4 mm and 300 mm long, that is pushed from the sheath into the arch.</summary>
         /// <param name="speed">mm/s.</param>
         /// <param name="way">mm.</param>
-        public static SimulationParameters Arch(int n, double timeStep, double speed, double way)
+        public static SimulationParameters Arch(int n, double timeStep, double speed, double insertion)
         {
             var parameters = Wire(n, 0.4e-3);
             parameters.Scene.GuidewireOffset = -300.0;
@@ -66,7 +66,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = speed * timeStep;
             parameters.Method.TimeStep = timeStep;
-            parameters.Method.MaxSimulationSteps = (int)Math.Round(way / (speed * timeStep));
+            parameters.Method.MaxSimulationSteps = (int)Math.Round(insertion / (speed * timeStep));
             return parameters;
         }
 
@@ -116,7 +116,7 @@ namespace Guidewire.Core.Tests
 
         /// <summary>The same scene for xpbd with one sweep a substep; a soft wire's substeps are long.</summary>
         /// <param name="young">E, Pa.</param>
-        /// <param name="share">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
+        /// <param name="fraction">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
         public static SimulationParameters Compliant(SimulationParameters scene, double young, double fraction = 0.4)
         {
             SimulationParameters parameters = Soft(scene, young);
