@@ -11,23 +11,17 @@ import pytest
 from analysis.figures.measured import draw_comparison
 from analysis.logs import LogError
 from analysis.measured import ComparedForce, ComparedShapes, compare
+from analysis.tests.chain import write_log
 
 NODES, ENTRIES, STEP = 5, 4, 0.5  # steps in s
 
 
 def _run(folder: Path, spheres: int = NODES, hub: bool = True) -> Path:
     """A straight wire along z, 10 units a piece, that moves by 2 units a step across; the hub pushes by 3 N/s t."""
-    entries = {}
-    for k in range(ENTRIES):
-        entries[str(k)] = entry = {
-            "totalTime": STEP * k, "elapsedMilliseconds": 0.0, "delta": 0.0,
-            "sphere": {str(i): {"x": 0.0, "y": 2.0 * k, "z": 10.0 * i, "vx": 0.0, "vy": 0.0, "vz": 0.0}
-                       for i in range(spheres)},
-        }
-        if hub:
-            entry["hub"] = {"insertion": 0.0, "turn": 0.0, "force": 3.0 * STEP * k, "torque": 0.0, "twist": 0.0,
-                            "tipDirection": {"x": 0.0, "y": 0.0, "z": 1.0}, "largestCurvature": 0.0}
-    (folder / "positions.json").write_text(json.dumps(entries))
+    hubs = [{"hub": {"insertion": 0.0, "turn": 0.0, "force": 3.0 * STEP * k, "torque": 0.0, "twist": 0.0,
+                     "tipDirection": {"x": 0.0, "y": 0.0, "z": 1.0}, "largestCurvature": 0.0}} for k in range(ENTRIES)]
+    write_log(folder, [[(0.0, 2.0 * k, 10.0 * i) for i in range(spheres)] for k in range(ENTRIES)], STEP,
+              hubs if hub else ())
     return folder
 
 

@@ -24,6 +24,11 @@ SEEDS = range(1000) if FULL else FRACTION
 MATERIAL = {"direct": (300, (3, 6)), "sheath": (150, (3, 7)), "xpbd": (100, (3, 8))}
 CASES = Path(__file__).with_name("wall_cases")
 
+BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)    # its corners
+FACES = np.array([face for a, b, c, d in
+                  [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+                  for face in ((a, b, c), (a, c, d))])
+
 
 def test_pushes_pass_no_wall_freeze_nowhere_and_say_what_is_true(runner_command, tmp_path):
     broken = [f"{push.seed} {push.kind}: {push.claims}" for push in campaign(runner_command, SEEDS, tmp_path)
@@ -72,18 +77,16 @@ def test_a_wire_that_buckles_at_the_exit_of_its_sheath_fails_before_it_is_outsid
                          np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("count", "<u2")]))
     mesh = MeshSearch(data["corners"].astype(float))
     positions = read_log(tmp_path / "run", spheres="all").positions
-    out = positions[positions[..., 2] > json.loads((CASES / "jammed_at_the_exit.json").read_text())["sheath"]["exit"][2]]
+    scene = json.loads((CASES / "jammed_at_the_exit.json").read_text())
+    out = positions[positions[..., 2] > scene["sheath"]["exit"][2]]
     assert len(out) > 1000 and mesh.inside(out).all()
 
 
 def test_a_mesh_that_crosses_itself_is_known():
-    box = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    faces = np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
-    both = np.concatenate([faces, faces + 8])
-    assert not crosses_itself(box, faces)
-    assert crosses_itself(np.concatenate([box, box + [0.7, 0.6, 0.5]]), both)
-    assert not crosses_itself(np.concatenate([box, box + [2.7, 0.6, 0.5]]), both)
+    both = np.concatenate([FACES, FACES + 8])
+    assert not crosses_itself(BOX, FACES)
+    assert crosses_itself(np.concatenate([BOX, BOX + [0.7, 0.6, 0.5]]), both)
+    assert not crosses_itself(np.concatenate([BOX, BOX + [2.7, 0.6, 0.5]]), both)
 
 
 def test_a_seed_is_one_scene_and_seeds_have_all_kinds_and_rules(tmp_path):
@@ -101,9 +104,7 @@ def test_a_seed_is_one_scene_and_seeds_have_all_kinds_and_rules(tmp_path):
 
 
 def _box_mesh(half):
-    corners = half * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return np.array([corners[list(face)] for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
+    return (half * BOX)[FACES]
 
 
 def test_the_search_knows_a_box_from_its_formula():
@@ -120,9 +121,9 @@ def test_the_search_knows_a_box_from_its_formula():
     distance = wall.distance
     assert distance(points) == pytest.approx(signed, abs=1e-12)
     a, b = points[:1000], points[1000:]
-    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    fraction = np.linspace(0.0, 1.0, 2001)[:, None]
     for p, q in zip(a[:6], b[:6]):
-        along = distance((1.0 - share) * p + share * q)
+        along = distance((1.0 - fraction) * p + fraction * q)
         step = np.linalg.norm(q - p) / 2000
         least = wall.least_along(p[None], q[None], np.inf)
         assert along.min() - step <= least <= along.min() + 1e-12
@@ -152,9 +153,9 @@ def test_the_check_finds_what_was_made_wrong():
     steps = 30
     z = 10.0 * np.arange(4)[None] + 0.5 * np.arange(steps + 1)[:, None]
     positions = np.stack([np.full_like(z, 9.0), np.zeros_like(z), z], axis=2)
-    doubt = "the drive fell short: as in the walls' way"
+    warning = "the drive fell short: as walls are in front of it"
     summary = {"passages": 0, "maxPenetration": 1.0, "driveAsked": 0.5 * steps, "driveShortfall": 0.0,
-               "outcome": "finished", "reason": "all steps are done", "warnings": [doubt], "reliable": False}
+               "outcome": "finished", "reason": "all steps are done", "warnings": [warning], "reliable": False}
     trusted = {**summary, "warnings": [], "reliable": True}
     assert _broken(scene, summary, positions) == [] == _broken(scene, trusted, positions)
     assert _broken(scene, {**summary, "reliable": True}, positions) == ["reliable"]

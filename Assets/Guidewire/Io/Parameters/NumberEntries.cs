@@ -18,9 +18,6 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit("a number" + _range.Text);
 
-        /// <summary>The bounds, for whoever offers a slider.</summary>
-        public NumberRange Range => _range;
-
         public override JToken Write(RunParameters source)
         {
             return new JValue(Get(source));

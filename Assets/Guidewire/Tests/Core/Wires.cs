@@ -110,7 +110,8 @@ namespace Guidewire.Core.Tests
             return simulation;
         }
 
-        /// <summary>Runs to its end, and beside it a run that is restored from it after so many steps.</summary>
+        /// <summary>Runs to its end, that of its last step, and beside it a run that is restored from it after so many
+        /// steps.</summary>
         public static Simulation RunAndRestore(SimulationParameters parameters, int steps, out Simulation restored)
         {
             Simulation simulation = Simulation.Create(parameters);
@@ -125,6 +126,7 @@ namespace Guidewire.Core.Tests
                 other?.Step();
             }
             restored = other!;
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
             Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
             Assert.That(restored.State.Orientations, Is.EqualTo(simulation.State.Orientations));
             return simulation;
@@ -140,10 +142,16 @@ namespace Guidewire.Core.Tests
         /// <summary>The largest distance between spheres of the same index.</summary>
         public static double Distance(RodState a, RodState b)
         {
+            return Distance(a.Positions, b.Positions);
+        }
+
+        /// <summary>The largest distance between points of the same index.</summary>
+        public static double Distance(Vector3d[] a, Vector3d[] b)
+        {
             double worst = 0.0;
-            for (int i = 0; i < a.SphereCount; i++)
+            for (int i = 0; i < a.Length; i++)
             {
-                worst = Math.Max(worst, Vector3d.Distance(a.Positions[i], b.Positions[i]));
+                worst = Math.Max(worst, Vector3d.Distance(a[i], b[i]));
             }
             return worst;
         }

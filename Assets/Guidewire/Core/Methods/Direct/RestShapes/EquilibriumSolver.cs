@@ -120,7 +120,7 @@ namespace Guidewire.Core
                     }
                     // A negative eigenvalue within rounding of 0 along which the energy falls neither way is 0: such as
                     // that of a localised helix that moves along the rod.
-                    RodVector[]? undecided = _stability!.Doubtful;
+                    RodVector[]? undecided = _stability!.Undecided;
                     if (undecided != null)
                     {
                         Array.Copy(undecided, _direction, _direction.Length);

@@ -79,8 +79,8 @@ namespace Guidewire.Core.Tests
             Assert.That(run.State.Positions[5].Z, Is.EqualTo(150.0).Within(creep));
         }
 
-        // A cylinder rolls with 2/3 of the slope's component of gravity where friction is above a third of tan(angle), and
-        // slips and spins below; a smooth slope does not turn it.
+        // A cylinder rolls with 2/3 of the slope's component of gravity where friction is above a third of tan(angle),
+        // and slips and spins below; a smooth slope does not turn it.
         [TestCase(0.2, 0.2, 1.0)]
         [TestCase(0.05, 0.25, 0.4)]
         [TestCase(0.0, 0.3, 0.0)]
@@ -102,7 +102,7 @@ namespace Guidewire.Core.Tests
         public void Push_ThroughARoughArch_GoesAsDirectHasIt()
         {
             // 200 pieces: at the edges of coarser ones barriers of any width round off what rigid contact does not.
-            SimulationParameters scene = Arch(24, 60.0, WallScenes.ArchTube(200));
+            SimulationParameters scene = Arch(24, WallScenes.ArchTube(200));
             scene.Scene.Walls[0].FrictionCoefficient = 0.2;
             Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
             SimulationParameters direct = WallScenes.Soft(scene, Young);
@@ -126,7 +126,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Push_ThroughAMesh_PassesNoWall()
         {
-            SimulationParameters scene = Arch(15, 60.0, ArchVessel.Shape);
+            SimulationParameters scene = Arch(15, ArchVessel.Shape);
             scene.Scene.Gravity = new Vector3d(0.0, -Gravity, 0.0);
             Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
@@ -138,7 +138,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Forces_BalanceTheChangeOfMomentum()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             scene.Material.MassDamping = 0.0;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
@@ -161,7 +161,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Run_ThatIsContinued_TakesTheSameSteps()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             scene.Drive.TwistPerStep = 0.02;
             SimulationParameters parameters = WallScenes.Compliant(scene, Young);
@@ -187,7 +187,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Run_GoesOnWithoutItsWalls_AndBetweenThemAgain_AndFromAnotherMethod()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             SimulationParameters between = WallScenes.Compliant(scene, Young);
             SimulationParameters without = between.Copy();
             without.Scene.Walls = Array.Empty<ContactShape>();
@@ -208,7 +208,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Steps_LeaveNoGarbage()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
             long left = Garbage.LeftBySteps(run, 40, 10);
@@ -219,7 +219,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void StartOutside_IsRefusedByItsElement()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Material.WireRadius = 3.2e-3;
             ArgumentException? error = Assert.Throws<ArgumentException>(
                 () => Simulation.Create(WallScenes.Compliant(scene, Young)));
@@ -301,9 +301,9 @@ namespace Guidewire.Core.Tests
             Assert.That(isWarned, Is.True, "the scene is to be one that does not converge: " + run.Reason);
         }
 
-        private static SimulationParameters Arch(int n, double length, ContactShape vessel)
+        private static SimulationParameters Arch(int n, ContactShape vessel)
         {
-            SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, length);
+            SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, 60.0);
             scene.Scene.Walls = new[] { vessel };
             scene.Material.MassDamping = 20.0;    // 1/s
             return scene;

@@ -217,7 +217,8 @@ namespace Guidewire.Core.Tests
                 Throws.TypeOf<ArgumentException>().With.Message.StartsWith(key + " needs"));
         }
 
-        // Displacements (units) and rotations that are sums of powers of two, with a pause, a pull and a change of direction.
+        // Displacements (units) and rotations that are sums of powers of two, with a pause, a pull and a change of
+        // direction.
         private static DriveTable Table(out double[] pushes, out double[] turns)
         {
             pushes = new double[Steps];

@@ -68,8 +68,8 @@ namespace Guidewire.Core.Tests
                 forces.Add(EnergySlopes.Difference(1e-8, d => EnergyAt(run, d, 0.0)), hub.Force);
                 torques.Add(EnergySlopes.Difference(1e-5, d => EnergyAt(run, 0.0, d)), hub.Torque);
             }
-            forces.AssertBelow(1e-6, 0.1);
-            torques.AssertBelow(1e-6, 1e-7);
+            forces.AssertSmall(0.1);
+            torques.AssertSmall(1e-7);
         }
 
         [Test]

@@ -105,7 +105,7 @@ namespace Guidewire.Core.Tests
 
         private static Vector3d AngularMomentum(RodState state)
         {
-            var wire = new WireEnergy(N, Rods.Length, Rods.Radius, Rods.Young, Rods.Shear, Rods.Density);
+            var wire = new WireEnergy(N, Rods.Radius);
             return wire.Of(Array.ConvertAll(state.Positions, p => 1e-3 * p),
                 Array.ConvertAll(state.Velocities, p => 1e-3 * p), state.Orientations, state.AngularVelocities)
                 .AngularMomentum;

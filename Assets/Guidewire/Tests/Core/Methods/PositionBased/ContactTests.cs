@@ -202,16 +202,9 @@ namespace Guidewire.Core.Tests
             Simulation free = Simulation.Create(p);
             p.Scene.Walls = new ContactShape[] { new PlaneShape(-1000.0 * Vector3d.UnitY, Vector3d.UnitY) };
             Simulation walled = Simulation.Create(p);
-            for (int k = 0; k < 50; k++)
-            {
-                free.Step();
-                walled.Step();
-            }
-            for (int i = 0; i < free.State.SphereCount; i++)
-            {
-                Assert.That(
-                    Vector3d.Distance(walled.State.Positions[i], free.State.Positions[i]), Is.LessThan(1e-10));
-            }
+            Wires.Step(free, 50);
+            Wires.Step(walled, 50);
+            Assert.That(Wires.Distance(walled.State, free.State), Is.LessThan(1e-10));
         }
 
         [Test]

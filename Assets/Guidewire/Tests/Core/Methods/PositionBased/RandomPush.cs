@@ -30,7 +30,8 @@ namespace Guidewire.Core.Tests
         /// <summary>Points of the wire that lay outside the wall after a step, summed over the steps.</summary>
         public int PointsOutside { get; private set; }
 
-        /// <summary>Mean distance of the spheres from their start, as a fraction of the displacement asked for.</summary>
+        /// <summary>Mean distance of the spheres from their start, as a fraction of the displacement asked
+        /// for.</summary>
         public double Reached
         {
             get
@@ -51,8 +52,8 @@ namespace Guidewire.Core.Tests
         /// <summary>How far sphere 0 came along the sheath, as a fraction of the displacement asked for.</summary>
         public double Advance => (Simulation.State.Positions[0].Z - _start[0].Z) / Contacts.DriveAsked;
 
-        /// <summary>Length of wire that does not reach forward, as a fraction of the displacement asked for: in the sheath what is
-        /// not along z, in the vessel what is compressed.</summary>
+        /// <summary>Length of wire that does not reach forward, as a fraction of the displacement asked for: in the
+        /// sheath what is not along z, in the vessel what is compressed.</summary>
         public double TakenUp
         {
             get

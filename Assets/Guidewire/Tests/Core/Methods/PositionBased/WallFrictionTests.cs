@@ -130,8 +130,8 @@ namespace Guidewire.Core.Tests
             return motion - Vector3d.Dot(motion, n) * n;
         }
 
-        // How far each sphere is moved by a fraction of mu times the weight, put on slowly: what is put on at once swings
-        // to twice its force.
+        // How far each sphere is moved by a fraction of mu times the weight, put on slowly: what is put on at once
+        // swings to twice its force.
         private static double[] AfterForce(ElementContact rule, double fraction, out double expected)
         {
             const int Steps = 1500;

@@ -33,10 +33,7 @@ namespace Guidewire.Core.Tests
             still.Method.MaxSimulationSteps = 0;
             Simulation rest = Simulation.Create(still);
             Assert.That(rest.Outcome, Is.EqualTo(Outcome.Converged), rest.Reason);
-            for (int i = 0; i <= 40; i++)
-            {
-                Assert.That((run.State.Positions[i] - rest.State.Positions[i]).Length, Is.LessThan(1e-3), "node " + i);
-            }
+            Assert.That(Wires.Distance(run.State, rest.State), Is.LessThan(1e-3));
             Assert.That(run.Coaxial()!.Extension, Is.EqualTo(rest.Coaxial()!.Extension).Within(1e-9));
         }
 
@@ -50,7 +47,6 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.07;
             parameters.Method.MaxSimulationSteps = 160;
             Simulation run = Wires.RunAndRestore(parameters, 70, out Simulation other);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             Assert.That(other.Coaxial()!.Positions, Is.EqualTo(run.Coaxial()!.Positions));
             Assert.That(other.Coaxial()!.WireForce, Is.EqualTo(run.Coaxial()!.WireForce));
             Assert.That(other.Coaxial()!.WireAsked, Is.EqualTo(run.Coaxial()!.WireAsked));

@@ -70,17 +70,17 @@ namespace Guidewire.Core.Tests
             double l = 0.01;
             int steps = (int)Math.Round(3.2 / perStep);
             double dt = 40.0 * perStep;
-            double most = steps * perStep * l;
+            double top = steps * perStep * l;
             parameters.Material.MassDamping = 0.0;
             parameters.Method.TimeStep = dt;
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.MaxSimulationSteps = 10 + 4 * steps;
             double[] times = { 0.0, 10.0 * dt, (10 + steps) * dt, (10 + 2 * steps) * dt, (10 + 3 * steps) * dt,
                 (10 + 4 * steps) * dt };
-            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, most, most, 0.6 * most, 0.0 }),
+            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, top, top, 0.6 * top, 0.0 }),
                 new TimeTable(times, new[] { 0.0, 0.0, 0.5, 0.5, 0.0, 0.0 }));
             parameters.Scene.Catheters[0].Drive.Table = new DriveTable(
-                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * most, 0.6 * most, 0.0 }),
+                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * top, 0.6 * top, 0.0 }),
                 new TimeTable(times, new[] { 0.0, 0.0, 0.0, -0.4, -0.4, 0.0 }));
             Simulation run = Simulation.Create(parameters);
             double work = 0.0;

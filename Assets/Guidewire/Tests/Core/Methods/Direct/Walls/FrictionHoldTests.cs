@@ -31,10 +31,7 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < 500; k++)
             {
                 run.Step();
-                for (int i = 0; i < before.Length; i++)
-                {
-                    farthest = Math.Max(farthest, Vector3d.Distance(run.State.Positions[i], before[i]));
-                }
+                farthest = Math.Max(farthest, Wires.Distance(run.State.Positions, before));
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
             Assert.That(farthest, Is.LessThan(1e-3), "mm, from 2 s to 12 s");
@@ -177,11 +174,8 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(whole.Hub()!.Torque, Is.GreaterThan(0.9 * Limit(whole, 0.2, 0.2e-3)));
             Assert.That(part.Hub()!.Torque, Is.EqualTo(whole.Hub()!.Torque));
-            for (int i = 0; i < whole.State.SphereCount; i++)
-            {
-                Assert.That(part.State.Positions[i], Is.EqualTo(whole.State.Positions[i]));
-                Assert.That(part.State.Velocities[i], Is.EqualTo(whole.State.Velocities[i]));
-            }
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            Assert.That(part.State.Velocities, Is.EqualTo(whole.State.Velocities));
             Assert.That(part.Report()!.Extremes!.FrictionWork, Is.EqualTo(whole.Report()!.Extremes!.FrictionWork));
         }
 
@@ -270,8 +264,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a fraction of the limit at node
-        // 0; with fraction 0 node 0 is drawn.
+        // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a fraction of the limit at
+        // node 0; with fraction 0 node 0 is drawn.
         private static Simulation OverDrum(double mu, double fraction, out double limit)
         {
             const int n = 70;

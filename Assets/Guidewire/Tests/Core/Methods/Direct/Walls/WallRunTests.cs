@@ -180,11 +180,8 @@ namespace Guidewire.Core.Tests
                 }
                 part.Step();
             }
-            for (int i = 0; i <= 30; i++)
-            {
-                Assert.That(part.State.Positions[i], Is.EqualTo(whole.State.Positions[i]));
-                Assert.That(part.State.Velocities[i], Is.EqualTo(whole.State.Velocities[i]));
-            }
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            Assert.That(part.State.Velocities, Is.EqualTo(whole.State.Velocities));
             Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts!.DriveAsked));
         }
 
