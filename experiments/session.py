@@ -253,6 +253,13 @@ class Session:
         return self._state
 
 
+def session_of(file: Path, native: bool | None = None) -> Session:
+    """A session with the parameters that a run has written, without the warnings shown when it was made."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return Session(file, hand=False, native=native)
+
+
 def _host(native: bool | None) -> Library | Process:
     reason = "" if native is False else obstacle()
     if native and reason:

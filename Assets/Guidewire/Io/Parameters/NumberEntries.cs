@@ -18,11 +18,6 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit("a number" + _range.Text);
 
-        public override JToken Write(RunParameters source)
-        {
-            return new JValue(Get(source));
-        }
-
         internal override bool TryRead(RunParameters target, JToken value)
         {
             if (!TryNumber(value, out double number) || !_range.Contains(number))
@@ -67,11 +62,6 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit("null or a number" + _range.Text);
 
-        public override JToken Write(RunParameters source)
-        {
-            return Get(source) is double number ? new JValue(number) : JValue.CreateNull();
-        }
-
         internal override bool TryRead(RunParameters target, JToken value)
         {
             bool isNull = value.Type == JTokenType.Null;
@@ -100,11 +90,6 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit(string.Format(CultureInfo.InvariantCulture,
             "a whole number from {0} to {1}", _minimum, _maximum));
-
-        public override JToken Write(RunParameters source)
-        {
-            return new JValue(Get(source));
-        }
 
         internal override bool TryRead(RunParameters target, JToken value)
         {

@@ -27,11 +27,7 @@ namespace Guidewire.Core.Tests
                     RestCurvature = new Vector3d(30.0, 0.0, 0.0) },
             };
             var catheter = new Catheter { Length = 250.0, Elements = 25, Start = 100.0 };
-            catheter.Material.WireRadius = 0.83e-3;
-            catheter.Material.InnerRadius = 0.6e-3;
-            catheter.Material.YoungsModulus = 4e9;
-            catheter.Material.ShearModulus = 1.5e9;
-            catheter.Material.Density = 1200.0;
+            SetTube(catheter, 0.83e-3, 0.6e-3, 4e9, 1.5e9);
             catheter.Material.Sections = new[]
             {
                 new WireSection { From = 210.0, To = 250.0, YoungsModulus = 2e9,
@@ -47,11 +43,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Pair(integrator);
             var outer = new Catheter { Length = 160.0, Elements = 16, Start = 130.0 };
-            outer.Material.WireRadius = 1.35e-3;
-            outer.Material.InnerRadius = 1.0e-3;
-            outer.Material.YoungsModulus = 1e9;
-            outer.Material.ShearModulus = 0.4e9;
-            outer.Material.Density = 1200.0;
+            SetTube(outer, 1.35e-3, 1.0e-3, 1e9, 0.4e9);
             outer.Material.Sections = new[]
             {
                 new WireSection { From = 123.0, To = 160.0, YoungsModulus = 0.6e9,
@@ -59,6 +51,16 @@ namespace Guidewire.Core.Tests
             };
             parameters.Scene.Catheters = new[] { outer, parameters.Scene.Catheters[0] };
             return parameters;
+        }
+
+        /// <summary>Sets the radii, m, and the moduli, Pa, of a catheter of 1200 kg/m^3.</summary>
+        public static void SetTube(Catheter catheter, double radius, double innerRadius, double young, double shear)
+        {
+            catheter.Material.WireRadius = radius;
+            catheter.Material.InnerRadius = innerRadius;
+            catheter.Material.YoungsModulus = young;
+            catheter.Material.ShearModulus = shear;
+            catheter.Material.Density = 1200.0;
         }
 
         /// <summary>Work of both hubs, J, in one cycle, forth and back and turned, slowly: trapezoids of forces and

@@ -192,12 +192,8 @@ namespace Guidewire.Core.Tests
         // Radii in mm of it and of what is inside; E = 10^power Pa.
         private static void SetTube(Catheter catheter, double radius, double inside, double power)
         {
-            MaterialParameters material = catheter.Material;
-            material.WireRadius = 1e-3 * radius;
-            material.InnerRadius = 0.5e-3 * (radius + inside);
-            material.YoungsModulus = Math.Pow(10.0, power);
-            material.ShearModulus = 0.38 * material.YoungsModulus;
-            material.Density = 1200.0;
+            double young = Math.Pow(10.0, power);
+            CoaxialScenes.SetTube(catheter, 1e-3 * radius, 0.5e-3 * (radius + inside), young, 0.38 * young);
         }
 
         // In one of four both or one of the hubs slip; in one of three the catheter has friction of its own.
