@@ -124,7 +124,7 @@ def test_what_was_done_is_kept_in_a_file_and_done_again_to_the_same_bits(environ
     assert (again.path, again.impulse, again.forces) == (report.path, report.impulse, report.forces)
     push, turn, steps = drive.calls[1]
     drive.calls[1] = (push + 1e-12, turn, steps)
-    with pytest.raises(Error, match="other bits"):
+    with pytest.raises(Error, match="bit for bit"):
         environment.replay(drive)
 
 

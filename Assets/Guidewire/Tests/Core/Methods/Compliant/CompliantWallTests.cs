@@ -41,8 +41,7 @@ namespace Guidewire.Core.Tests
         public void Wire_LyingInATube_IsCarriedWhole()
         {
             SimulationParameters scene = Lying(0.0);
-            var knots = new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 310.0) };
-            scene.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 1.0, 1.0 }, true, true) };
+            scene.Scene.Walls = WallScenes.Tube(-10.0, 310.0, 1.0);
             scene.Material.MassDamping = 40.0;    // 1/s
             scene.Method.MaxSimulationSteps = 40;
             Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));

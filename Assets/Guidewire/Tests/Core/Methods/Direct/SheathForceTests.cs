@@ -297,11 +297,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireLength = Whole;
             parameters.Scene.GuidewireOffset = 1e3 * (isOut - TipLength) + 1e3 * TipLength - Whole;
             parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -60.0), new Vector3d(0.0, 0.0, 100.0) },
-                    new[] { 40.0, 40.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-60.0, 100.0, 40.0);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Material.MassDamping = 50.0;
             parameters.Material.Sections = new[]

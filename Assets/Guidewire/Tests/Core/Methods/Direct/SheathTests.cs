@@ -203,11 +203,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireLength = 300.0;
             parameters.Scene.GuidewireOffset = -295.0;
             parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -700.0), new Vector3d(0.0, 0.0, 600.0) },
-                    new[] { 4.0, 4.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-700.0, 600.0, 4.0);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 0.1, 0.11, 0.2 }, new[] { 0.0, 0.0, 0.01, 0.01 }),
@@ -309,11 +305,7 @@ namespace Guidewire.Core.Tests
             // go back.
             SimulationParameters parameters = Sheathed(40, 0.2, 7.0);
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, exit) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, Lumen), new Vector3d(0.0, 0.0, 300.0) },
-                    new[] { Lumen, Lumen }, false, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(Lumen, 300.0, Lumen, openStart: false);
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 1.0, 2.0 }, new[] { 0.0, 0.043, 0.0 }),
                 new TimeTable(new[] { 0.0, 1.0 }, new[] { 0.0, 2.0 }));

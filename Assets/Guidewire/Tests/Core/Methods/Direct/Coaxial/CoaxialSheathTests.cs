@@ -247,14 +247,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, 250.0) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, 240.0), new Vector3d(0.0, 0.0, 1000.0) },
-                    new[] { 12.0, 12.0 }, false, true)
-                {
-                    FrictionCoefficient = 0.1,
-                },
-            };
+            parameters.Scene.Walls = WallScenes.Tube(240.0, 1000.0, 12.0, openStart: false, friction: 0.1);
             parameters.Drive.InsertionSpeed = 0.15;
             parameters.Drive.RotationSpeed = 2.0;
             parameters.Scene.Catheters[0].Drive.InsertionSpeed = 0.07;

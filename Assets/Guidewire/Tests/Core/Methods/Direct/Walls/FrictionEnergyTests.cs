@@ -224,11 +224,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = WallScenes.Wire(30, 1e-3 * radius);
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            var knots = new[] { new Vector3d(0.0, 0.59, -50.0), new Vector3d(0.0, 0.59, 400.0) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true) { FrictionCoefficient = mu },
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 400.0, 1.0, height: 0.59, friction: mu);
             // Node 0 is held where the wall just begins to push.
             parameters.Contact.ContactDistance = 1e-5;
             parameters.Method.TimeStep = 2e-3;

@@ -34,7 +34,7 @@ namespace Guidewire.Core.Tests
             // Pushed along a level tube at 20 mm/s: friction takes what the hub gives, less what the drag does.
             SimulationParameters parameters = Level(0.3);
             parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
-            parameters.Scene.Walls = new ContactShape[] { Tube(0.59, 0.3) };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 400.0, 1.0, height: 0.59, friction: 0.3);
             parameters.Contact.ContactDistance = 1e-5;
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = 0.1;
@@ -126,21 +126,12 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            parameters.Scene.Walls = new ContactShape[] { Tube(0.0, friction) };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 400.0, 1.0, friction: friction);
             parameters.Method.TimeStep = 5e-3;
             parameters.Material.MassDamping = 40.0;    // 1/s
             parameters.Method.SolverTolerance = 1e-9;
             parameters.Method.MaxSimulationSteps = 1000;
             return parameters;
-        }
-
-        private static TubeShape Tube(double height, double friction)
-        {
-            return new TubeShape(new[] { new Vector3d(0.0, height, -50.0), new Vector3d(0.0, height, 400.0) },
-                new[] { 1.0, 1.0 }, true, true)
-            {
-                FrictionCoefficient = friction,
-            };
         }
     }
 }

@@ -97,11 +97,7 @@ namespace Guidewire.Core.Tests
             // 12 mm against the end of a tube that lets it bend nowhere.
             SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
             parameters.Scene.GuidewireOffset = 0.0;
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 300.0) },
-                    new[] { 0.5, 0.5 }, true, false),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 300.0, 0.5, openEnd: false);
             parameters.Drive.Kind = Drive.Push;
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
@@ -121,11 +117,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            var knots = new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 310.0) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-10.0, 310.0, 1.0);
             parameters.Method.TimeStep = 5e-3;
             parameters.Material.MassDamping = 40.0;    // 1/s
             parameters.Method.SolverTolerance = 1e-9;
@@ -197,8 +189,7 @@ namespace Guidewire.Core.Tests
                 parameters.Method.DeltaThreshold = 0.0;
             }
             parameters.Scene.GuidewireOffset = 0.0;
-            var knots = new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 305.0) };
-            parameters.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 2.0 }, true, true) };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 305.0, 2.0);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
@@ -216,7 +207,7 @@ namespace Guidewire.Core.Tests
             Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
             // Between walls that it is across it does not go on.
             SimulationParameters across = parameters.Copy();
-            knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };
+            var knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };
             across.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 1.0 }, true, true) };
             Assert.Throws<ArgumentException>(() => whole.Continue(across));
         }

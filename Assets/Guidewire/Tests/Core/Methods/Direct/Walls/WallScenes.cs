@@ -55,9 +55,20 @@ namespace Guidewire.Core.Tests
             return new MeshShape(mesh.Build(places[0], places[places.Count - 1]));
         }
 
+        /// <summary>A straight tube along z, all in units.</summary>
+        /// <param name="height">Of its axis, along y.</param>
+        public static ContactShape[] Tube(double from, double to, double radius, bool openStart = true,
+            bool openEnd = true, double height = 0.0, double friction = 0.0)
+        {
+            var knots = new[] { new Vector3d(0.0, height, from), new Vector3d(0.0, height, to) };
+            var tube = new TubeShape(knots, new[] { radius, radius }, openStart, openEnd);
+            tube.FrictionCoefficient = friction;
+            return new ContactShape[] { tube };
+        }
+
         /// <summary>A nitinol wire, r = 0.4 mm and 300 mm long, that is pushed from the sheath into the arch.</summary>
         /// <param name="speed">mm/s.</param>
-        /// <param name="way">mm.</param>
+        /// <param name="insertion">mm.</param>
         public static SimulationParameters Arch(int n, double timeStep, double speed, double insertion)
         {
             var parameters = Wire(n, 0.4e-3);
