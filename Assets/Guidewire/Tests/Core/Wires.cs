@@ -70,11 +70,13 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Goes on to the run's end.</summary>
-        public static Simulation Run(Simulation simulation)
+        /// <param name="afterStep">Called after every step.</param>
+        public static Simulation Run(Simulation simulation, Action? afterStep = null)
         {
             while (simulation.Outcome == Outcome.Running)
             {
                 simulation.Step();
+                afterStep?.Invoke();
             }
             return simulation;
         }
@@ -86,9 +88,10 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Goes on to the run's end, which must be that of its last step.</summary>
-        public static Simulation Finish(Simulation simulation)
+        /// <param name="afterStep">Called after every step.</param>
+        public static Simulation Finish(Simulation simulation, Action? afterStep = null)
         {
-            Run(simulation);
+            Run(simulation, afterStep);
             Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
             return simulation;
         }
@@ -130,6 +133,25 @@ namespace Guidewire.Core.Tests
             Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
             Assert.That(restored.State.Orientations, Is.EqualTo(simulation.State.Orientations));
             return simulation;
+        }
+
+        /// <summary>Makes so many steps, and beside them those of a run that is continued before one of them and
+        /// restored before another, with the same bits.</summary>
+        public static Simulation RunInParts(SimulationParameters parameters, int steps, int continued, int restored,
+            out Simulation part)
+        {
+            Simulation whole = Simulation.Create(parameters);
+            part = Simulation.Create(parameters);
+            for (int k = 0; k < steps; k++)
+            {
+                whole.Step();
+                part = k == continued ? part.Continue(parameters)
+                    : k == restored ? Simulation.Restore(parameters, part.Save()) : part;
+                part.Step();
+            }
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            Assert.That(part.State.Velocities, Is.EqualTo(whole.State.Velocities));
+            return whole;
         }
 
         /// <summary>A vector with components in [-1, 1).</summary>

@@ -122,10 +122,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.MaxSimulationSteps = 60;
             if (hasWall)
             {
-                parameters.Scene.Walls = new ContactShape[]
-                {
-                    new PlaneShape(new Vector3d(0.0, -50.0, 0.0), Vector3d.UnitY),
-                };
+                parameters.Scene.Walls = WallScenes.Floor(-50.0);
             }
             return parameters;
         }

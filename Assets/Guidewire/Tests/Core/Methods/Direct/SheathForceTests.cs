@@ -33,9 +33,8 @@ namespace Guidewire.Core.Tests
             var last = new double[5];
             int seen = 0;
             int means = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 HubRecord hub = run.Hub()!;
                 double bent = Start + hub.Insertion;
                 bool counts = bent > 2.0 * length && bent < TipLength - 2.0 * length && run.StepCount != half + 1;
@@ -47,8 +46,7 @@ namespace Guidewire.Core.Tests
                     Assert.That(mean, Is.EqualTo(right).Within(-fraction * right), "at " + bent);
                     means++;
                 }
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(means, Is.GreaterThan(2));
         }
 
@@ -145,13 +143,11 @@ namespace Guidewire.Core.Tests
             parameters.Method.TimeStep = 1e-4;
             parameters.Method.MaxSimulationSteps = 400;
             Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 Assert.That(run.StepCount < 100 || Math.Abs(run.Hub()!.Force) < 1.02 * 0.1, run.StepCount + " "
                     + run.Hub()!.Force);
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(run.Hub()!.Insertion, Is.GreaterThan(1e-4));
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(0.5 * TipLength + run.Hub()!.Insertion).Within(1e-4));
         }
@@ -171,13 +167,11 @@ namespace Guidewire.Core.Tests
             Vector3d start = run.State.Positions[0];
             int entries = 0;
             int before = run.Hub()?.SpheresInBody ?? 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 entries += run.Hub()!.SpheresInBody != before ? 1 : 0;
                 before = run.Hub()!.SpheresInBody!.Value;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(entries, Is.GreaterThan(4));
             double gone = run.State.Positions[0].Z - start.Z;
             Assert.That(gone + run.Contacts!.DriveShortfall, Is.EqualTo(run.Contacts.DriveAsked).Within(1e-9));

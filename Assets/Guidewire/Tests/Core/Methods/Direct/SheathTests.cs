@@ -27,9 +27,8 @@ namespace Guidewire.Core.Tests
             double peak = 0.0;
             int least = int.MaxValue;
             int most = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 peak = Math.Max(peak, run.Stress()!.ElasticEnergy);
                 least = Math.Min(least, run.Hub()!.SpheresInBody!.Value);
                 most = Math.Max(most, run.Hub()!.SpheresInBody!.Value);
@@ -39,8 +38,7 @@ namespace Guidewire.Core.Tests
                     Vector3d place = run.State.Positions[i];
                     Assert.That(Math.Abs(place.X) + Math.Abs(place.Y), Is.LessThan(1e-3), "on the sheath's axis");
                 }
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(most - least, Is.GreaterThan(25), "elements came and went");
             StressRecord end = run.Stress()!;
             Assert.That(end.ElasticEnergy + end.KineticEnergy, Is.LessThan(1e-6 * peak));
@@ -65,9 +63,8 @@ namespace Guidewire.Core.Tests
             double atEntry = 0.0;
             double atEntryTurn = 0.0;
             int entries = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 HubRecord hub = run.Hub()!;
                 double jump = Math.Abs(hub.Force - force);
                 double turn = Math.Abs(hub.Torque - torque);
@@ -83,8 +80,7 @@ namespace Guidewire.Core.Tests
                 before = hub.SpheresInBody!.Value;
                 force = hub.Force;
                 torque = hub.Torque;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(entries, Is.GreaterThanOrEqualTo(5), "one in 25 steps of the last 140");
             Assert.That(atEntry, Is.LessThanOrEqualTo(usual));
             Assert.That(atEntryTurn, Is.LessThanOrEqualTo(usualTurn));
@@ -180,9 +176,8 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             double largest = 0.0;
             double before = 0.0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 HubRecord hub = run.Hub()!;
                 largest = Math.Max(largest, Math.Abs(hub.Turn + hub.Twist - before));
                 before = hub.Turn + hub.Twist;
@@ -190,8 +185,7 @@ namespace Guidewire.Core.Tests
                 double sheathed = 1.5 - hub.LengthInBody!.Value;
                 Assert.That(-hub.Twist, Is.EqualTo(hub.Torque * sheathed / stiffness).Within(1.5),
                     "what is wound up is the torque's, at step " + run.StepCount);
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(largest, Is.GreaterThan(Math.PI), "it jumped");
         }
 

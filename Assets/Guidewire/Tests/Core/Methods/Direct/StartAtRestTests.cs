@@ -83,10 +83,7 @@ namespace Guidewire.Core.Tests
                 parameters.Scene.NumberRodElements = 10;
                 parameters.Scene.ProximalEnd = ProximalEnd.Free;
                 parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-                parameters.Scene.Walls = new ContactShape[]
-                {
-                    new PlaneShape(new Vector3d(0.0, -0.5 - gap, 0.0), Vector3d.UnitY),
-                };
+                parameters.Scene.Walls = WallScenes.Floor(-0.5 - gap);
                 parameters.Method.Integrator = Integrator.ImplicitEuler;
                 parameters.Method.TimeStep = 1e-3;
                 parameters.Method.Substeps = 100;

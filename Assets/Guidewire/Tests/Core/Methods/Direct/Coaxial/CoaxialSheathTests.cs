@@ -165,7 +165,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, 243.0) };
-            parameters.Scene.Walls = FarWall();
+            parameters.Scene.Walls = WallScenes.Floor(-500.0);
             parameters.Material.Sections[0].From = 100.0;
             parameters.Material.Sections[0].RestCurvature = new Vector3d(10.0, 0.0, 0.0);
             parameters.Scene.Catheters[0].Material.Sections[0].From = 30.0;
@@ -236,7 +236,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Fed();
             parameters.Method.MaxSimulationSteps = 25;
-            parameters.Scene.Walls = FarWall();
+            parameters.Scene.Walls = WallScenes.Floor(-500.0);
             parameters.Scene.Sheath!.Exit = new Vector3d(0.0, 0.0, exit);
             Assert.That(Simulation.FindProblemOfStart(parameters), Does.Contain(expected));
         }
@@ -261,7 +261,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.NumberRodElements = elements;
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, Exit) };
             parameters.Scene.TipForce = new Vector3d(0.01, 0.0, 0.0);
-            parameters.Scene.Walls = FarWall();
+            parameters.Scene.Walls = WallScenes.Floor(-500.0);
             parameters.Material.Sections = Array.Empty<WireSection>();
             parameters.Material.MassDamping = 30.0;
             parameters.Method.TimeStep = 0.05;
@@ -272,11 +272,6 @@ namespace Guidewire.Core.Tests
             catheter.Elements = elements * 2 / 3;
             catheter.Material.Sections = Array.Empty<WireSection>();
             return parameters;
-        }
-
-        private static ContactShape[] FarWall()
-        {
-            return new ContactShape[] { new PlaneShape(new Vector3d(0.0, -500.0, 0.0), Vector3d.UnitY) };
         }
     }
 }

@@ -96,12 +96,10 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Catheters = catheterElements == 0 ? Array.Empty<Catheter>() : new[] { catheter };
             Simulation run = Simulation.Create(parameters);
             var found = new List<Vector3d[]>();
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 found.Add((Vector3d[])run.State.Positions.Clone());
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             return found;
         }
     }

@@ -65,14 +65,12 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             bool isInside = false;
             bool isWireInside = false;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 CoaxialRecord outer = run.Coaxial()!;
                 isInside |= outer.Extension < -0.02;
                 isWireInside |= outer.Inside!.Extension < -0.02;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(isInside && isWireInside, "both tips were inside");
             CoaxialRecord first = run.Coaxial()!;
             CoaxialRecord inside = first.Inside!;

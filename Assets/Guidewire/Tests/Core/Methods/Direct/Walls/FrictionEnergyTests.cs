@@ -235,13 +235,11 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             double sum = 0.0;
             double carried = 0.0;   // W, what the clamp leaves of the weight to the wall
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 sum += run.StepCount > 250 ? run.Report()!.ProximalForce!.Value.Z / 250.0 : 0.0;
                 carried += run.StepCount > 250 ? run.Contacts!.Total.Y / 250.0 : 0.0;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
             double beta = Math.Atan(turning);
             Assert.That(carried, Is.EqualTo(weight).Within(0.1 * weight));
@@ -312,16 +310,14 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             double sum = 0.0;
             int count = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 if (run.StepCount > 100)
                 {
                     sum -= run.Report()!.ProximalForce!.Value.Z;
                     count++;
                 }
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             return sum / count;
         }

@@ -35,10 +35,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = WallScenes.OverPlane(n, radius);
             parameters.Contact.ContactDistance = 1e-5;
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new PlaneShape(new Vector3d(0.0, height, 0.0), Vector3d.UnitY),
-            };
+            parameters.Scene.Walls = WallScenes.Floor(height);
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
             Assert.That(run.Contacts!.Total.Y, Is.EqualTo(force).Within(0.01 * force));
@@ -63,9 +60,8 @@ namespace Guidewire.Core.Tests
             double worstAtEnd = 0.0;
             double meanOff = 0.0;
             Vector3d before = Vector3d.Zero;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 Vector3d momentum = WallScenes.Momentum(run.State);
                 // Of what is asked of a node at rest at the start, one step is no motion by implicit stages alone.
                 if (run.StepCount > 1)
@@ -79,8 +75,7 @@ namespace Guidewire.Core.Tests
                     worst = Math.Max(worst, Vector3d.Distance(change, given));
                 }
                 before = momentum;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(run.Report()!.HalvedSteps, Is.EqualTo(0.0));
             Assert.That(peak, Is.GreaterThan(0.1));
             Assert.That(worst, Is.LessThan(1e-6 * peak));
@@ -161,19 +156,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
             parameters.Drive.TwistPerStep = 0.02;
-            Simulation whole = Simulation.Create(parameters);
-            Simulation part = Simulation.Create(parameters);
-            for (int k = 0; k < 150; k++)
-            {
-                whole.Step();
-                if (k == 100)
-                {
-                    part = part.Continue(parameters);
-                }
-                part.Step();
-            }
-            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
-            Assert.That(part.State.Velocities, Is.EqualTo(whole.State.Velocities));
+            Simulation whole = Wires.RunInParts(parameters, 150, 100, 125, out Simulation part);
             Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts!.DriveAsked));
         }
 
@@ -194,17 +177,8 @@ namespace Guidewire.Core.Tests
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 60;
-            Simulation whole = Simulation.Create(parameters);
-            Simulation part = Simulation.Create(parameters);
-            for (int k = 0; k < 50; k++)
-            {
-                whole.Step();
-                part = k == 30 ? part.Continue(parameters)
-                    : k == 40 ? Simulation.Restore(parameters, part.Save()) : part;
-                part.Step();
-            }
+            Simulation whole = Wires.RunInParts(parameters, 50, 30, 40, out _);
             Assert.That(whole.State.Positions[30].Z, Is.GreaterThan(320.0), whole.Reason);
-            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
             // Between walls that it is across it does not go on.
             SimulationParameters across = parameters.Copy();
             var knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };

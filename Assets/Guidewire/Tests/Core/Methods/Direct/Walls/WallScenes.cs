@@ -55,6 +55,12 @@ namespace Guidewire.Core.Tests
             return new MeshShape(mesh.Build(places[0], places[places.Count - 1]));
         }
 
+        /// <summary>A horizontal plane at this height, units, under the wire.</summary>
+        public static ContactShape[] Floor(double height)
+        {
+            return new ContactShape[] { new PlaneShape(new Vector3d(0.0, height, 0.0), Vector3d.UnitY) };
+        }
+
         /// <summary>A straight tube along z, all in units.</summary>
         /// <param name="height">Of its axis, along y.</param>
         public static ContactShape[] Tube(double from, double to, double radius, bool openStart = true,
@@ -87,10 +93,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Wire(n, radius);
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new PlaneShape(new Vector3d(0.0, -20.0, 0.0), Vector3d.UnitY),
-            };
+            parameters.Scene.Walls = Floor(-20.0);
             parameters.Method.TimeStep = 5e-3;
             parameters.Material.MassDamping = 10.0;    // 1/s
             parameters.Method.DeltaThreshold = 1e-6;
