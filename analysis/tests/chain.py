@@ -122,7 +122,7 @@ class Chain:
         }
 
     def log(self, milliseconds_per_step: float = 2.0) -> str:
-        """positions.json as the runner lays it out, one entry a line."""
+        """positions.json as the runner writes it, one entry a line."""
         lines = (f'"{k}": {json.dumps(self.entry(k, milliseconds_per_step))}' for k in range(self.steps + 1))
         return "{\n" + ",\n".join(lines) + "\n}\n"
 
