@@ -30,22 +30,14 @@ namespace Guidewire.Io
 
         internal static bool TryNumber(JToken value, out double number)
         {
-            number = double.NaN;
-            if (value.Type != JTokenType.Float && value.Type != JTokenType.Integer)
+            number = value.Type == JTokenType.Float ? (double)value : double.NaN;
+            if (value.Type != JTokenType.Integer)
             {
-                return false;
+                return !double.IsNaN(number) && !double.IsInfinity(number);
             }
             // Integers beyond 64 bits arrive as BigInteger; their text reads as a double like any other number.
             string text = Convert.ToString(((JValue)value).Value, CultureInfo.InvariantCulture) ?? "";
-            if (value.Type == JTokenType.Float)
-            {
-                number = (double)value;
-            }
-            else if (!double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number))
-            {
-                return false;
-            }
-            return !double.IsNaN(number) && !double.IsInfinity(number);
+            return NumberText.TryRead(text, out number);
         }
     }
 
