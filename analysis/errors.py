@@ -40,7 +40,7 @@ def steady_state_entry(prediction_error: np.ndarray, threshold: float, hold: int
 
     Parameters
     ----------
-    prediction_error : (k,), Delta_p of every step, in units. A thinned log cannot be judged in this way.
+    prediction_error : (k,), Delta_p of every step, in units. This cannot be found from a thinned log.
     threshold : epsilon, in units.
     hold : number of successive entries.
 

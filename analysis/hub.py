@@ -18,7 +18,7 @@ class HubLog:
     Attributes
     ----------
     time : (k,), in s.
-    insertion, turn : (k,), way of the hub along its axis, m, and turn about it, rad, since the start.
+    insertion, turn : (k,), displacement of the hub along its axis, m, and rotation about it, rad, since the start.
     force, torque : (k,), of the hub on the wire, N and N m; a push is positive.
     twist : (k,), of the wire from hub to tip, rad.
     largest_curvature : (k,), of any joint, 1/m.
@@ -79,8 +79,8 @@ def snap_turns(turn: np.ndarray, torque: np.ndarray) -> tuple[np.ndarray, np.nda
     tuple of ndarray
         Turns of the entries before and after each snap, rad.
     """
-    way = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(turn)))))
-    far = np.maximum(np.searchsorted(way, way + _SUDDEN, side="right") - 1, np.arange(1, len(turn) + 1))
+    turned = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(turn)))))
+    far = np.maximum(np.searchsorted(turned, turned + _SUDDEN, side="right") - 1, np.arange(1, len(turn) + 1))
     far = np.minimum(far, len(turn) - 1)
     sudden = np.abs(torque[far] - torque) > 0.5 * np.max(np.abs(torque), initial=0.0)
     steps = np.abs(np.diff(torque))

@@ -1,6 +1,6 @@
 """Measurements of a real wire in a CSV file, and the error of a run against them.
 
-Two kinds, told apart by their first line: `time,force` (s, and N at the hub), or `time,x,y,z` (s, and a point of the
+Two kinds, distinguished by their first line: `time,force` (s, and N at the hub), or `time,x,y,z` (s, and a point of the
 centreline in the run's units), where lines of the same time are points of one shape.
 """
 
@@ -40,7 +40,7 @@ class ComparedForce:
         """Run less measurement, N."""
         return self.run - self.measured
 
-    def told(self) -> str:
+    def summary(self) -> str:
         """One line."""
         errors = np.abs(self.errors)
         worst, peak = int(np.argmax(errors)), float(np.max(np.abs(self.measured)))
@@ -68,7 +68,7 @@ class ComparedShapes:
     distances: tuple[np.ndarray, ...]
     left_out: int
 
-    def told(self) -> str:
+    def summary(self) -> str:
         """One line."""
         every = np.concatenate(self.distances)
         worst = max(range(len(self.time)), key=lambda k: float(np.max(self.distances[k])))

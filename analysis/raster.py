@@ -62,7 +62,7 @@ def draw(picture: Picture, camera: Camera, surface: Surface, colours: np.ndarray
     camera : where it is seen from.
     surface : the triangles.
     colours : ndarray (v, 3) in [0, 1], colour of each vertex.
-    alpha : 1 covers what is behind and fills the depth buffer; less lays a tint over it.
+    alpha : 1 covers what is behind and fills the depth buffer; less tints it.
     """
     height, width = picture.depth.shape
     seen = camera.view(surface.vertices)

@@ -94,7 +94,7 @@ def read_curves(table: Path, x: str, y: str, by: str | None = None) -> Curves:
     name, index = _item(y)
     varied, question = _varied(file, columns)
     numbers = [column for column in columns if any(_number(row[column]) is not None for row in rows)]
-    x, name, by = (_column(file, columns, "--" + flag, asked, told) if asked else "" for flag, asked, told in (
+    x, name, by = (_column(file, columns, "--" + flag, asked, offered) if asked else "" for flag, asked, offered in (
         ("x", x, varied), ("y", name, numbers), ("by", by, varied)))
     chosen = [row for row in rows if not row.get("repeat")] or rows
     points: dict[tuple[str, str], list[tuple[float | str, float]]] = {}
@@ -145,16 +145,16 @@ def _varied(file: Path, columns: Sequence[str]) -> tuple[list[str], str]:
         return list(columns[1:columns.index("repeat")]) if "repeat" in columns else [], ""
 
 
-def _column(file: Path, columns: Sequence[str], flag: str, asked: str, told: Sequence[str]) -> str:
-    """The column that is meant; `told` are those that an error names."""
+def _column(file: Path, columns: Sequence[str], flag: str, asked: str, offered: Sequence[str]) -> str:
+    """The column that is meant; `offered` are those that an error names."""
     if asked in columns:
         return asked
     ends = [column for column in columns if column.endswith("." + asked)]
     if len(ends) == 1:
         return ends[0]
-    near = difflib.get_close_matches(asked, told, 1)
+    near = difflib.get_close_matches(asked, offered, 1)
     hint = f"did you mean '{near[0]}'? " if near else ""
-    raise LogError(f"{file}: {flag} {asked}: no such column: {hint}there are {', '.join(ends or told)}")
+    raise LogError(f"{file}: {flag} {asked}: no such column: {hint}there are {', '.join(ends or offered)}")
 
 
 def _item(asked: str) -> tuple[str, int | None]:

@@ -3,8 +3,8 @@ logs, from geometry alone.
 
 A mesh is asked in three ways: which segments cross a triangle (orientation of five tetrahedra), how far segments are
 from triangles (points, edges and faces in closed form), on which side a point lies (the number of triangles that a ray
-meets). Walls in closed form are functions of a point that change by no more than the way to the next point, so that the
-least value along a segment is found by halving it.
+meets). Walls in closed form are functions of a point that change by no more than the distance to the next point, so
+that the least value along a segment is found by halving it.
 """
 
 from __future__ import annotations
@@ -67,8 +67,8 @@ class MeshSearch:
 
     def _near_segments(self, a: np.ndarray, b: np.ndarray, range_: float) -> tuple[np.ndarray, np.ndarray]:
         """Pairs (segment, triangle) that may be within a range: of the boxes around 8 pieces of each segment."""
-        share = np.linspace(0.0, 1.0, 9)[:, None, None]
-        ends = (1.0 - share) * a + share * b
+        fraction = np.linspace(0.0, 1.0, 9)[:, None, None]
+        ends = (1.0 - fraction) * a + fraction * b
         low = np.minimum(ends[:-1], ends[1:]).reshape(-1, 3) - range_ - 1e-9
         high = np.maximum(ends[:-1], ends[1:]).reshape(-1, 3) + range_ + 1e-9
         piece, triangle = self._near(low, high)
@@ -169,10 +169,10 @@ def _blocks(count: int, size: int):
 
 def _goes_through(p: np.ndarray, q: np.ndarray, triangles: np.ndarray) -> np.ndarray:
     a, b, c = (triangles[:, k] - p for k in range(3))
-    way = q - p
+    path = q - p
     normal = np.cross(b - a, c - a)
-    before, after = dot(normal, a), dot(normal, a - way)
-    sides = np.column_stack([dot(way, np.cross(u, v)) for u, v in ((a, b), (b, c), (c, a))])
+    before, after = dot(normal, a), dot(normal, a - path)
+    sides = np.column_stack([dot(path, np.cross(u, v)) for u, v in ((a, b), (b, c), (c, a))])
     around = np.all(sides >= 0.0, axis=1) | np.all(sides <= 0.0, axis=1)
     return around & (before * after < 0.0)
 
@@ -192,10 +192,10 @@ def _point_triangle(p: np.ndarray, triangles: np.ndarray) -> np.ndarray:
 
 
 def _point_segment(p: np.ndarray, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    way = b - a
-    length = dot(way, way)
-    s = np.clip(dot(p - a, way) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
-    return np.linalg.norm(p - a - s[..., None] * way, axis=-1)
+    path = b - a
+    length = dot(path, path)
+    s = np.clip(dot(p - a, path) / np.where(length > 0.0, length, 1.0), 0.0, 1.0)
+    return np.linalg.norm(p - a - s[..., None] * path, axis=-1)
 
 
 def _segment_triangle(p: np.ndarray, q: np.ndarray, triangles: np.ndarray) -> np.ndarray:
@@ -223,7 +223,7 @@ def _segment_segment(p: np.ndarray, q: np.ndarray, a: np.ndarray, b: np.ndarray)
 
 class ClosedForm:
     """A wall as the largest of several functions of a point, each a signed distance that changes by no more than the
-    way to the next point: positive where a wire may be.
+    distance to the next point: positive where a wire may be.
 
     Parameters
     ----------

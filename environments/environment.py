@@ -212,7 +212,7 @@ class Environment(Env):
             else:
                 self._move(push * self._scene.unit, turn, steps, push)
         if digest_of(self._state) != drive.digest:
-            raise Error("the wire at the end has other bits than where this drive was recorded")
+            raise Error("the wire at the end is not bit for bit the recorded one")
         return self._report
 
     def close(self) -> None:

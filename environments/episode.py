@@ -11,11 +11,11 @@ import numpy as np
 from experiments.session import State
 
 # Largest force of a wall on one sphere of the wire that counts as safe, N: the "proposed 1.5 N vessel rupture
-# threshold" of two abstracts, by which mean forces at the tip are judged: 0.24 N in Robertshaw et al., "Reinforcement
+# threshold" with which two abstracts compare mean forces at the tip: 0.24 N in Robertshaw et al., "Reinforcement
 # Learning for Safe Autonomous Two Device Navigation of Cerebral Vessels in Mechanical Thrombectomy" (2025), and 0.15 N
 # in Robertshaw et al., "Toward Safe Autonomous Robotic Endovascular Interventions using World Models" (2026,
 # arXiv:2604.20151). Read as abstracts: neither says what measurement is behind it. No lower limit with a source was
-# found; a policy may be judged by another one (`safe_force` of an environment).
+# found; another one may be chosen (`safe_force` of an environment).
 SAFE_FORCE = 1.5
 
 
@@ -34,7 +34,7 @@ class Report:
     largest_force : of a wall on one sphere after any time step, N.
     impulse : of all walls, the sum over spheres and time steps of |F| dt, N s.
     path : of the tip, units.
-    inserted, retracted, turned : ways of the hub forwards and backwards, m, and about its axis either way, rad.
+    inserted, retracted, turned : distances of the hub forwards and backwards, m, and its rotation in both senses, rad.
     forces : largest force of a wall on one sphere after each time step, N.
     """
 

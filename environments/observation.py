@@ -110,8 +110,8 @@ class Observation:
         if part == "target":
             return route.points[route.target] - tip
         if part == "ahead":
-            way = _in_frame(state.orientations[-1], route.ahead(place[0], self.lookahead) - tip)
-            return _within_one(way / max(math.hypot(*way.tolist()), 1e-12))
+            heading = _in_frame(state.orientations[-1], route.ahead(place[0], self.lookahead) - tip)
+            return _within_one(heading / max(math.hypot(*heading.tolist()), 1e-12))
         return self.image(state)
 
 

@@ -62,7 +62,7 @@ def play(environment: Environment, policy: Policy, seed: int) -> Played:
 
 
 def table(names: Sequence[str], played: Sequence[Sequence[Played]]) -> str:
-    """A row for each policy: shares of episodes, means over them."""
+    """A row for each policy: fractions of episodes, means over them."""
     head = ("policy", "episodes", "success", "safe success", "time s", "return", "largest force N", "of any N",
             "impulse N s", "inserted mm", "retracted mm")
     rows = [head, ("---",) * len(head)]

@@ -277,11 +277,11 @@ class _Queue:
                 self._on_answer(job, Answer(*answer))
 
     def _size(self, places: int) -> int:
-        """Runs of the next batch: what takes so long, and not more than leaves each place its share."""
+        """Runs of the next batch: so many that they take so long, and at most an even part of those that wait."""
         if not self._answered or self._waiting[0].request.out in self._second:
             return 1
-        share = len(self._waiting) // (_IN_HAND * max(1, places))
-        return max(1, min(share, int(_BATCH * self._answered / max(self._seconds, 1e-3))))
+        even = len(self._waiting) // (_IN_HAND * max(1, places))
+        return max(1, min(even, int(_BATCH * self._answered / max(self._seconds, 1e-3))))
 
     def _hand_out(self, size: int) -> None:
         batch = [self._waiting.popleft() for _ in range(size)]

@@ -289,7 +289,7 @@ def _compare(arguments: argparse.Namespace) -> int:
         if not run.is_reliable:
             print(f"guidewire: {folder}: the run ended {run.outcome}, and by its summary it is not reliable",
                   file=sys.stderr)
-        print(found.told())
+        print(found.summary())
         return draw_comparison(found)
 
     return _draw_log(arguments.folder, draw, "compare.png")

@@ -2,15 +2,13 @@
 
 from __future__ import annotations
 
-import warnings
-
 import numpy as np
 
 from analysis.logs import PositionLog
 from analysis.render import Instrument, instruments_of
 from analysis.runs import PARAMETERS_NAME, Run
 from experiments.prepare import PreparationError
-from experiments.session import Session, SessionError
+from experiments.session import SessionError, session_of
 from viewer.recording import read_recording
 
 
@@ -32,9 +30,7 @@ def instruments_and_sheath(run: Run, log: PositionLog) -> tuple[tuple[Instrument
             if f"{hub}Insertion" in values and len(values["time"]) == len(log.steps) else None
             for hub in ("hub", *(f"hub{k + 1}" for k in range(len(log.catheters))))]
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")    # they were told when the run was made
-            with Session(run.folder / PARAMETERS_NAME, hand=False) as session:
-                return instruments_of(session.describe()["instruments"], hubs), recording.sheath
+        with session_of(run.folder / PARAMETERS_NAME) as session:
+            return instruments_of(session.describe()["instruments"], hubs), recording.sheath
     except SessionError as error:
         raise PreparationError(str(error)) from error

@@ -27,7 +27,7 @@ def code_of(action: Callable[[argparse.Namespace], int], arguments: argparse.Nam
 
     Parameters
     ----------
-    left : what an interrupted action leaves, told behind the word.
+    left : what an interrupted action leaves, said after the word.
     """
     try:
         code = action(arguments)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import argparse
-import warnings
 from collections.abc import Callable, Sequence
 from typing import Any
 
@@ -13,7 +12,7 @@ from PIL import Image, ImageDraw
 from analysis.logs import LogError, PositionLog
 from analysis.runs import PARAMETERS_NAME, Run
 from experiments.prepare import PreparationError
-from experiments.session import Session, SessionError
+from experiments.session import SessionError, session_of
 
 _OWN = {"lao": 0.0, "cranial": 0.0, "field": None, "vessel": "roadmap", "pixels": 512, "noise": 0.03, "blur": 0.15}
 _OTHERS = ("zoom", "view", "distance", "yaw", "pitch", "radius")  # of a drawn picture
@@ -56,10 +55,7 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
     chosen = _chosen(log, arguments, is_film)
     images = []
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")    # they were told when the run was made
-            session = Session(run.folder / PARAMETERS_NAME, hand=False)
-        with session:
+        with session_of(run.folder / PARAMETERS_NAME) as session:
             for k in chosen:
                 if not np.isfinite(log.positions[k]).all():
                     raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite")

@@ -112,7 +112,7 @@ def find_study(name: str | Path, most_runs: int | None) -> Study:
     except StudyFileError as error:
         raise PreparationError(str(error)) from error
     if study.name in (*STUDIES, RUNS):
-        raise PreparationError(f"{path}: study = \"{study.name}\" is not allowed: another name, that one is ours")
+        raise PreparationError(f"{path}: study = \"{study.name}\" is not allowed: a study of ours has that name")
     return study
 
 

@@ -187,8 +187,8 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
             if session.state.outcome is None:  # a turn may have ended the run
                 session.step(push=_CHUNK, turn=_CHUNK * spin, steps=steps)
                 along, is_wrong = route.locate(session.state.positions[-1])
-            time, way, turn = at.row
-            row = (time + steps * dt, way + _CHUNK, turn + _CHUNK * spin)
+            time, moved, turn = at.row
+            row = (time + steps * dt, moved + _CHUNK, turn + _CHUNK * spin)
             is_ahead = along is not None and along > at.best
             best, since = (along, row[1]) if is_ahead else (at.best, at.since)
             ended = session.state.outcome
@@ -220,15 +220,15 @@ def _turned(session: Session, at: _Start, angle: float, dt: float) -> _Start:
     """The same place with the hub turned; the attempt's progress is counted anew."""
     steps = max(1, round(abs(angle) / _TURN))
     session.step(turn=angle, steps=steps)
-    time, way, turn = at.row
-    return _Start(b"", at.along, at.along, way, (time + steps * dt, way, turn + angle), at)
+    time, moved, turn = at.row
+    return _Start(b"", at.along, at.along, moved, (time + steps * dt, moved, turn + angle), at)
 
 
 def write(scene: Path, found: Steered) -> Path:
     """The drive and a scene that follows it, beside the scene given; returns the new scene's file."""
     folder = scene.parent
     write_whole(folder / DRIVE, "time,insertion,rotation\n" + "".join(
-        f"{time:.9g},{1e-3 * way:.9g},{turn:.12g}\n" for time, way, turn in found.rows))
+        f"{time:.9g},{1e-3 * moved:.9g},{turn:.12g}\n" for time, moved, turn in found.rows))
     asked = with_tip(json.loads(scene.read_text()), found.tip)
     del asked["insertionSpeed"]
     steps = round(found.rows[-1][0] / asked["timeStep"])

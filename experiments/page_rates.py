@@ -50,13 +50,13 @@ def main() -> None:
             (Path(folder) / f"{name}.json").write_text(json.dumps(scene), encoding="utf-8")
             command = [node, str(ROOT / "experiments" / "page_rates.mjs"), str(modules.parent), browser]
             for views, shown in VIEWS.items():
-                seen = watch(Path(folder) / f"{name}.json", command, views)
+                seen = measure(Path(folder) / f"{name}.json", command, views)
                 print(f"{name} (60 elements, {len(mesh.triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a"
                       f" second, each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
                       f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
 
 
-def watch(scene: Path, command: list[str], views: str) -> dict[str, float]:
+def measure(scene: Path, command: list[str], views: str) -> dict[str, float]:
     """What the browser saw of a live scene in one view or both."""
     server = subprocess.Popen([sys.executable, str(ROOT / "guidewire.py"), "view", str(scene)], text=True,
                               stdout=subprocess.PIPE, env={**os.environ, "PYTHONUNBUFFERED": "1"})

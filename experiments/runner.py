@@ -123,7 +123,7 @@ class Runner:
         try:
             return Answer(request.name, int(reply["exitCode"]), reply["outcome"], str(reply["message"]))
         except (KeyError, TypeError, ValueError):
-            return self._babbled(request, json.dumps(reply))
+            return self._not_an_answer(request, json.dumps(reply))
 
     def check(self, request: Request, following: Request | None = None) -> Checked | Answer:
         """The address of a run, or why it cannot be made; `following` is the run that is checked next."""
@@ -136,7 +136,7 @@ class Runner:
                 return Checked(str(reply["address"]), str(reply["version"]))
             return Answer(request.name, int(reply["exitCode"]), None, str(reply["message"]))
         except (KeyError, TypeError, ValueError):
-            return self._babbled(request, json.dumps(reply))
+            return self._not_an_answer(request, json.dumps(reply))
 
     def interrupt(self) -> None:
         """Ask for a clean end of the run that is under way, as Ctrl-C does."""
@@ -180,7 +180,7 @@ class Runner:
             answer = json.loads(reply)
         except ValueError:
             answer = None
-        return answer if isinstance(answer, dict) else self._babbled(request, reply)
+        return answer if isinstance(answer, dict) else self._not_an_answer(request, reply)
 
     def _start(self) -> subprocess.Popen[str]:
         if self._process is None or self._process.poll() is not None:
@@ -202,7 +202,7 @@ class Runner:
                 process.kill()
             time.sleep(_POLL_INTERVAL)
 
-    def _babbled(self, request: Request, line: str) -> Answer:
+    def _not_an_answer(self, request: Request, line: str) -> Answer:
         return self._died(request, f"it wrote {line.strip()[:200]!r} instead of an answer" if line else "")
 
     def _died(self, request: Request, why: str) -> Answer:

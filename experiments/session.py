@@ -91,8 +91,8 @@ class Session:
 
         Parameters
         ----------
-        push : way of the first sphere in all of them, units; negative values pull. Along the first element, or along
-            displacementDirection where the drive of a wire with a material is "displace".
+        push : displacement of the first sphere in all of them, units; negative values pull. Along the first element,
+            or along displacementDirection where the drive of a wire with a material is "displace".
         turn : turn of the first element about its axis in all of them, rad.
         steps : number of steps, from 1; push and turn are made in equal parts.
         hub : whose hub push and turn move, along and about its axis: 0 the wire's, k that of catheter k; the others
@@ -251,6 +251,13 @@ class Session:
         self._state = state_of(answer["step"], answer["time"], answer["outcome"], answer["message"],
                                answer["predictionError"], arrays, self)
         return self._state
+
+
+def session_of(file: Path, native: bool | None = None) -> Session:
+    """A session with the parameters that a run has written, without the warnings shown when it was made."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return Session(file, hand=False, native=native)
 
 
 def _host(native: bool | None) -> Library | Process:

@@ -35,7 +35,7 @@ class Hub:
 
     Attributes
     ----------
-    insertion, turn : way of the hub along its axis and turn about it since the start, m and rad.
+    insertion, turn : displacement of the hub along its axis and rotation about it since the start, m and rad.
     force, torque : of the hub on the wire along and about its axis, N and N m; a push is positive.
     tip_position, tip_direction : (3,), units, and a unit vector.
     twist : of the wire from hub to tip, rad.

@@ -23,7 +23,7 @@ def folder_of(runs: Path, address: str, repeat: int | None = None, in_turns: boo
     Parameters
     ----------
     runs : folder of all runs.
-    address : as the runner tells it, hex digits.
+    address : as the runner reports it, hex digits.
     repeat : number of the timed repeat.
     in_turns : whether it is a cost measured in turns with sweeps.
     """

@@ -8,7 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)  # no room: of the disk, of the user, of the process
+FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)  # no space left: of the disk, of the user, of the process
 
 
 @contextmanager

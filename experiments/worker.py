@@ -173,8 +173,8 @@ def make(plugin: str, command: Sequence[str], jobs: str) -> dict[str, Any]:
         answers = get_worker().plugins[plugin].make(command, of_text(jobs))
     except WorkerProblem as problem:
         return {"answers": [], "seconds": 0.0, "problem": str(problem)}
-    told = [(answer.name, answer.exit_code, answer.outcome, answer.message) for answer in answers]
-    return {"answers": told, "seconds": time.monotonic() - started, "problem": ""}
+    described = [(answer.name, answer.exit_code, answer.outcome, answer.message) for answer in answers]
+    return {"answers": described, "seconds": time.monotonic() - started, "problem": ""}
 
 
 def check(plugin: str, command: Sequence[str], jobs: str) -> list[Plain]:

@@ -40,23 +40,23 @@ class Range:
         if self.logarithmic and self.low <= 0:
             raise ValueError(f"{self.key} goes from {self.low:g}: a logarithmic range lies above 0")
 
-    def at(self, share: float) -> Value:
+    def at(self, fraction: float) -> Value:
         """The value at this part of the range, 0 for its start and 1 for its end."""
         low, high = self.low, self.high
         if self.whole:  # each of them as wide as any other
             low, high = math.ceil(low) - 0.5, math.floor(high) + 0.5
         if self.logarithmic:
-            value = low * (high / low) ** share if low > 0 else high * share
+            value = low * (high / low) ** fraction if low > 0 else high * fraction
         else:
-            value = low + share * (high - low)
+            value = low + fraction * (high - low)
         return min(max(round(value), math.ceil(self.low)), math.floor(self.high)) if self.whole else float(value)
 
     def spaced(self, count: int) -> list[Value]:
         """So many values at equal distances or factors, both ends among them; of whole numbers none twice."""
         if self.whole:
-            shares = (k / max(1, count - 1) for k in range(count))
+            fractions = (k / max(1, count - 1) for k in range(count))
             exact = Range(self.key, self.low, self.high, self.logarithmic)
-            return list(dict.fromkeys(round(exact.at(share)) for share in shares))
+            return list(dict.fromkeys(round(exact.at(fraction)) for fraction in fractions))
         return [self.at(k / max(1, count - 1)) for k in range(count)]
 
 
@@ -70,5 +70,5 @@ def sample(method: str, ranges: Sequence[Range], count: int, seed: int) -> Rows:
         from scipy.stats import qmc
 
         points = qmc.LatinHypercube(len(ranges), seed=seed).random(count)
-    rows = tuple(tuple(one.at(float(share)) for one, share in zip(ranges, point)) for point in points)
+    rows = tuple(tuple(one.at(float(fraction)) for one, fraction in zip(ranges, point)) for point in points)
     return Rows("sample", tuple(one.key for one in ranges), rows)

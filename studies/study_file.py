@@ -219,7 +219,7 @@ class _Reader:
         return Named(self._text(f"{where}.name", given["name"]), given["value"])
 
     def _built(self, where: str, make: Callable[..., Any], *given: Any) -> Any:
-        """What is made of something; what a class refuses is told with where it stands."""
+        """The object made of these values; a ValueError becomes a line that says where in the file they are."""
         try:
             return make(*given)
         except ValueError as error:

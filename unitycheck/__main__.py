@@ -32,7 +32,7 @@ def main(arguments: list[str] | None = None) -> int:
     for violation in violations:
         print(violation)
     if not sources.is_built():
-        print("unity-check: the C# sources, what scenes hold of them and the guide's command lines were not judged; "
+        print("unity-check: the C# sources, what scenes hold of them and the guide's command lines were not checked; "
               f"that needs the build: dotnet build -c Release {sources.PROJECT}")
     print(f"unity-check: {len(project.asset_files)} files under Assets, {len(violations)} violations")
     return 1 if violations else 0

@@ -43,7 +43,7 @@ _BASES = {"Camera": {"Behaviour", "Component"}, "Light": {"Behaviour", "Componen
 def check(project: Project) -> Iterator[Violation]:
     """Rules scene-script, scene-needs, scene-camera, scene-light, field-unknown, field-value, reference-*.
 
-    What scripts store is the compiler's to say: where it is not built, their fields are not judged.
+    What scripts store is the compiler's to say: where it is not built, their fields are not checked.
     """
     for path in project.assets(".unity"):
         found, problem = documents(project, path)

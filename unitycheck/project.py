@@ -50,7 +50,7 @@ def strict_json(text: str) -> Any:
 class Project:
     """The repository at `root`, listed once; paths are repository paths with forward slashes.
 
-    only : the C# sources that are judged; None for all.
+    only : the C# sources that are checked; None for all.
     """
 
     def __init__(self, root: Path) -> None:
@@ -79,7 +79,7 @@ class Project:
     def with_changes(self, changes: Mapping[str, bytes | None], only: Iterable[str] | None = None) -> Project:
         """The same project with other bytes in some files, or (None) without them; nothing on disk is touched.
 
-        Of the C# sources `only` these are judged, where it is given.
+        Of the C# sources `only` these are checked, where it is given.
         """
         other = copy.copy(self)
         other.only = None if only is None else frozenset(only)

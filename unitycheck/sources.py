@@ -77,7 +77,7 @@ def is_built() -> bool:
 
 
 def answer(project: Project) -> dict[str, Any] | None:
-    """What the program answers for a project; None where it is not built."""
+    """The C# checker's reply for a project; None where the checker is not built."""
     return project.derived("sources", _ask) if is_built() else None
 
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 import sys
-import warnings
 import webbrowser
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
@@ -17,7 +16,7 @@ from anatomy.formats import is_anatomy
 from experiments import checking, walls
 from experiments.key_table import read_key_table
 from experiments.prepare import ROOT, PreparationError
-from experiments.session import Session, SessionError, State
+from experiments.session import SessionError, State, session_of
 from experiments.whole_files import write_whole
 from viewer.anatomy import read_vessel
 from viewer.export import to_html
@@ -93,10 +92,8 @@ def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], lis
 def _described(folder: Path) -> dict[str, Any]:
     """What pictures need to know of a run; empty where its parameters cannot be used any more."""
     try:
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore")    # they were told when the run was made
-            with Session(folder / PARAMETERS_NAME, hand=False, native=False) as session:
-                return session.describe()
+        with session_of(folder / PARAMETERS_NAME, native=False) as session:
+            return session.describe()
     except SessionError as error:
         _say(f"no fluoroscopy of {folder.name}: {error}")
         return {}

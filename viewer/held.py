@@ -72,7 +72,7 @@ class HeldInstruments:
             steered.invalidate(why)
 
     def status(self) -> dict[str, Any]:
-        """What a page is told."""
+        """What a page shows of the instruments."""
         return {"held": self.held, "instruments": [one["title"] for one in self._instruments],
                 "chosen": [one["name"] for one in self._instruments],
                 "named": [one["choices"] for one in self._instruments if one["choices"]]}

@@ -1,6 +1,6 @@
 """A run steered by one page, while others watch. The runner simulates; this module passes requests and states.
 
-A page says what it wants in short JSON messages, `_DO` below lists them, and is told the run's status as JSON where
+A page says what it wants in short JSON messages, `_DO` below lists them, and receives the run's status as JSON where
 that has changed, and each new state as doubles: the number of the page's last message of its hand, the largest size
 that each channel has had (so that the scales of all pages agree), then all channels.
 """
@@ -38,7 +38,7 @@ _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
 _LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
 _PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
 _MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; further ones are left out
-_SMOOTHING = 0.1               # share of the newest request in the step time shown
+_SMOOTHING = 0.1               # weight of the newest request in the step time shown
 _ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
 _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
             "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
@@ -432,4 +432,4 @@ async def _send(sending: Awaitable[None]) -> None:
     try:
         await sending
     except (ConnectionError, RuntimeError):
-        pass  # the page is on its way out; its own loop says so
+        pass  # the page has been closed; its own loop reports that

@@ -377,7 +377,7 @@ def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[
 
 
 def facts_of(parameters: Mapping[str, Any], summary: Mapping[str, Any] | None) -> list[tuple[str, str]]:
-    """What is told of a run beside its picture."""
+    """What is shown of a run beside its picture."""
     facts = [("method", parameters.get("solver", "")), ("elements", str(parameters.get("numberRodElements", ""))),
              ("time step", f"{parameters.get('timeStep')} s")]
     if summary:

@@ -1,7 +1,7 @@
 """Error and cost of each trial, and the choice among them.
 
 What the error is of, `quantity` says: without a name the RMS distance of the wire from the reference's,
-over points along the wire and times from start to end, over the RMS way that the reference's points have gone.
+over points along the wire and times from start to end, over the RMS displacement of the reference's points.
 """
 
 from __future__ import annotations

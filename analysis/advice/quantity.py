@@ -2,8 +2,8 @@
 number of the summary.
 
 A quantity is sampled at the same times in every run, as an array of shape (times, values). An error is the RMS of its
-difference from the reference's over the RMS of the reference's own values, for places over the RMS way that they have
-gone; or the same at the last of these times alone.
+difference from the reference's over the RMS of the reference's own values, for positions over their RMS
+displacement; or the same at the last of these times alone.
 """
 
 from __future__ import annotations
@@ -45,7 +45,7 @@ class Quantity:
 
     @property
     def is_place(self) -> bool:
-        """Whether its errors are a part of the way gone."""
+        """Whether its errors are fractions of a displacement."""
         return self.of in (POSITION, TIP)
 
     @property

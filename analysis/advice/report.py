@@ -59,11 +59,11 @@ def verdict(wish: AdviceRequest, advice: Advice) -> str:
         least = "every setting fails" if best is None else f"the best has {percent(best.error)} ({best.trial.name})"
         missed = "has so small an error" if wish.budget is None else "is within the budget"
         return f"None of the {len(advice.searched)} settings tried {missed}; {least}."
-    told = f"Take: {taken.trial.name}. Error {percent(taken.error)}, {_step(taken)} ms a step, {_all(taken)} s in all"
-    doubt = "" if advice.reference_error <= 0.5 * max(taken.error, wish.error or 0.0) else \
+    choice = f"Take: {taken.trial.name}. Error {percent(taken.error)}, {_step(taken)} ms a step, {_all(taken)} s in all"
+    note = "" if advice.reference_error <= 0.5 * max(taken.error, wish.error or 0.0) else \
         f" The uncertainty of the reference itself is {percent(advice.reference_error)}."
-    return f"{told}; the file as it is: {_error(advice.scene)}, {_step(advice.scene)} ms a step, " \
-           f"{_all(advice.scene)} s in all.{doubt}"
+    return f"{choice}; the file as it is: {_error(advice.scene)}, {_step(advice.scene)} ms a step, " \
+           f"{_all(advice.scene)} s in all.{note}"
 
 
 def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:

@@ -145,9 +145,9 @@ def _draw_published(axes: Axes, charted: Charted) -> None:
 def _published(found: Sequence[Charted]) -> str:
     """Where the bars of others come from."""
     names = [charted.problem.name for charted in found]
-    told = [f"({_LETTERS[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
+    listed = [f"({_LETTERS[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
             for one in PUBLISHED if one.problem in names]
-    return f" Grey bars: wall times published by others without an error. {'; '.join(told)}." if told else ""
+    return f" Grey bars: wall times published by others without an error. {'; '.join(listed)}." if listed else ""
 
 
 def _draw_front(axes: Axes, charted: Charted, cost: Cost) -> None:
@@ -187,14 +187,14 @@ def _lost(found: Sequence[Charted]) -> str:
 
 
 def _references(found: Sequence[Charted]) -> str:
-    told = "; ".join(f"({_LETTERS[k]}) {charted.reference}" for k, charted in enumerate(found))
-    return f"References: {told}."
+    listed = "; ".join(f"({_LETTERS[k]}) {charted.reference}" for k, charted in enumerate(found))
+    return f"References: {listed}."
 
 
 def _gains(found: Sequence[Charted]) -> str:
     gains = sorted({charted.gain for charted in found if charted.gain is not None})
-    told = ", ".join(number(gain, 4) for gain in gains)
-    return (f"its bendStiffness ({told}) is tuned so that each wire sags as the "
+    listed = ", ".join(number(gain, 4) for gain in gains)
+    return (f"its bendStiffness ({listed}) is tuned so that each wire sags as the "
             "material does at m = 500, n = 30, dt = 1 ms; other pbd points have the same stiffness.")
 
 
@@ -204,5 +204,5 @@ def _absent(found: Sequence[Charted]) -> str:
     for k, charted in enumerate(found):
         for method, reason in charted.problem.absent.items():
             places[method, reason] = places.get((method, reason), "") + _LETTERS[k]
-    told = "; ".join(f"{method} {reason} ({', '.join(where)})" for (method, reason), where in places.items())
-    return f"Missing: {told}." if told else ""
+    listed = "; ".join(f"{method} {reason} ({', '.join(where)})" for (method, reason), where in places.items())
+    return f"Missing: {listed}." if listed else ""

@@ -119,8 +119,8 @@ def _which(rests: list[Rest]) -> str:
     far = [rest.pushed[int(rest.position < 0.5)] for rest in off]
     scale = max(np.max(np.abs([near, far])), 1e-300)
     more = sum(n > f + _SAME * scale for n, f in zip(near, far))
-    told = f"the nearer end is moved off the obstacle more than the farther one at {more} of {len(off)} positions"
-    return told + (", as it must be" if more == len(off) else "")
+    text = f"the nearer end is moved off the obstacle more than the farther one at {more} of {len(off)} positions"
+    return text + (", as it must be" if more == len(off) else "")
 
 
 def _sign(rests: list[Rest]) -> str:

@@ -77,7 +77,7 @@ def along_line(points: np.ndarray, knots: np.ndarray) -> tuple[np.ndarray, np.nd
 
 @styled
 def draw_drives(rows: list[DriveRow]) -> tuple[Figure, str]:
-    """The wires at the end, the first sphere's distance from the middle line and the tip's way along it."""
+    """The wires at the end, the first sphere's distance from the middle line and the tip's position along it."""
     figure = new_figure(10.0, 6.2)
     panels = figure.subplot_mosaic([["a", "b", "c", "d"], ["e", "e", "f", "f"]])
     by_key = {row.key: row for row in rows}
@@ -136,16 +136,16 @@ def _result_of(row: DriveRow, radius: float) -> str:
     farthest = row.first_off.max()
     passages = int(run.measured("passages"))
     if farthest > radius:
-        told = (
+        text = (
             f"contact does not act on the first sphere, which leaves the lumen, up to {number(farthest)} units from "
             f"its middle line, and the wire is pulled after it: {passages} of its points pass the wall; "
         )
     else:
-        told = f"the first sphere stays within {number(farthest)} units of the middle line; "
+        text = f"the first sphere stays within {number(farthest)} units of the middle line; "
     shortfall, asked = run.measured("driveShortfall"), run.measured("driveAsked")
     if asked > 0.0 and shortfall > 0.01 * asked:
-        told += f"the wall takes {number(shortfall)} of the {asked:g} units ({percent(shortfall / asked)}); "
-    return told + f"the tip comes {number(row.tip_along[-1])} units along."
+        text += f"the wall takes {number(shortfall)} of the {asked:g} units ({percent(shortfall / asked)}); "
+    return text + f"the tip comes {number(row.tip_along[-1])} units along."
 
 
 @dataclass(frozen=True)

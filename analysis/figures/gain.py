@@ -141,15 +141,15 @@ def _passed(subject: str, rows: list[ElementRow], radius: float) -> str:
     if not failed:
         return f"{subject} no point of any wire passes the wall."
     count = sum(row.passages for row in failed)
-    told = f"{subject} {count:,} point{'s pass' if count > 1 else ' passes'} it, at n = " + ", ".join(
+    text = f"{subject} {count:,} point{'s pass' if count > 1 else ' passes'} it, at n = " + ", ".join(
         str(row.elements) for row in failed
     )
     shortest = min(row.element_length for row in failed)
     held = [row.element_length for row in rows if row.passages == 0]
     if held and max(held) < shortest:
-        told += f": for l = {number(shortest)} units and more, and not for {number(max(held))} and less"
-        told += f" (2r = {2 * radius:g})"
-    return told + "."
+        text += f": for l = {number(shortest)} units and more, and not for {number(max(held))} and less"
+        text += f" (2r = {2 * radius:g})"
+    return text + "."
 
 
 def _again(table: ElementTable) -> str:
@@ -160,10 +160,10 @@ def _again(table: ElementTable) -> str:
     wrong = [row for row in rows if row.counted_again != row.passages]
     if not wrong:
         return f"Counted again from {len(rows)} of the logs by ray parity, the passages are the same."
-    told = "; ".join(
+    text = "; ".join(
         f"{row.counted_again} instead of {row.passages} with {RULES[row.rule]} at n = {row.elements}" for row in wrong
     )
-    return f"Counted again from {len(rows)} of the logs by ray parity, the passages are {told}."
+    return f"Counted again from {len(rows)} of the logs by ray parity, the passages are {text}."
 
 
 def _flat(table: ElementTable) -> str:

@@ -59,8 +59,8 @@ class Cell:
     ----------
     x, y : where it stands.
     kind : its class.
-    error : distance of its tip from the reference's at the end, over the way of that; not a number where it was lost or
-        has no reference.
+    error : distance of its tip from the reference's at the end, over its displacement; not a number where it was
+        lost or has no reference.
     """
 
     x: float | str

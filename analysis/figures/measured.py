@@ -30,7 +30,7 @@ def _force(found: ComparedForce) -> Figure:
     for axes, name, title in zip((both, errors), "ab", ("force", "error"), strict=True):
         axes.set(xlabel="time $t$ (s)")
         letter(axes, name, title)
-    add_caption(figure, f"A run beside a measurement, {found.told()}.")
+    add_caption(figure, f"A run beside a measurement, {found.summary()}.")
     return figure
 
 
@@ -53,6 +53,6 @@ def _shapes(found: ComparedShapes) -> Figure:
     errors.legend()
     for axes, name, title in zip((side, top, errors), "abc", ("from the side", "from above", "distance"), strict=True):
         letter(axes, name, title)
-    add_caption(figure, f"A run beside a measurement, {found.told()}. Distances are those of measured points from the "
-                        "line through the run's nodes at their time.")
+    add_caption(figure, f"A run beside a measurement, {found.summary()}. Distances are those of measured points from "
+                        "the line through the run's nodes at their time.")
     return figure

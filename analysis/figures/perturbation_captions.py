@@ -15,7 +15,7 @@ from analysis.comparisons import ComparisonTable, WireRun
 from analysis.distances import distances
 from analysis.figures.wording import number, percent, relative_spread, span
 
-_PROMINENCE = 0.03  # of the range of a curve: lower maxima are not told
+_PROMINENCE = 0.03  # of the range of a curve: lower maxima are not described
 _CLEAR = 0.9  # rank correlation from which on a curve is said to grow or fall
 _SAME = 1e-9  # relative spread up to which values that should be one number are one
 _SMALL_TIME_STEP = 1e-3  # s, up to which the thesis sees nearly no distance in the collision
@@ -38,14 +38,14 @@ def reference_caption(runs: tuple[WireRun, ...]) -> str:
         _rotation(reference),
     ]
     ends = [other.motion.positions[-1, -1, 1] for other in others]
-    told = "; ".join(f"{number(end)} with {describe(other)}" for other, end in zip(others, ends))
+    described = "; ".join(f"{number(end)} with {describe(other)}" for other, end in zip(others, ends))
     twice = float(np.interp(0.5 * reference.end, reference.motion.time, y))
     sentences.append(
-        f"The reference is large, not a limit: at the same moment y is {told}; and since without forces the positions "
-        "at step k are the same for every Δt, twice the Δt shows the first half of this very run at half the pace "
-        f"(dashed) and ends at {number(twice)}. More iterations in a second of in-game time, or more elements, make "
-        "another, stiffer wire. Distances to such a reference in the next figures are distances between two wires of "
-        "different stiffness, not errors that go to 0."
+        f"The reference is large, not a limit: at the same moment y is {described}; and since without forces the "
+        "positions at step k are the same for every Δt, twice the Δt shows the first half of this very run at half "
+        f"the pace (dashed) and ends at {number(twice)}. More iterations in a second of in-game time, or more "
+        "elements, make another, stiffer wire. Distances to such a reference in the next figures are distances between "
+        "two wires of different stiffness, not errors that go to 0."
     )
     return " ".join(sentence for sentence in sentences if sentence)
 
@@ -87,11 +87,11 @@ def _other_references(table: ComparisonTable) -> str:
     """How far the reference is from the runs that differ from it in one parameter: what its own choice is worth."""
     if not table.others:
         return ""
-    told = " and ".join(
+    described = " and ".join(
         f"{number(distances(other.motion, table.reference.motion).mean, 2)} units from {describe(other)}"
         for other in table.others
     )
-    return f"The reference is itself, on average over the run, {told} (grey in (c)): it is no limit."
+    return f"The reference is itself, on average over the run, {described} (grey in (c)): it is no limit."
 
 
 def describe(wire: WireRun) -> str:
@@ -118,7 +118,7 @@ def maxima(x: np.ndarray, y: np.ndarray) -> np.ndarray:
     return x[find_peaks(y, prominence=_PROMINENCE * np.ptp(y))[0]]
 
 
-def _told(values: np.ndarray) -> str:
+def _listed(values: np.ndarray) -> str:
     """Maxima as a list, the first six of many."""
     listed = ", ".join(f"{value:.4g}" for value in values[:6])
     return listed if values.size <= 6 else f"{listed} and {values.size - 6} more"
@@ -132,14 +132,14 @@ def _resonance(table: ComparisonTable, low: float, high: float, claim: str) -> l
     if found.size == 0:
         seen = f"with {x.size} runs there is no local maximum at all."
     elif (low, high) == (x[0], x[-1]):
-        seen = f"local maxima stand at {symbol} = {_told(found)}."
+        seen = f"local maxima stand at {symbol} = {_listed(found)}."
     else:
         count = f"{there.size} of them there" if there.size else "none of them there"
-        seen = f"the finer sweep has local maxima at {symbol} = {_told(found)}, {count}."
+        seen = f"the finer sweep has local maxima at {symbol} = {_listed(found)}, {count}."
     sentences = [f"The thesis sees {claim}: {seen}"]
     for k, other in enumerate(table.others):
         peaks = maxima(x, np.array([row.other_distances[k] for row in table.rows]))
-        stand = f"stand at {symbol} = {_told(peaks)}" if peaks.size else "are none"
+        stand = f"stand at {symbol} = {_listed(peaks)}" if peaks.size else "are none"
         sentences.append(f"Against {describe(other)} there {stand}.")
     swing = table.column("swing")
     if relative_spread(swing) < _SAME:
@@ -156,7 +156,7 @@ def _resonance(table: ComparisonTable, low: float, high: float, claim: str) -> l
     else:
         sentences.append(
             f"The last sphere's swing itself, over the first {table.common_steps} steps, is largest near {symbol} = "
-            f"{_told(maxima(x, swing))}."
+            f"{_listed(maxima(x, swing))}."
         )
     return sentences
 
@@ -268,7 +268,7 @@ def _collision_steps(table: ComparisonTable) -> list[str]:
         f"As the thesis says, the distance falls with more solver steps, by {percent(1.0 - mean[-1] / mean[0])} from "
         "the first run to the last." if _falls(table) else
         f"The thesis says that it falls with more solver steps; it goes from {number(mean[0])} units at m = {x[0]:g} "
-        f"to {number(mean[-1])} at m = {x[-1]:g}, with local maxima at m = {_told(maxima(x, mean))}."
+        f"to {number(mean[-1])} at m = {x[-1]:g}, with local maxima at m = {_listed(maxima(x, mean))}."
     )
     return [verdict, _equal_steps(table), _sunk(table)]
 

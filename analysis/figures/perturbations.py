@@ -20,7 +20,7 @@ from analysis.comparisons import ComparedRun, ComparisonTable, WireRun
 from analysis.figures.perturbation_captions import perturbation_caption, reference_caption
 from analysis.figures.style import captioned, letter, new_figure, styled
 
-_MOST_WIRES = 10  # drawn in one panel: more could not be told apart
+_MOST_WIRES = 10  # drawn in one panel: more could not be distinguished
 _COLOURS = "viridis"
 _EARLY = 0.1  # part of the reference run that is drawn enlarged
 

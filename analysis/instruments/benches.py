@@ -136,6 +136,6 @@ def require_end(folder: Path) -> Run:
     run = read_run(folder)
     if run.outcome not in ("finished", "converged") or not run.is_reliable:
         reason = run.summary["reason"] if isinstance(run.summary, Mapping) else ""
-        doubt = "" if run.is_reliable else ", not reliable"
-        raise LogError(f"{folder}: the bench test is {run.outcome}{doubt}: {reason}")
+        reliability = "" if run.is_reliable else ", not reliable"
+        raise LogError(f"{folder}: the bench test is {run.outcome}{reliability}: {reason}")
     return run

@@ -35,7 +35,7 @@ class TubeTest:
     hub : the log.
     force : at the hub at the end of the push, N.
     response : turn of the tip over turn of the hub after three turns.
-    largest_lag : largest difference of the two on the way, rad.
+    largest_lag : largest difference of the two before the end, rad.
     torque : largest at the hub, N m.
     passages : of the wall; 0 in a run that is right.
     """
@@ -52,7 +52,7 @@ def write_drive(file: Path) -> None:
     """The motion of the hub as a drive table: time, s, insertion, m, rotation, rad."""
     rows = [(0.0, 0.0, 0.0), (_PUSHED, _INSERTION, 0.0), (_RESTED, _INSERTION, 0.0),
             (_TURNED, _INSERTION, 2.0 * math.pi * TURNS)]
-    file.write_text("".join(f"{time!r},{way!r},{turn!r}\n" for time, way, turn in rows), encoding="utf-8")
+    file.write_text("".join(f"{time!r},{moved!r},{turn!r}\n" for time, moved, turn in rows), encoding="utf-8")
 
 
 def bent_tube(wire: Wire, drive: Path, friction: float | None) -> dict[str, Any]:

@@ -10,6 +10,7 @@ from __future__ import annotations
 import json
 from collections.abc import Sequence
 from dataclasses import dataclass, field
+from itertools import zip_longest
 from pathlib import Path
 from typing import Protocol
 
@@ -121,7 +122,7 @@ class Chain:
         }
 
     def log(self, milliseconds_per_step: float = 2.0) -> str:
-        """positions.json as the runner lays it out, one entry a line."""
+        """positions.json as the runner writes it, one entry a line."""
         lines = (f'"{k}": {json.dumps(self.entry(k, milliseconds_per_step))}' for k in range(self.steps + 1))
         return "{\n" + ",\n".join(lines) + "\n}\n"
 
@@ -147,6 +148,17 @@ class Chain:
 def small(**changed: float) -> Chain:
     """A quick run of the same kind: 10 elements, 100 solver steps."""
     return Chain(**{"constraint_solver_steps": 100, "elements": 10, **changed})  # type: ignore[arg-type]
+
+
+def write_log(folder: Path, positions: Sequence, time_step: float, parts: Sequence[dict] = ()) -> None:
+    """Writes positions.json of spheres without velocities: positions of shape (k, n + 1, 3); parts are what else the
+    entries hold."""
+    numbers = ("x", "y", "z", "vx", "vy", "vz")
+    entries = {str(k): {"totalTime": time_step * k, "elapsedMilliseconds": 0.0, "delta": 0.0,
+                        "sphere": {str(i): dict(zip(numbers, (*place, 0.0, 0.0, 0.0)))
+                                   for i, place in enumerate(spheres)}, **part}
+               for k, (spheres, part) in enumerate(zip_longest(positions, parts, fillvalue={}))}
+    (folder / "positions.json").write_text(json.dumps(entries))
 
 
 class WrittenRun(Protocol):

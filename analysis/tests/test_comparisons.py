@@ -74,7 +74,7 @@ def test_runs_of_any_displacement_lie_on_each_other_when_scaled(tables: dict[str
         assert row.mean_distance == pytest.approx(first.mean_distance, rel=1e-9)
 
 
-def test_a_run_that_ends_early_is_left_out_and_told(tmp_path: Path, studies: dict[str, Path]) -> None:
+def test_a_run_that_ends_early_is_left_out_and_reported(tmp_path: Path, studies: dict[str, Path]) -> None:
     folder = write_study(tmp_path / "a", "a", "totalMass", [Wave(), Wave(steps=40, total_mass=0.5)], repeats=0)
     table = read_comparison(folder, studies["transversal-reference"], "totalMass")
     assert [row.value for row in table.rows] == [0.01]
@@ -127,7 +127,7 @@ def changed(table: ComparisonTable, **columns: np.ndarray) -> ComparisonTable:
     return dataclasses.replace(table, rows=tuple(rows))
 
 
-def test_a_resonance_at_700_is_told_where_there_is_one(tables: dict[str, ComparisonTable]) -> None:
+def test_a_resonance_at_700_is_reported_where_there_is_one(tables: dict[str, ComparisonTable]) -> None:
     table = tables["4.11"]
     m = table.column("value")
     smooth = changed(table, mean_distance=3.0 - m / 1000.0, swing=3.0 - m / 1000.0)
@@ -141,7 +141,7 @@ def test_a_resonance_at_700_is_told_where_there_is_one(tables: dict[str, Compari
     assert "is largest near m = 700" in perturbation_caption("4.11", swinging)
 
 
-def test_equal_positions_at_equal_steps_are_told_only_where_they_are(tables: dict[str, ComparisonTable]) -> None:
+def test_equal_positions_at_equal_steps_are_reported_only_where_they_are(tables: dict[str, ComparisonTable]) -> None:
     table = tables["4.12"]
     assert "one and the same" in perturbation_caption("4.12", table)
     steps = table.column("step_distance")

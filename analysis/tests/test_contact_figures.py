@@ -117,7 +117,7 @@ def test_drives_show_where_the_first_sphere_is(studies: dict[str, Path]) -> None
     assert "(b) Fixed axis: the first sphere stays within 8.00 units" in caption
 
 
-def test_what_the_wall_takes_is_told_where_it_takes_something(studies: dict[str, Path]) -> None:
+def test_what_the_wall_takes_is_reported_where_it_takes_something(studies: dict[str, Path]) -> None:
     rows = {row.key: row for row in read_drives(studies["drives"])}
     assert "the wall takes" not in drives_caption(rows)
     run = rows["axis"].wire.run
@@ -160,7 +160,7 @@ def test_the_section_of_a_box_is_its_outline(tmp_path: Path) -> None:
     np.testing.assert_allclose([ends.min(axis=0), ends.max(axis=0)], [low, high])
 
 
-def test_the_section_of_a_plane_is_a_line_and_a_mesh_that_is_gone_is_told() -> None:
+def test_the_section_of_a_plane_is_a_line_and_a_mesh_that_is_gone_is_reported() -> None:
     axes = Figure().add_subplot()
     plane = {"shape": "plane", "point": [7, 10, 5], "normal": [0, 4, -3]}
     draw_surroundings(axes, Run(Path(), {"vessel": plane}, None))

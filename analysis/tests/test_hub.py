@@ -2,30 +2,22 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 
 from analysis.figures.hub import draw_hub
 from analysis.hub import read_hub
 from analysis.logs import LogError
+from analysis.tests.chain import write_log
 
 ENTRIES = 5
 
 
 def _write(folder, with_hub=True):
-    entries = {}
-    for k in range(ENTRIES):
-        entries[str(k)] = entry = {
-            "totalTime": 0.1 * k, "elapsedMilliseconds": 0.0, "delta": 0.0,
-            "sphere": {str(i): {"x": 0.0, "y": 1.0 * i, "z": 2.0 * k, "vx": 0.0, "vy": 0.0, "vz": 0.0}
-                       for i in range(11)},
-        }
-        if with_hub:
-            entry["hub"] = {"insertion": 1e-3 * k, "turn": 0.2 * k, "force": 0.5, "torque": -1e-3 * k, "twist": -0.1 * k,
-                            "tipDirection": {"x": 0.0, "y": 0.6, "z": 0.8}, "largestCurvature": 20.0}
-    (folder / "positions.json").write_text(json.dumps(entries))
+    hubs = [{"hub": {"insertion": 1e-3 * k, "turn": 0.2 * k, "force": 0.5, "torque": -1e-3 * k, "twist": -0.1 * k,
+                     "tipDirection": {"x": 0.0, "y": 0.6, "z": 0.8}, "largestCurvature": 20.0}} for k in range(ENTRIES)]
+    write_log(folder, [[(0.0, 1.0 * i, 2.0 * k) for i in range(11)] for k in range(ENTRIES)], 0.1,
+              hubs if with_hub else ())
 
 
 def test_every_entry_is_read_and_drawn(tmp_path):

@@ -11,23 +11,17 @@ import pytest
 from analysis.figures.measured import draw_comparison
 from analysis.logs import LogError
 from analysis.measured import ComparedForce, ComparedShapes, compare
+from analysis.tests.chain import write_log
 
 NODES, ENTRIES, STEP = 5, 4, 0.5  # steps in s
 
 
 def _run(folder: Path, spheres: int = NODES, hub: bool = True) -> Path:
     """A straight wire along z, 10 units a piece, that moves by 2 units a step across; the hub pushes by 3 N/s t."""
-    entries = {}
-    for k in range(ENTRIES):
-        entries[str(k)] = entry = {
-            "totalTime": STEP * k, "elapsedMilliseconds": 0.0, "delta": 0.0,
-            "sphere": {str(i): {"x": 0.0, "y": 2.0 * k, "z": 10.0 * i, "vx": 0.0, "vy": 0.0, "vz": 0.0}
-                       for i in range(spheres)},
-        }
-        if hub:
-            entry["hub"] = {"insertion": 0.0, "turn": 0.0, "force": 3.0 * STEP * k, "torque": 0.0, "twist": 0.0,
-                            "tipDirection": {"x": 0.0, "y": 0.0, "z": 1.0}, "largestCurvature": 0.0}
-    (folder / "positions.json").write_text(json.dumps(entries))
+    hubs = [{"hub": {"insertion": 0.0, "turn": 0.0, "force": 3.0 * STEP * k, "torque": 0.0, "twist": 0.0,
+                     "tipDirection": {"x": 0.0, "y": 0.0, "z": 1.0}, "largestCurvature": 0.0}} for k in range(ENTRIES)]
+    write_log(folder, [[(0.0, 2.0 * k, 10.0 * i) for i in range(spheres)] for k in range(ENTRIES)], STEP,
+              hubs if hub else ())
     return folder
 
 
@@ -43,7 +37,7 @@ def test_force_is_compared_at_the_measured_times_with_known_errors(tmp_path):
     assert isinstance(found, ComparedForce) and found.left_out == 1
     np.testing.assert_allclose(found.run, [0.3, 2.1, 4.2], atol=1e-12)
     np.testing.assert_allclose(found.errors, [0.0, 0.1, 0.0], atol=1e-12)
-    said = found.told()
+    said = found.summary()
     assert "RMS error 0.0577 N (1.37 % of the measured peak), largest 0.1 N at t = 0.7 s" in said
     assert "3 values within the run, 1 more outside" in said
     figure = draw_comparison(found)
@@ -57,7 +51,7 @@ def test_shape_is_compared_by_the_distance_of_its_points_from_the_wire(tmp_path)
     assert isinstance(found, ComparedShapes) and found.left_out == 0
     np.testing.assert_allclose(found.distances[0], [0.0, 3.0, 4.0], atol=1e-12)
     np.testing.assert_allclose(found.distances[1], [1.0], atol=1e-12)
-    assert "RMS distance 2.55 units, largest 4 units at t = 0.25 s; 4 points, 2 shapes" in found.told()
+    assert "RMS distance 2.55 units, largest 4 units at t = 0.25 s; 4 points, 2 shapes" in found.summary()
     figure = draw_comparison(found)
     assert [line.get_xdata().size for line in figure.axes[0].lines] == [NODES, 3, NODES, 1]
     assert figure.axes[2].lines[0].get_ydata() == pytest.approx([4.0, 1.0])

@@ -53,7 +53,7 @@ def test_an_open_rim_is_closed() -> None:
     np.testing.assert_array_equal(wall.closed.inside(points), expected)
 
 
-def test_a_mesh_that_turns_over_is_told() -> None:
+def test_a_mesh_that_turns_over_is_reported() -> None:
     vertices, faces = tube_of_triangles()
     faces[7] = faces[7][::-1]
     with pytest.raises(MeshError, match="same sense"):

@@ -185,9 +185,9 @@ def test_the_bar_is_as_long_as_it_says(metres: float | None, unit: float) -> Non
 def test_a_film_has_as_many_pictures_as_asked_for_and_no_more_than_moments(tmp_path: Path) -> None:
     run, log = make_run()
     for frames, count in ((1, 1), (2, 2), (40, 3)):
-        told: list[tuple[int, int]] = []
-        images = render.draw_film(run, log, [], render.View(), frames, lambda *done: told.append(done))
-        assert len(images) == count and told == [(k, count) for k in range(1, count + 1)]
+        counted: list[tuple[int, int]] = []
+        images = render.draw_film(run, log, [], render.View(), frames, lambda *done: counted.append(done))
+        assert len(images) == count and counted == [(k, count) for k in range(1, count + 1)]
     render.save_images(images, tmp_path / "film.gif")
     with Image.open(tmp_path / "film.gif") as film:
         assert film.n_frames == 3

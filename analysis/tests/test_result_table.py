@@ -26,9 +26,9 @@ def table(tmp_path: Path) -> Path:
             for stiffness in (1e-5, 2e-5):
                 force = 10 * friction * (1 if radius == "narrow" else 2) + 1e5 * stiffness
                 lost = friction == 0.2 and radius == "wide" and stiffness == 2e-5
-                told = ",," if lost else f'{force},"[0.0, 1.0, {force}]",{2 * force}'
+                cells = ",," if lost else f'{force},"[0.0, 1.0, {force}]",{2 * force}'
                 outcome = "diverged" if lost else "finished"
-                lines.append(f"a,,{friction},{radius},{stiffness},,{outcome},material,{told},0.5,1.0")
+                lines.append(f"a,,{friction},{radius},{stiffness},,{outcome},material,{cells},0.5,1.0")
                 runs.append({"values": {"vessel.frictionCoefficient": friction, "vessel.radius": radius,
                                         "bendingStiffness": stiffness}})
     lines.append("a,,0.1,narrow,1e-05,1,finished,material,99.0,,99.0,0.5,1.0")  # a timed repeat is no point
@@ -83,14 +83,14 @@ def test_forces_with_gains_have_the_units_of_gains(table: Path) -> None:
     ("bendingStiffness", "hub.tipPosition[3]", "is a number in none of"),
     ("bendingStiffness", "hub.force[0]", "is a number in none of"),
 ])
-def test_what_is_not_there_is_told_in_one_line_with_what_is(table: Path, x: str, y: str, said: str) -> None:
+def test_what_is_not_there_is_reported_in_one_line_with_what_is(table: Path, x: str, y: str, said: str) -> None:
     with pytest.raises(LogError) as refused:
         read_curves(table, x, y)
     assert re.search(said, str(refused.value)) and "\n" not in str(refused.value)
 
 
 @pytest.mark.parametrize("text", ["", "a,b\n1,2\n", "key,outcome\n", None])
-def test_what_is_no_table_of_runs_is_told_in_one_line(tmp_path: Path, text: str | None) -> None:
+def test_what_is_no_table_of_runs_is_reported_in_one_line(tmp_path: Path, text: str | None) -> None:
     if text is not None:
         (tmp_path / "runs.csv").write_text(text)
     with pytest.raises(LogError, match=r"runs\.csv: .*"):

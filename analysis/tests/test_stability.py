@@ -60,7 +60,7 @@ def test_caption_says_how_far_frontiers_are_from_their_limits_and_what_is_lost(
     assert len(crosses) == 1 and crosses[0].get_xdata()[0] == 100.0
 
 
-def test_a_frontier_that_was_not_found_is_told(studies: dict[str, Path], tmp_path: Path) -> None:
+def test_a_frontier_that_was_not_found_is_reported(studies: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "frontier.csv").write_text(
         "variant,constraintSolverSteps,numberRodElements,key,low,high,fails,note\nverlet,20,30,gain,,,,holds at both ends\n")
     assert np.isnan(read_frontiers(tmp_path)[0].middle)

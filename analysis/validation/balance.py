@@ -130,9 +130,9 @@ def _force_balance(tight: bool) -> Plan:
         left = np.linalg.norm(force + weight - rates, axis=1)
         peak = float(np.max(np.linalg.norm(force, axis=1)))
         drawn[name] = (rates[:, 1] - weight[1], force[:, 1])
-        told = f", solverTolerance {run.number('solverTolerance'):g}" if run.value("solver") == "direct" else ""
+        tol = f", solverTolerance {run.number('solverTolerance'):g}" if run.value("solver") == "direct" else ""
         results.append(Result(
-            f"clamp's force + weight = change of momentum in each of {count} steps, n = {n}{told}: largest rest", name,
+            f"clamp's force + weight = change of momentum in each of {count} steps, n = {n}{tol}: largest rest", name,
             float(np.max(left)), 0.0, float(np.max(left)) / peak, _BALANCE_GATE, "N",
             wall_time_per_second(run), "of the peak"))
     worst = max(results, key=lambda r: r.error)

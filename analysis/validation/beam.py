@@ -69,12 +69,13 @@ def mode_shape(number: float, arc: np.ndarray, derivative: int = 0) -> np.ndarra
     growing = 0.5 * (math.sin(b) - math.cos(b) - math.exp(-b)) / below
     falling = 0.5 * (1.0 + c) * (-1.0) ** derivative
     phase = b * arc + turn  # the n-th derivative of cos and sin adds n quarter turns
-    sign = 1.0 if b == 0.0 or _tip(b, c, growing, 0.5 * (1.0 + c)) > 0.0 else -1.0
+    sign = 1.0 if b == 0.0 or _at_tip(b, c, growing, 0.5 * (1.0 + c)) > 0.0 else -1.0
     value = growing * np.exp(b * arc) + falling * np.exp(-b * arc) - np.cos(phase) + c * np.sin(phase)
     return sign * b**derivative * value
 
 
-def _tip(b: float, c: float, growing: float, falling: float) -> float:
+def _at_tip(b: float, c: float, growing: float, falling: float) -> float:
+    """The mode's value at the tip, before it is scaled."""
     return growing * math.exp(b) + falling * math.exp(-b) - math.cos(b) + c * math.sin(b)
 
 

@@ -63,7 +63,8 @@ class Result:
 
 
 # Why pbd has no line of a scene whose bending counts.
-TUNED = "its gain is no material's and would be tuned to this very answer, as in the chart of error against wall time"
+TUNED = ("its stiffness is no material's and would be tuned to this very result, as in the chart of error against wall "
+         "time")
 
 
 def not_run(what: str, solver: str, reason: str) -> Result:

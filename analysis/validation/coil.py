@@ -73,8 +73,8 @@ def _plan() -> Plan:
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        for pitch, (way, force) in curves.items():
-            axes.plot(1e3 * way, force, label=f"tau/kappa = {pitch:g}")
+        for pitch, (inserted, force) in curves.items():
+            axes.plot(1e3 * inserted, force, label=f"tau/kappa = {pitch:g}")
         axes.axhline(1.0, color="0.3", linestyle=":", label="closed form")
         pictures.label(axes, "displacement of the hub (mm)", "force of the hub over EI kappa²/2 (1)")
 

@@ -25,8 +25,8 @@ def hub_slope(c: float, turn: float) -> float:
     """theta'(0) of theta'' = c sin(theta), theta(0) = `turn`, theta'(1) = 0, on the branch from 0."""
 
     def hub(tip: float) -> tuple[float, float]:
-        way = solve_ivp(lambda _, y: [y[1], c * math.sin(y[0])], (1.0, 0.0), [tip, 0.0], rtol=1e-11, atol=1e-12)
-        return float(way.y[0, -1]), float(way.y[1, -1])
+        solution = solve_ivp(lambda _, y: [y[1], c * math.sin(y[0])], (1.0, 0.0), [tip, 0.0], rtol=1e-11, atol=1e-12)
+        return float(solution.y[0, -1]), float(solution.y[1, -1])
 
     tip = brentq(lambda angle: hub(angle)[0] - turn, 0.0, min(turn, math.pi - 1e-12), xtol=1e-13)
     return hub(tip)[1]
@@ -36,8 +36,8 @@ def snap_angle(c: float, lead: float = 0.0) -> float:
     """Largest hub angle of that branch, rad: over all tips, that of the pendulum and what `lead` (over L) twists."""
 
     def hub(tip: float) -> float:
-        way = solve_ivp(lambda _, y: [y[1], c * math.sin(y[0])], (1.0, 0.0), [tip, 0.0], rtol=1e-10, atol=1e-12)
-        return float(way.y[0, -1] - lead * way.y[1, -1])
+        solution = solve_ivp(lambda _, y: [y[1], c * math.sin(y[0])], (1.0, 0.0), [tip, 0.0], rtol=1e-10, atol=1e-12)
+        return float(solution.y[0, -1] - lead * solution.y[1, -1])
 
     tips = np.linspace(1e-3, math.pi - 1e-3, 200)
     return max(hub(tip) for tip in tips)

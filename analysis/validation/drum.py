@@ -40,7 +40,7 @@ _LENGTH = 2.0 * _HANGING + math.pi * _AROUND
 
 
 def force(mu: float, young: float, drawn: bool) -> float:
-    """Force of the held end against the pull F1 along the latter's line, N, half-way through the time that is shown."""
+    """Force of the held end against the pull F1 along the latter's line, N, half-way through the time shown."""
     around = 1e-3 * _DRUM + _ROPE
     b = 0.5 * Wire(radius=_ROPE, youngs_modulus=young).bending / around**2
     m = (1.0 if drawn else -1.0) * mu * 1e-3 * _DRUM / around
@@ -62,7 +62,7 @@ def force(mu: float, young: float, drawn: bool) -> float:
     return found * math.cos(aside(found))
 
 
-def _case(mu: float, young: float, way: float, n: int = 140) -> Case:
+def _case(mu: float, young: float, sense: float, n: int = 140) -> Case:
     s = _LENGTH * np.linspace(0.0, 1.0, n + 1) - _HANGING
     turn = np.clip(s / _AROUND, 0.0, math.pi)
     beyond = s - _AROUND * turn
@@ -70,10 +70,10 @@ def _case(mu: float, young: float, way: float, n: int = 140) -> Case:
                       _AROUND * np.sin(turn) + beyond * np.cos(turn)], axis=1)
     wire = Wire(_LENGTH * scenes.UNIT, _ROPE, young, 0.4 * young, 1000.0)
     frames = [tubes.frame_about_x(a) for a in np.arctan2(np.diff(nodes[:, 1]), np.diff(nodes[:, 2]))]
-    return Case(f"mu={mu:g},E={young:g},{'drawn' if way < 0.0 else 'back'}", {
+    return Case(f"mu={mu:g},E={young:g},{'drawn' if sense < 0.0 else 'back'}", {
         **scenes.wire_parameters(wire), "numberRodElements": n, "integrator": "implicitEuler", "deltaThreshold": 0.0,
         "timeStep": _STEP, "maxSimulationSteps": round(_SLIDES[1] / _STEP), "massDamping": 7.0, "proximalEnd": "held",
-        "drive": "displace", "displacementPerStep": way * _SPEED * _STEP, "tipForce": [0.0, 0.0, -_PULL],
+        "drive": "displace", "displacementPerStep": sense * _SPEED * _STEP, "tipForce": [0.0, 0.0, -_PULL],
         "obstacles": [{"shape": "capsule", "from": [-50.0, 0.0, 0.0], "to": [50.0, 0.0, 0.0], "radius": _DRUM,
                        "frictionCoefficient": mu}],
         "logContacts": True, "logSpheres": "last",
@@ -81,7 +81,8 @@ def _case(mu: float, young: float, way: float, n: int = 140) -> Case:
 
 
 def _plan() -> Plan:
-    cases = {(mu, young, way): _case(mu, young, way) for young in _STIFF for mu in _COEFFICIENTS for way in (-1.0, 1.0)}
+    cases = {(mu, young, sense): _case(mu, young, sense)
+             for young in _STIFF for mu in _COEFFICIENTS for sense in (-1.0, 1.0)}
     runs = yield list(cases.values())
     found = {key: -float(np.mean(reactions(runs[case.key])[round(_SLIDES[0] / _STEP):, 2]))
              for key, case in cases.items()}
@@ -100,11 +101,12 @@ def _plan() -> Plan:
         axes = figure.add_subplot()
         grid = np.linspace(0.0, _COEFFICIENTS[-1], 60)
         for color, young in enumerate(_STIFF):
-            for side, way in enumerate((-1.0, 1.0)):
-                exact = [force(mu, young, way < 0.0) for mu in grid]
+            for side, sense in enumerate((-1.0, 1.0)):
+                exact = [force(mu, young, sense < 0.0) for mu in grid]
                 axes.plot(grid, exact, color=f"C{color}", alpha=0.4, linewidth=2.5)
-                axes.plot(_COEFFICIENTS, [found[mu, young, way] for mu in _COEFFICIENTS], "ov"[side], fillstyle="none",
-                          color=f"C{color}", label=f"E = {number(1e-6 * young, 3)} MPa, {('drawn', 'let back')[side]}")
+                axes.plot(_COEFFICIENTS, [found[mu, young, sense] for mu in _COEFFICIENTS], "ov"[side],
+                          fillstyle="none", color=f"C{color}",
+                          label=f"E = {number(1e-6 * young, 3)} MPa, {('drawn', 'let back')[side]}")
         pictures.label(axes, "coefficient of friction (1)", "force of the held end (N)")
 
     return Finding(tuple(results), draw, (

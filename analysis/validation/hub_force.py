@@ -19,7 +19,7 @@ _BEND, _LUMEN, _PIECES, _SPEED = 40.0, 2.0, 8, 0.05  # units, units, of 90 degre
 _ELEMENTS, _STEPS, _LUMENS = (50, 100, 200), (0.02, 0.01, 0.005), (0.8, 1.0)  # dt in s, lumens in units
 _GATE = 1e-2  # of the peak of the finest run
 _WIRE = tubes.WIRE
-_START, _END = 0.005, 0.1  # m of the hub's way: the start at full speed is over, the tip is out of the bend
+_START, _END = 0.005, 0.1  # m, displacement of the hub: the start at full speed is over, the tip is out of the bend
 
 
 def _pushed(n: int, step: float, smooth: bool, mu: float, lumen: float = _LUMEN, angle: float = 90.0) -> dict[str, Any]:

@@ -95,7 +95,7 @@ _TOLERANCES = (1e-12, 1e-10, 1e-8, 1e-7)
 
 
 def _tolerance() -> Plan:
-    """From exact to the default, whatever that is: the run that is not told says what it took."""
+    """From exact to the default; the run that states none reports the one that it took."""
     loads = {"tipForce": [0.0, -_FORCE, 0.0]}
     keys: dict[str, dict[str, Any]] = {value_text(t): {"solverTolerance": t} for t in _TOLERANCES} | {"default": {}}
     kinds = {
@@ -204,12 +204,13 @@ def _sweeps() -> Plan:
             lost = run.outcome == "diverged"
             error = math.nan if lost else abs(tip / exact - 1.0)
             errors.append(error)
-            doubtful = solver_report(run, "stepsNotConverged") / run.measured("steps")
+            unconverged = solver_report(run, "stepsNotConverged") / run.measured("steps")
             says = "diverged" if lost else (
-                "reports convergence" if doubtful == 0.0 else f"reports no convergence in {percent(doubtful)} of steps")
+                "reports convergence" if unconverged == 0.0
+                else f"reports no convergence in {percent(unconverged)} of steps")
             results.append(Result(
                 f"tip load F L²/EI = {_LOAD:g}, r = 5 mm, {factor} times the default substep, m = {m}; {says}", "xpbd",
-                tip, exact, error, GATE if doubtful == 0.0 and not lost else None, "L", wall_time(run),
+                tip, exact, error, GATE if unconverged == 0.0 and not lost else None, "L", wall_time(run),
             ))
         series[f"substep x {factor}"] = (_SWEEPS, errors)
     caption = (

@@ -204,9 +204,9 @@ def _rotated() -> Plan:
         moved = float(np.max(np.linalg.norm(a - nodes, axis=1)))
         error = float(np.max(np.linalg.norm(_WHOLE_TURN.apply(a) - b, axis=1)))
         results.append(Result(
-            f"everything turned by {number(_WHOLE_TURN.magnitude(), 3)} rad: free flight of a bent wire for 2 ms, its "
-            "way", name, float(np.max(np.linalg.norm(b - _WHOLE_TURN.apply(nodes), axis=1))), moved, error / moved,
-            EXACT, "m", wall_time_per_second(runs[second.key]), "of the displacement, worst node"))
+            f"everything turned by {number(_WHOLE_TURN.magnitude(), 3)} rad: free flight of a bent wire for 2 ms, "
+            "displacement", name, float(np.max(np.linalg.norm(b - _WHOLE_TURN.apply(nodes), axis=1))), moved,
+            error / moved, EXACT, "m", wall_time_per_second(runs[second.key]), "of the displacement, worst node"))
         if name.startswith("direct"):
             before, after = (solver_report(runs[case.key], "energy") for case in (first, second))
             results.append(Result("everything turned: energy after the flight", name, after, before,
@@ -217,7 +217,7 @@ def _rotated() -> Plan:
         "A bent wire, free at both ends, let go under gravity and a force on its last node: once as it is, once with "
         "its start, gravity and force turned about one axis. Points: the second flight's end, turned back; line: the "
         "start. The two flights end apart by at most "
-        f"{number(max(r.error for r in results if r.unit == 'm'), 1)} of the way."
+        f"{number(max(r.error for r in results if r.unit == 'm'), 1)} of the displacement."
     )
     return Finding(tuple(results), pictures.shapes({"start": start}, drawn, ("z/L", "y/L")), caption)
 

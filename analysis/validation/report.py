@@ -178,10 +178,10 @@ def draw_overview(report: Report) -> tuple[Figure, str]:
             axes.plot([], [], marker, color="0.4", fillstyle="none", label=kind)
     axes.legend(loc="lower left", ncols=2)
     wrong = [(check, [r for r in finding.results if r.passed is False]) for check, finding in report.findings.items()]
-    told = "; ".join(f"{check.title}: {_worst(lines)}" for check, lines in wrong if lines)
+    failures = "; ".join(f"{check.title}: {_worst(lines)}" for check, lines in wrong if lines)
     return captioned(figure, (
         f"Error over limit of every line of the validation that has one. {_counted(report)}. "
-        + (f"Failed: {told}. " if told else "")
+        + (f"Failed: {failures}. " if failures else "")
         + (f"Not made: {', '.join(check.title for check in report.missing)}." if report.missing else "")
     ))
 

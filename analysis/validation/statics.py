@@ -215,10 +215,10 @@ def _plane_contact(solvers: Sequence[str]) -> Plan:
         axes.invert_yaxis()
         pictures.label(axes, "z/L", "-y/L")
 
-    told = [f"{number(forces[r.solver], 5)} N ({r.solver}, off by {percent(r.error)})" for r in results[:len(solvers)]]
+    tips = [f"{number(forces[r.solver], 5)} N ({r.solver}, off by {percent(r.error)})" for r in results[:len(solvers)]]
     caption = (
         "A cantilever whose tip rests on a frictionless plane, own weight: nodes (points) on the boundary value "
-        f"problem's solution (line). Force at the tip: {', '.join(told)}, reference {number(newtons, 5)} N."
+        f"problem's solution (line). Force at the tip: {', '.join(tips)}, reference {number(newtons, 5)} N."
     )
     return Finding(results, draw, caption)
 

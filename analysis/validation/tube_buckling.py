@@ -255,7 +255,7 @@ _ENDS = (0.9 * EVEN_HELIX, 1.01 * EVEN_HELIX)
 
 
 def _loading_check(fraction: float) -> Check:
-    return Check("tube-buckling", tubes.SECTION, "a wire in a straight tube snakes and winds up",
+    return Check("tube-buckling", tubes.SECTION, "a wire in a straight tube: sinusoidal and helical buckling",
                  partial(_loading, fraction), SCENE)
 
 

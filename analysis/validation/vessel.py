@@ -48,8 +48,8 @@ def _stenosis() -> Plan:
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        for name, (way, force) in curves.items():
-            axes.plot(way[way > 16.0], 100.0 * force[way > 16.0], label=f"off axis by {name}")
+        for name, (inserted, force) in curves.items():
+            axes.plot(inserted[inserted > 16.0], 100.0 * force[inserted > 16.0], label=f"off axis by {name}")
         pictures.label(axes, "displacement of the tip (mm)", "force of the hub (% of the buckling load)")
 
     worst = max(results, key=lambda r: r.error)
@@ -126,8 +126,8 @@ def _containment(speeds: Sequence[float]) -> Plan:
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
-        for name, (way, gap) in curves.items():
-            axes.plot(way, gap, label=name)
+        for name, (inserted, gap) in curves.items():
+            axes.plot(inserted, gap, label=name)
         axes.set_yscale("log")
         pictures.label(axes, "displacement of the hub (mm)", "least gap between wire and wall (mm)")
 

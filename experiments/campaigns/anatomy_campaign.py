@@ -1,4 +1,4 @@
-"""Random pushes, pulls and turns of wires in anatomies, judged from their logs by an independent search.
+"""Random pushes, pulls and turns of wires in anatomies, checked from their logs by an independent search.
 
 ``python3 -m experiments.campaigns.anatomy_campaign FOLDER ... --runs 100 --keep DIR`` takes folders that
 ``guidewire.py anatomy`` wrote; each has so many runs. A seed draws the end that the wire starts at, its thickness (0.36
@@ -114,7 +114,7 @@ def draw(vessel: Vessel, seed: int, folder: Path, instrument: str | None = None)
     scene["maxSimulationSteps"] = min(MOST_STEPS, int(rows[-1][0] / STEP))
     path = folder / f"{vessel.folder.name}-{seed}.json"
     path.with_suffix(".csv").write_text("time,insertion,rotation\n" + "".join(
-        f"{time:.4f},{1e-3 * way:.6f},{turn:.5f}\n" for time, way, turn in rows))
+        f"{time:.4f},{1e-3 * insertion:.6f},{turn:.5f}\n" for time, insertion, turn in rows))
     path.write_text(json.dumps(scene | {"driveFile": str(path.with_suffix(".csv"))}, indent=1))
     return path
 
@@ -125,16 +125,16 @@ def _drive(random: np.random.Generator, most: float) -> list[tuple[float, float,
     while at[0] < STEP * MOST_STEPS:
         speed = float(np.exp(random.uniform(np.log(8.0), np.log(60.0))))
         kind = random.choice(["push", "pull", "turn", "both"], p=[0.55, 0.2, 0.1, 0.15])
-        way = {"push": 1.0, "pull": -0.5, "turn": 0.0, "both": 1.0}[kind] * random.uniform(5.0, 120.0)
-        way = float(np.clip(at[1] + way, 0.0, most)) - at[1]
+        insertion = {"push": 1.0, "pull": -0.5, "turn": 0.0, "both": 1.0}[kind] * random.uniform(5.0, 120.0)
+        insertion = float(np.clip(at[1] + insertion, 0.0, most)) - at[1]
         turn = random.uniform(-2.0 * np.pi, 2.0 * np.pi) if kind in ("turn", "both") else 0.0
-        duration = max(abs(way) / speed, abs(turn) / random.uniform(1.0, 6.0), STEP)
-        at += [duration, way, turn]
+        duration = max(abs(insertion) / speed, abs(turn) / random.uniform(1.0, 6.0), STEP)
+        at += [duration, insertion, turn]
         rows.append(tuple(at))
     return rows
 
 
-def judge(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
+def violations(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
     """The claims that a run breaks, one line each.
 
     Parameters
@@ -201,10 +201,10 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
     # Parts of a step without a solution may be done: the hub is then between its places before and after that step.
     last = scene["timeStep"] * summary["steps"]
     times = np.array([last, last if summary["outcome"] == "finished" else last + scene["timeStep"]])
-    (least_way, most_way), (least_turn, most_turn) = (
+    (least_insertion, most_insertion), (least_turn, most_turn) = (
         np.sort(np.interp(times, rows[:, 0], rows[:, k])) for k in (1, 2))
     hub, claims = summary["hub"], []
-    way, turn = hub["insertion"], hub["turn"]
+    insertion, turn = hub["insertion"], hub["turn"]
     is_whole = summary["outcome"] == "finished"
     if is_whole and summary["steps"] != scene["maxSimulationSteps"]:
         claims.append(f"finished after {summary['steps']} steps of {scene['maxSimulationSteps']}")
@@ -217,16 +217,16 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
         asked, missing = 1e3 * np.abs(np.diff(done)).sum(), summary["driveShortfall"]
         if abs(summary["driveAsked"] - asked) > 1e-6 * max(asked, 1.0):
             claims.append(f"driveAsked = {summary['driveAsked']}, the drive's table asks for {asked}")
-        # Pulls count the other way, so what a shortfall is of the insertion is known for pushes alone.
+        # Pulls count with the other sign, so what a shortfall is of the insertion is known for pushes alone.
         if (np.diff(done) >= 0.0).all() and abs(gone + missing - asked) > 1e-6 * max(asked, 1.0):
             claims.append(f"node 0 went {gone} mm and {missing} are missing, of {asked}")
-    elif not slips and not least_way - 1e-9 <= way <= most_way + 1e-9:
-        claims.append(f"the hub went {way} m, asked for {least_way} to {most_way}")
+    elif not slips and not least_insertion - 1e-9 <= insertion <= most_insertion + 1e-9:
+        claims.append(f"the hub went {insertion} m, asked for {least_insertion} to {most_insertion}")
     if not least_turn - 1e-6 <= turn <= most_turn + 1e-6:
         claims.append(f"the hub went {turn} rad, asked for {least_turn} to {most_turn}")
     behind = _ELASTIC * scene["guidewireLength"] + (0.0 if slips else abs(summary["driveShortfall"]))
-    if is_whole and abs(gone - 1e3 * way) > behind:
-        claims.append(f"node 0 went {gone} mm, the hub {1e3 * way}, driveShortfall = {summary['driveShortfall']}")
+    if is_whole and abs(gone - 1e3 * insertion) > behind:
+        claims.append(f"node 0 went {gone} mm, the hub {1e3 * insertion}, driveShortfall = {summary['driveShortfall']}")
     return claims
 
 
@@ -249,7 +249,7 @@ def _body_claims(hub: dict[str, Any], positions: np.ndarray, first: int, beyond:
 
 
 def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: str | None = None) -> Walk:
-    """Draw, run and judge; its files stay in the folder where it breaks a claim."""
+    """Draw, run and check; its files stay in the folder where it breaks a claim."""
     path = draw(vessel, seed, folder, instrument)
     out = folder / f"run-{path.stem}"
     start = time.monotonic()
@@ -263,7 +263,7 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: st
     else:
         summary = json.loads((out / "summary.json").read_text())
         scene = json.loads((out / "parameters.json").read_text())
-        claims = judge(vessel, scene | {"driveFile": str(path.with_suffix(".csv"))}, summary,
+        claims = violations(vessel, scene | {"driveFile": str(path.with_suffix(".csv"))}, summary,
                        read_log(out, spheres="all").positions)
         walk = Walk(name, seed, claims, answer.outcome, summary["reason"], summary["centreline"]["farthest"], seconds)
     shutil.rmtree(out, ignore_errors=True)

@@ -12,12 +12,12 @@ from experiments.campaigns.push_claims import contradictions
 from analysis.wall_search import Walls
 
 SAME = 1e-9  # of the wire's radius
-OF_WAY = 1e-6  # of the way asked for: node 0 is on a stiff spring
+OF_DISPLACEMENT = 1e-6  # of the displacement that was asked for: node 0 is on a stiff spring
 DEEPEST = 0.05  # of the radius, from which on a wire of xpbd in a wall is to be warned of
 WARNED = "the wire penetrated a wall"
 
 
-def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, radii: np.ndarray, walls: Walls
+def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, radii: np.ndarray, walls: Walls
           ) -> list[str]:
     """The claims that a run breaks, one line each; of all methods that a run which failed keeps, too.
 
@@ -88,10 +88,10 @@ def _depth(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
 def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
     claims = []
     asked = scene["displacementPerStep"] * (len(positions) - 1)  # a step without a state did not go
-    if abs(summary["driveAsked"] - asked) > OF_WAY * asked:
+    if abs(summary["driveAsked"] - asked) > OF_DISPLACEMENT * asked:
         claims.append(f"driveAsked = {summary['driveAsked']}, true is {asked}")
     gone = positions[-1, 0, 2] - positions[0, 0, 2]
-    elastic = OF_WAY * asked + 1e-5 * scene["guidewireLength"] * ("sheath" in scene)
+    elastic = OF_DISPLACEMENT * asked + 1e-5 * scene["guidewireLength"] * ("sheath" in scene)
     if abs(gone + summary["driveShortfall"] - asked) > elastic:
         claims.append(f"asked {asked}, gone {gone}, driveShortfall = {summary['driveShortfall']}")
     return claims

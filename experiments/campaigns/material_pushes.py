@@ -33,7 +33,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     vessel = pushes.KINDS[kind](random, ball, straight)
     if kind == "slope":  # no nearer to the tip than the wire is thick
         vessel.wall["point"][2] *= max(1.0, 1.2 * ball / _height(vessel.wall))
-    way = float(np.linalg.norm(np.diff(vessel.way, axis=0), axis=1).sum())
+    distance = float(np.linalg.norm(np.diff(vessel.centreline, axis=0), axis=1).sum())
     per_step = _between(random, 0.02, 2.0) * radius
     stiffness = _between(random, 3e9, 1e11)
     scene = {
@@ -42,7 +42,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
         "wireRadius": 1e-3 * radius, "youngsModulus": stiffness, "shearModulus": 0.38 * stiffness,
         "density": _between(random, 1500.0, 13000.0), "massDamping": float(random.choice([0.0, 20.0, 100.0])),
         "timeStep": _between(random, 1e-3, 3e-2) * (0.1 if method == "xpbd" else 1.0), "displacementPerStep": per_step, "deltaThreshold": 0.0,
-        "maxSimulationSteps": int(np.clip(random.uniform(0.3, 1.2) * way / per_step, 12, 120)),
+        "maxSimulationSteps": int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 120)),
         "logFormat": "npz", "logContacts": True, "vessel": dict(vessel.wall),
     }
     if random.uniform() < 0.5:
@@ -64,7 +64,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     else:
         scene["wireSections"] = _tip(random, scene, count)
     if method == "xpbd" and seed // len(kinds) % 2:
-        _resolve(random, scene, way)
+        _resolve(random, scene, distance)
     if len(vessel.faces):
         pushes.write_mesh(random, scene, vessel, folder / f"push-{seed}.obj")
     if random.uniform() < 0.5:
@@ -116,7 +116,7 @@ def _tip(random, scene: dict[str, Any], elements: int) -> list[dict[str, Any]]:
     return sections
 
 
-def _resolve(random, scene: dict[str, Any], way: float) -> None:
+def _resolve(random, scene: dict[str, Any], distance: float) -> None:
     """A soft wire, and substeps so short that xpbd converges in most vessels: in one of them a wave along the wire goes
     through a fraction of an element. It is pushed along so much of the vessel (mm) as a thousand steps allow."""
     element = 1e-3 * scene["guidewireLength"] / scene["numberRodElements"]
@@ -126,7 +126,7 @@ def _resolve(random, scene: dict[str, Any], way: float) -> None:
     substep = _between(random, 0.05, 0.5) * element * np.sqrt(scene["density"] / scene["youngsModulus"])
     scene |= {"substeps": 50, "timeStep": float(50 * substep), "constraintSolverSteps": int(random.integers(1, 4))}
     per_step = 1e3 * _between(random, 0.3, 3.0) * scene["timeStep"]  # at 0.3 to 3 m/s
-    steps = int(np.clip(random.uniform(0.3, 1.2) * way / per_step, 12, 1000))
+    steps = int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 1000))
     scene |= {"displacementPerStep": per_step, "maxSimulationSteps": steps}
 
 

@@ -1,4 +1,4 @@
-"""A campaign of random pushes: each is run, and its log judged by an independent search.
+"""A campaign of random pushes: each is run, and its log checked by an independent search.
 
 ``python3 -m experiments.campaigns.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run
 that breaks a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross
@@ -32,7 +32,7 @@ from analysis.wall_search import Walls, crosses_itself, triangles_of
 from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
-# What pbd and walls may do to a wire and its drive; whether they did is judged from the log.
+# What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
 OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", "the drive fell short: ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
@@ -70,7 +70,7 @@ def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
 
 
 def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
-    """Draw, run and judge one push; its files are left in the folder. None where there is nothing to judge."""
+    """Draw, run and check one push; its files are left in the folder. None where there is nothing to check."""
     kind, path = write(seed, method, folder)
     scene = json.loads(path.read_text())
     if method != "pbd" and scene["vessel"]["shape"] == "mesh":
@@ -89,9 +89,9 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
     summary = json.loads((out / "summary.json").read_text())
     positions = read_log(out, spheres="all").positions
     if method == "pbd":
-        claims = push_claims.judge(scene, summary, positions, walls)
+        claims = push_claims.violations(scene, summary, positions, walls)
     else:
-        claims = material_claims.judge(scene, summary, positions, material_pushes.radii_of(scene), walls)
+        claims = material_claims.violations(scene, summary, positions, material_pushes.radii_of(scene), walls)
     # A mesh of a push is closed; a tube goes on beyond its last knot, where the tip has left it.
     known = OF_ENDS if scene["vessel"]["shape"] == "mesh" else (*OF_ENDS, push_claims.RIM)
     claims += [f"warning: {warning}" for warning in summary["warnings"]

@@ -13,14 +13,14 @@ from analysis.wall_search import ClosedForm, MeshSearch, Walls
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
-# Lines on the end of a run that make its result doubtful; others are of its parameters, or of a tip that left.
-DOUBTS = re.compile(r"\d+ points of the wire passed a wall|the wire penetrated a wall by |the wire is [\d.]+ % |"
+# Warnings at the end of a run that make its result unreliable; others are of its parameters, or of a tip that left.
+SERIOUS = re.compile(r"\d+ points of the wire passed a wall|the wire penetrated a wall by |the wire is [\d.]+ % |"
                     r"the drive fell short: ")
 RIM = "the tip left the vessel by an open rim"
-SAME = 1e-9  # of the radius, or of the way asked for: what figures may differ by
+SAME = 1e-9  # of the radius, or of the displacement that was asked for: what figures may differ by
 
 
-def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
+def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
     """The claims that a run breaks, one line each.
 
     Parameters
@@ -28,19 +28,19 @@ def judge(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray,
     scene, summary : the run's parameter file and summary.json.
     positions : (k, n + 1, 3), of all spheres after every step from 0 on, in units.
     """
-    rubs = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
+    has_friction = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
     return [*contradictions(summary), *_passages(scene["elementContact"], summary, positions, walls),
-            *([] if rubs else _frozen(positions)), *drive_claims(scene, summary, positions),
+            *([] if has_friction else _frozen(positions)), *drive_claims(scene, summary, positions),
             *penetration_claims(scene, summary, positions, walls)]
 
 
 def contradictions(summary: dict[str, Any]) -> list[str]:
     """Where `reliable` is not what outcome, reason and warnings say."""
-    doubts = [warning for warning in summary["warnings"] if DOUBTS.match(warning)]
+    serious = [warning for warning in summary["warnings"] if SERIOUS.match(warning)]
     is_whole = summary["outcome"] in ("converged", "finished") and ", but " not in summary["reason"]
-    may_be_trusted = is_whole and not doubts
+    may_be_trusted = is_whole and not serious
     if summary["reliable"] != may_be_trusted:
-        return [f"reliable = {summary['reliable']}: {summary['outcome']}, {summary['reason']}, {doubts}"]
+        return [f"reliable = {summary['reliable']}: {summary['outcome']}, {summary['reason']}, {serious}"]
     return []
 
 
@@ -57,9 +57,9 @@ def _passages(rule: str, summary: dict[str, Any], positions: np.ndarray, walls: 
         step, sphere = np.argwhere(spheres.any(axis=0))[0]
         claims.append(f"sphere {sphere} is beyond a wall after step {step}")
     if rule == "barycentric":
-        share = np.arange(FINE_SAMPLES)[:, None, None] / FINE_SAMPLES
+        fraction = np.arange(FINE_SAMPLES)[:, None, None] / FINE_SAMPLES
         last = positions[-1]
-        if walls.beyond((1.0 - share) * last[:-1] + share * last[1:]).any():
+        if walls.beyond((1.0 - fraction) * last[:-1] + fraction * last[1:]).any():
             claims.append("a point of the wire ends beyond a wall")
         through = crossings(positions, walls)
         if len(through):

@@ -17,7 +17,7 @@ import numpy as np
 from analysis.wall_search import rotation_of
 
 CONTACT_RULES = ("barycentric", "none", "thesis")
-LEAST_LUMEN = 1.07  # least width of a lumen on the way, over the wire's radius
+LEAST_LUMEN = 1.07  # least width of a lumen ahead, over the wire's radius
 
 
 @dataclass(frozen=True)
@@ -27,13 +27,13 @@ class Vessel:
     Attributes
     ----------
     wall : the key `vessel` but for a mesh's file.
-    way : ndarray, shape (k, 3), the middle of the lumen ahead of the wire, from (0, 0, 0) on, in units.
+    centreline : ndarray, shape (k, 3), the middle of the lumen ahead of the wire, from (0, 0, 0) on, in units.
     width : radius of the lumen along it, units.
     vertices, faces : of a mesh, shapes (v, 3) in units and (t, 3); empty otherwise.
     """
 
     wall: dict[str, Any]
-    way: np.ndarray
+    centreline: np.ndarray
     width: float
     vertices: np.ndarray
     faces: np.ndarray
@@ -165,8 +165,8 @@ def _branch(random, radius, sheath):
     caps = [(0, 1, 7), (0, 7, 8), (1, 4, 7), (1, 2, 4), (2, 3, 4), (7, 4, 6), (4, 5, 6)]
     sides = [face for k in range(9) for face in ((k, (k + 1) % 9, k + 9), ((k + 1) % 9, (k + 1) % 9 + 9, k + 9))]
     faces = np.array([*caps, *[(a + 9, c + 9, b + 9) for a, b, c in caps], *[(a, c, b) for a, b, c in sides]])
-    way = np.column_stack([np.zeros((5, 2)), np.linspace(0.0, apex[1] + half, 5)])
-    return Vessel({"shape": "mesh"}, way, half, vertices, faces)
+    centreline = np.column_stack([np.zeros((5, 2)), np.linspace(0.0, apex[1] + half, 5)])
+    return Vessel({"shape": "mesh"}, centreline, half, vertices, faces)
 
 
 def _tube(sheath, line, radii):
@@ -196,8 +196,8 @@ def _closed_form_cone(random, radius, sheath):
 def _slope(random, radius, sheath):
     normal = np.array([random.normal(0.0, 0.3), random.normal(0.0, 0.3), -random.uniform(0.1, 1.0)])
     wall = {"shape": "plane", "point": [0.0, 0.0, random.uniform(1.0, 8.0) * radius], "normal": normal.tolist()}
-    way = np.column_stack([np.zeros((5, 2)), np.linspace(0.0, 20.0 * radius, 5)])
-    return Vessel(wall, way, 5.0 * radius, np.empty((0, 3)), np.empty((0, 3), int))
+    centreline = np.column_stack([np.zeros((5, 2)), np.linspace(0.0, 20.0 * radius, 5)])
+    return Vessel(wall, centreline, 5.0 * radius, np.empty((0, 3)), np.empty((0, 3), int))
 
 
 KINDS = {
@@ -220,7 +220,7 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
     length = count * spacing
     vessel = KINDS[kind](random, radius, length + 4.0 * radius)
     per_step = float(np.exp(random.uniform(np.log(0.1), np.log(20.0)))) * radius
-    way = float(np.linalg.norm(np.diff(vessel.way, axis=0), axis=1).sum())
+    distance = float(np.linalg.norm(np.diff(vessel.centreline, axis=0), axis=1).sum())
     rule = CONTACT_RULES[seed // len(KINDS) % len(CONTACT_RULES)]
     scene = {
         "drive": str(random.choice(["push", "displace"])), "displacementPerStep": per_step, "guidewireLength": length,
@@ -230,12 +230,12 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
         "collisionStiffness": float(10.0 ** random.uniform(-3.0, 0.0)),
         "collisionMargin": float(random.choice([0.0, random.uniform(0.0, 0.5) * radius])), "elementContact": rule,
         "damping": float(random.choice([0.0, 1.0, random.uniform()])), "deltaThreshold": 0.0,
-        "maxSimulationSteps": int(np.clip(random.uniform(0.5, 1.5) * (way + 20.0 * radius) / per_step, 12, 90)),
+        "maxSimulationSteps": int(np.clip(random.uniform(0.5, 1.5) * (distance + 20.0 * radius) / per_step, 12, 90)),
         "integrator": str(random.choice(["verlet", "euler"])), "sweepOrder": str(random.choice(["naive", "bilateral"])),
         "timeStep": 0.01, "totalMass": 0.01, "vessel": dict(vessel.wall),
     }
     if seed // (len(KINDS) * len(CONTACT_RULES)) % 2:
-        _resolve(random, scene, way)
+        _resolve(random, scene, distance)
     if random.uniform() < 0.5:
         scene["gravity"] = (float(10.0 ** random.uniform(1.0, 4.0)) * direction(random)).tolist()
     if random.uniform() < 0.3:
@@ -250,14 +250,14 @@ def draw(seed: int, folder: Path) -> tuple[str, dict[str, Any]]:
     return kind, scene
 
 
-def _resolve(random, scene: dict[str, Any], way: float) -> None:
+def _resolve(random, scene: dict[str, Any], distance: float) -> None:
     """So few elements, so many iterations and so slow a push that most wires keep their length."""
     scene["numberRodElements"] = min(scene["numberRodElements"], 20)
     scene["bendStiffness"] *= 0.1
     scene |= {"constraintSolverSteps": 300, "stretchStiffness": 1.0, "collisionStiffness": 1.0,
               "damping": random.uniform(0.05, 0.3)}
     per_step = 0.1 * scene["displacementPerStep"]
-    steps = int(np.clip(random.uniform(0.3, 1.2) * way / per_step, 12, 300))
+    steps = int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 300))
     scene |= {"displacementPerStep": per_step, "maxSimulationSteps": steps}
 
 
@@ -268,9 +268,9 @@ def direction(random) -> np.ndarray:
 
 
 def obstacle(random, vessel: Vessel, radius: float) -> dict[str, Any]:
-    """A ball, capsule or box beside the middle of the lumen, some way ahead of the wire."""
+    """A ball, capsule or box beside the middle of the lumen, some distance ahead of the wire."""
     size = random.uniform(0.2, 0.6) * vessel.width
-    ahead = vessel.way[vessel.way[:, 2] > 2.0 * (radius + size)]
+    ahead = vessel.centreline[vessel.centreline[:, 2] > 2.0 * (radius + size)]
     place = ahead[random.integers(len(ahead))] if len(ahead) else np.array([0.0, 0.0, 4.0 * (radius + size)])
     side = direction(random) * [1.0, 1.0, 0.0]
     centre = place + random.uniform(0.4, 1.2) * vessel.width * side

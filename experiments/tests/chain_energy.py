@@ -6,7 +6,7 @@ With x_0 and the clamp's frame given, R_j the frame of element j and theta the r
 
 K_s = diag(GA, GA, EA), K_j = diag(EI, EI, GJ)/(w_j l) with Gregory's weights w = 3/8, 7/6, 23/24 at the clamp. Nothing
 is differentiated by hand: gradients come from the energy by complex steps, exact to rounding, second derivatives by
-central differences of gradients. A couple m along the axes of the wire's end adds -m, told along those of the last
+central differences of gradients. A couple m along the axes of the wire's end adds -m, along those of the last
 element, to that element's gradient, wherever it has turned to.
 """
 

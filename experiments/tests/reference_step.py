@@ -26,7 +26,7 @@ class Rod:
     bilateral : sweep from both ends inwards instead of from sphere 0 to the last.
     verlet : prediction from the last two positions instead of from the velocity.
     time_step : s.
-    damping : share of the velocity lost a step.
+    damping : fraction of the velocity lost a step.
     gravity : shape (3,), units/s^2.
     """
 

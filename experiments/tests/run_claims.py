@@ -219,15 +219,15 @@ def bend_force(parameters: dict) -> float:
 
 
 def assert_lost(log: dict, summary: dict, parameters: dict) -> None:
-    """What the word diverged means of pbd; what the log does not hold is given the benefit of the doubt."""
+    """What the word diverged means of pbd; what the log does not hold is taken as true."""
     if str(summary["steps"]) not in log:    # a state that is not finite is not logged
         assert "finite" in summary["reason"], summary["reason"]
         return
     assert not list(_not_finite("log", log)), "a value of the log is not finite"
     positions = positions_of(log)
     with np.errstate(over="ignore"):
-        ways = np.linalg.norm(positions - positions[0, 0], axis=-1)
-    if (ways.max() > 10.0 * parameters["guidewireLength"] or parameters["logSpheres"] == "last"
+        distances = np.linalg.norm(positions - positions[0, 0], axis=-1)
+    if (distances.max() > 10.0 * parameters["guidewireLength"] or parameters["logSpheres"] == "last"
             or parameters["logEvery"] > 1):
         return
     assert len(log) > 200 and strains_of(positions[-200:], parameters).max() > 0.2

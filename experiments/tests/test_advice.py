@@ -98,9 +98,9 @@ def test_what_is_advised_meets_the_error_against_a_finer_run(advised: Advised) -
     text = report.parameters(advised.advice, json.loads(advised.file.read_text()), folder)
     (folder / f"taken-{advised.file.stem}.json").write_text(text)
     assert distance(advised.wire(f"taken-{advised.file.stem}", {}), exact) < 1.3 * advised.error
-    told = report.as_markdown(advised.file.name, advised.wish, advised.advice)
-    assert f"**{advised.advice.taken.trial.name}**" in told
-    assert all(part.trial.name in told for part in advised.advice.parts)
+    markdown = report.as_markdown(advised.file.name, advised.wish, advised.advice)
+    assert f"**{advised.advice.taken.trial.name}**" in markdown
+    assert all(part.trial.name in markdown for part in advised.advice.parts)
 
 
 def test_no_setting_that_needs_less_work_meets_the_error(advised: Advised) -> None:
@@ -190,7 +190,7 @@ def test_a_wish_that_cannot_be_met_is_one_line(words, said, capsys) -> None:
     assert ended.value.code == 2 and said in line and line.count("\n") == 1
 
 
-def test_a_scene_where_nothing_moves_is_told(tmp_path: Path, runner_command: list[str]) -> None:
+def test_a_scene_where_nothing_moves_is_reported(tmp_path: Path, runner_command: list[str]) -> None:
     file = tmp_path / "still.json"
     file.write_text(json.dumps({**CANTILEVER, "gravity": [0, 0, 0], "maxSimulationSteps": 8}), encoding="utf-8")
     check = plan.check_of(file, AdviceRequest(0.1), plan.by_work, repeats=0)

@@ -45,7 +45,7 @@ def advise(tmp_path_factory, runner_command):
     return made
 
 
-def test_the_hubs_force_is_judged_by_itself(advise) -> None:
+def test_the_hubs_force_has_an_error_of_its_own(advise) -> None:
     """Errors are those of the logs, measured anew."""
     advice, folder = advise(AdviceRequest(0.5, quantity=Quantity("hubForce")))
     runs = read_runs(folder)
@@ -81,7 +81,7 @@ def tips(folder: Path) -> np.ndarray:
     return read_log(folder, spheres="all").positions[:, -1]
 
 
-def test_a_number_of_the_summary_is_judged_against_two_coarser_runs(advise) -> None:
+def test_a_number_of_the_summary_is_compared_with_two_coarser_runs(advise) -> None:
     advice, folder = advise(AdviceRequest(0.5, quantity=Quantity("extremes.axialForce")))
     runs = read_runs(folder)
     values = {key: runs[key].summary["extremes"]["axialForce"] for key in runs}
@@ -113,7 +113,7 @@ def test_the_walls_force_is_read_from_the_contacts_of_the_log(advise) -> None:
     ("snapAngle", {"solver": "direct"}, "needs catheters"),
     ("snapAngle", {"solver": "xpbd"}, "needs solver direct"),
 ])
-def test_what_a_scene_does_not_have_is_told(of: str, scene: dict, said: str) -> None:
+def test_what_a_scene_does_not_have_is_reported(of: str, scene: dict, said: str) -> None:
     with pytest.raises(LogError, match=said):
         Quantity(of).refuse(scene, {})
 

@@ -13,7 +13,7 @@ from analysis.logs import read_log
 from experiments import navigation
 from experiments.campaigns import anatomy_campaign, artery_folder
 from experiments.campaigns.anatomy_independence import is_other_equilibrium
-from experiments.campaigns.anatomy_campaign import Vessel, campaign, judge
+from experiments.campaigns.anatomy_campaign import Vessel, campaign, violations
 from experiments.commands import parse, run
 from experiments.instruments import files
 from experiments.prepare import ROOT
@@ -39,7 +39,7 @@ def test_pushes_pulls_and_turns_pass_no_wall_and_say_what_is_true(runner_command
     assert sum(run.outcome != "refused" for run in runs) > 0.5 * len(runs)
 
 
-@pytest.mark.long("drawn wires go through the same judge; instruments are read in test_instruments.py")
+@pytest.mark.long("drawn wires go through the same checks; instruments are read in test_instruments.py")
 @pytest.mark.parametrize("name", NAMES)
 def test_an_instrument_passes_no_wall_and_says_what_is_true(runner_command, artery, tmp_path, name):
     run, = campaign(runner_command, artery, [2], tmp_path, name)
@@ -67,26 +67,26 @@ def test_a_wire_beside_the_wall_and_a_hub_that_lies_are_claimed(runner_command, 
         "driveFile": str(path.with_suffix(".csv"))}
     log = read_log(tmp_path / "run", spheres="all").positions
     positions = np.concatenate([log[:1], log[-5:]])  # the hub's motion from its start, and places enough
-    assert judge(artery, scene, summary, positions) == []
+    assert violations(artery, scene, summary, positions) == []
     through = positions.copy()
     through[-1, -1] += [30.0, 0.0, 0.0]
-    assert any("crosses the wall" in claim for claim in judge(artery, scene, summary, through))
+    assert any("crosses the wall" in claim for claim in violations(artery, scene, summary, through))
     touching = positions.copy()
     tip = touching[-1, -1]
     out = np.array([1.0, 0.0, 0.0])
     steps = np.linspace(0.0, 30.0, 3001)
     is_in = artery.closed.inside(tip + steps[:, None] * out)
     touching[-1, -1] = tip + (steps[is_in.argmin()] - 0.05) * out  # a wire of 0.18 mm or more in the wall
-    claims = judge(artery, scene, summary, touching)
+    claims = violations(artery, scene, summary, touching)
     assert any("the surface is in the wall" in claim or "crosses" in claim for claim in claims)
-    assert judge(artery, scene, summary | {"passages": 1}, positions) == ["passages = 1"]
+    assert violations(artery, scene, summary | {"passages": 1}, positions) == ["passages = 1"]
     hub = summary["hub"] | {"insertion": summary["hub"]["insertion"] + 1e-3}
-    assert any("the hub went" in claim for claim in judge(artery, scene, summary | {"hub": hub}, positions))
-    assert any("reliable" in claim for claim in judge(
+    assert any("the hub went" in claim for claim in violations(artery, scene, summary | {"hub": hub}, positions))
+    assert any("reliable" in claim for claim in violations(
         artery, scene, summary | {"reliable": not summary["reliable"]}, positions))
     for wrong, said in (({"lengthInBody": summary["hub"]["lengthInBody"] + 1e-3}, "m in the body"),
                         ({"spheresInBody": summary["hub"]["spheresInBody"] + 1}, "spheres in the body")):
-        claims = judge(artery, scene, summary | {"hub": summary["hub"] | wrong}, positions)
+        claims = violations(artery, scene, summary | {"hub": summary["hub"] | wrong}, positions)
         assert len(claims) == 1 and said in claims[0]
 
 
@@ -125,7 +125,7 @@ def test_two_commands_bring_a_wire_from_a_mask_to_its_target(tmp_path, target):
     assert np.argmin(np.linalg.norm(ends - tip, axis=1)) == np.argmin(np.linalg.norm(ends - asked, axis=1))
     vessel, scene = Vessel(folder), json.loads((out / "parameters.json").read_text())
     positions = read_log(out, spheres="all").positions
-    assert judge(vessel, scene | {"inlet": 1, "driveFile": str(folder / "drive.csv")}, summary, positions) == []
+    assert violations(vessel, scene | {"inlet": 1, "driveFile": str(folder / "drive.csv")}, summary, positions) == []
 
 
 @pytest.mark.parametrize("target", [2, 3] if FULL else [3])  # the other arm takes twice the attempts

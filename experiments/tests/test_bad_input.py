@@ -25,23 +25,20 @@ def contents(folder):
 def assert_one_line(done, *words):
     """Exit code 2 and one line on stderr with these words, no stack trace, nothing on stdout."""
     assert done.returncode == 2, done.stderr
-    lines = done.stderr.splitlines()
-    assert len(lines) == 1 and lines[0].startswith("guidewire: "), done.stderr
-    for word in words:
-        assert word in lines[0]
-    assert done.stdout == ""
-    for trace in ("   at ", "Exception", "Newtonsoft", ".cs:"):
-        assert trace not in lines[0]
+    assert done.stderr.startswith("guidewire: ") and done.stdout == "", done.stderr
+    assert_helps(done.stderr, words)
 
 
 def assert_answered(answer, *words):
     """Exit code 2 and one line with these words, no stack trace."""
     assert (answer.exit_code, answer.outcome) == (2, None), answer
-    assert len(answer.message.splitlines()) == 1
-    for word in words:
-        assert word in answer.message
-    for trace in ("   at ", "Exception", "Newtonsoft", ".cs:"):
-        assert trace not in answer.message
+    assert_helps(answer.message, words)
+
+
+def assert_helps(message, words):
+    assert len(message.splitlines()) == 1
+    assert all(word in message for word in words), message
+    assert not any(trace in message for trace in ("   at ", "Exception", "Newtonsoft", ".cs:"))
 
 
 @pytest.fixture(scope="module")

@@ -100,7 +100,7 @@ def test_coordinates_of_1e300_are_refused_where_they_stand(live, tmp_path):
     assert_refused(live, tmp_path, {"obstacles": [ball]}, "obstacles[0].radius", "1E+300", "1e9 at most")
 
 
-def test_a_wire_outside_is_told_where_it_and_the_vessel_are(live, tmp_path):
+def test_a_wire_outside_is_reported_where_it_and_the_vessel_are(live, tmp_path):
     file = write_obj(tmp_path / "tube.obj", *cylinder([20.0, 20.0]))
     assert_refused(live, tmp_path, {**mesh(file), "position": [100, 0, 0]}, "starts outside",
                    "the wire reaches from (0, 0, -300) to (0, 0, 0)",
@@ -146,7 +146,7 @@ def test_a_vessel_a_thousandth_as_large_is_refused_with_both_extents(live, tmp_p
                    "from (-0.02, -0.02, -0.35) to (0.02, 0.02, 0.05)")
 
 
-def test_a_wire_wider_than_a_narrow_place_on_its_way_is_refused_with_the_place(live, tmp_path):
+def test_a_wire_wider_than_a_narrow_place_ahead_of_it_is_refused_with_the_place(live, tmp_path):
     radii = np.full(81, 20.0)
     radii[73:78] = [14.0, 8.0, 4.0, 8.0, 14.0]  # narrowest at z = 25
     file = write_obj(tmp_path / "narrow.obj", *cylinder(radii, sides=32))

@@ -173,7 +173,7 @@ class Screen(io.StringIO):
 
 
 @pytest.mark.parametrize("is_terminal", [True, False])
-def test_a_build_is_told_in_lines_whose_seconds_are_counted_on_a_terminal_only(monkeypatch, is_terminal):
+def test_a_build_is_reported_in_lines_whose_seconds_are_counted_on_a_terminal_only(monkeypatch, is_terminal):
     screen = Screen(is_terminal)
     monkeypatch.setattr(sys, "stderr", screen)
 

@@ -138,12 +138,12 @@ def test_every_key_of_a_sessions_answers_is_explained(runner_command):
                 {"session": "save"}]
     done = subprocess.run([*runner_command, "-lines"], input="".join(json.dumps(r) + "\n" for r in requests),
                           capture_output=True, text=True, check=True)
-    told = section(RUNS, "## A run step by step")
+    documented = section(RUNS, "## A run step by step")
     for line in done.stdout.splitlines():
         answer = json.loads(line)
         assert answer["exitCode"] == 0, answer["message"]
         for key in {*answer} - {"out", "reused"}:
-            assert f"`{key}`" in told, key
+            assert f"`{key}`" in documented, key
 
 
 def test_the_table_of_keys_is_the_runners_own(runner_command):
@@ -191,14 +191,14 @@ def test_every_key_of_a_log_is_explained(live, tmp_path):
     entry = json.loads((folder / "positions.json").read_text())["1"]
     hub = run(live, tmp_path / "hub", {**_SHEATHED, "logHub": True, "logContacts": True})
     entry |= json.loads((hub / "positions.json").read_text())["0"]
-    told = section(RUNS, "### positions.json")
-    assert set(entry) <= set(table_keys(told))
+    documented = section(RUNS, "### positions.json")
+    assert set(entry) <= set(table_keys(documented))
     for inner in (*entry["sphere"]["0"], *entry["orientation"]["0"], *entry["contact"], *entry["hub"]):
-        assert f"`{inner}`" in told
+        assert f"`{inner}`" in documented
 
 
 def test_every_array_of_a_log_is_explained(live, tmp_path):
-    told = set(table_keys(section(RUNS, "### positions.npz")))
+    documented = set(table_keys(section(RUNS, "### positions.npz")))
     found = set()
     scenes = (("sheath", "logContacts"), ("cantilever", "logStrains"), ("catheter", "logHub"))
     for k, (scene, key) in enumerate(scenes):
@@ -206,7 +206,7 @@ def test_every_array_of_a_log_is_explained(live, tmp_path):
                      logFormat="npz", logOrientations=True, **{key: True})
         with np.load(folder / "positions.npz") as log:
             found |= set(log.files)
-    assert found == told
+    assert found == documented
 
 
 def test_every_key_of_a_studys_table_is_explained(fake, tmp_path):

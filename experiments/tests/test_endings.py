@@ -164,7 +164,7 @@ def test_the_same_run_again_is_already_there_and_writes_nothing(start, scratch):
     assert (contents(out), [path.stat().st_mtime_ns for path in sorted(out.iterdir())]) == before
 
 
-def test_a_run_that_was_interrupted_is_no_complete_one_and_gives_way(start, scratch):
+def test_a_run_that_was_interrupted_is_no_complete_one_and_is_replaced(start, scratch):
     out = scratch / "out"
     process = start(scene_of(scratch), out)
     wait_for_log(out)
@@ -343,7 +343,7 @@ def test_material_run_that_went_wrong_says_so_wherever_one_looks(scratch, start,
     assert np.all(np.isfinite(read_log(scratch / "out").positions))
 
 
-def test_material_run_that_went_well_has_no_doubt(scratch, start):
+def test_material_run_that_went_well_has_no_warning(scratch, start):
     scene = scene_of(scratch, **MATERIAL, solver="xpbd", substeps=300)
     process = start(scene, scratch / "out")
     said, _ = process.communicate(timeout=60)

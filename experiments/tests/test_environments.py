@@ -96,7 +96,7 @@ def test_a_route_turns_round_at_a_fork():
             Route(anatomy_of(points, 1.0, [1, 1, 2, 3, 3], [-1, 0, 1, 1, 3], [0, 2, 4]), wrong)
 
 
-def test_a_start_in_the_vessel_is_the_bits_of_the_way_there_and_a_snapshot_goes_on_from_them(tube):
+def test_a_start_in_the_vessel_is_the_bits_of_the_insertion_there_and_a_snapshot_goes_on_from_them(tube):
     options = {"target": 1, "friction": 0.1, "tip_turn": 0.5, "insertion": 0.01}
     with Environment(tube) as one, Environment(tube) as other:
         first = one.reset(options=options)[0]
@@ -124,7 +124,7 @@ def test_what_was_done_is_kept_in_a_file_and_done_again_to_the_same_bits(environ
     assert (again.path, again.impulse, again.forces) == (report.path, report.impulse, report.forces)
     push, turn, steps = drive.calls[1]
     drive.calls[1] = (push + 1e-12, turn, steps)
-    with pytest.raises(Error, match="other bits"):
+    with pytest.raises(Error, match="bit for bit"):
         environment.replay(drive)
 
 
@@ -208,7 +208,7 @@ def test_every_part_of_an_observation_is_there_and_flat_ones_hold_the_same_numbe
         np.testing.assert_allclose(seen["tip"] + seen["target"], one.target_position, atol=1e-4)
 
 
-def test_the_way_ahead_is_told_in_the_frame_of_the_tip():
+def test_the_path_ahead_is_given_in_the_frame_of_the_tip():
     """An element turned by 90 degrees about z has its d1 along y and its d2 along -x."""
     quarter = np.array([0.0, 0.0, np.sqrt(0.5), np.sqrt(0.5)])
     np.testing.assert_allclose(_in_frame(quarter, np.array([1.0, 2.0, 3.0])), [2.0, -1.0, 3.0], atol=1e-12)
@@ -222,9 +222,9 @@ def test_a_force_above_the_limit_is_no_safe_success_and_may_end_the_episode(tube
         assert info["report"]["success"] and not info["report"]["safe_success"]
     with Environment(tube, safe_force=1e-9, ends_unsafe=True) as own:
         own.reset(options=NOMINAL)
-        while "report" not in (info := (told := own.step([1.0, 0.0]))[4]):
+        while "report" not in (info := (answer := own.step([1.0, 0.0]))[4]):
             pass
-        assert info["report"]["end"] == "force" and told[2] and not told[3] and not info["report"]["success"]
+        assert info["report"]["end"] == "force" and answer[2] and not answer[3] and not info["report"]["success"]
 
 
 def test_spaces_of_ours_draw_what_they_contain_and_start_anew_by_seed():

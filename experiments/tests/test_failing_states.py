@@ -20,7 +20,7 @@ def runner(runner_command):
 
 
 @pytest.mark.parametrize("state", STATES, ids=[state["name"] for state in STATES])
-def test_a_state_beyond_a_frontier_is_told(runner, tmp_path, state):
+def test_a_state_beyond_a_frontier_is_reported(runner, tmp_path, state):
     request = Request(state["name"], ROOT / "params" / state["scene"], tmp_path / "run", state["set"], log=False)
     answer = runner.run(request, 60.0)
     assert (answer.outcome, state["says"] in answer.message) == (state["outcome"], True), answer

@@ -48,7 +48,7 @@ def test_the_index_keeps_figures_drawn_earlier_in_the_order_of_their_numbers(tmp
     assert text.index("figure-1.1.png") < text.index("figure-1.2.png")
 
 
-def test_figures_at_once_are_those_one_by_one_and_one_that_cannot_be_drawn_is_told(tmp_path):
+def test_figures_at_once_are_those_one_by_one_and_one_that_cannot_be_drawn_is_reported(tmp_path):
     def broken(folders):
         raise LogError("study.json: no such file")
 

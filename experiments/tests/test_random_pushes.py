@@ -13,7 +13,7 @@ from analysis.logs import read_log
 from analysis.surfaces import read_obj
 from experiments.campaigns import material_claims, material_pushes, pushes
 from experiments.campaigns.push_campaign import campaign
-from experiments.campaigns.push_claims import judge
+from experiments.campaigns.push_claims import violations
 from analysis.wall_search import MeshSearch, Walls, closed_form, crosses_itself
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
@@ -23,6 +23,11 @@ SEEDS = range(1000) if FULL else FRACTION
 # Of a wire with a material, by method: how many seeds in full, and those of the fraction.
 MATERIAL = {"direct": (300, (3, 6)), "sheath": (150, (3, 7)), "xpbd": (100, (3, 8))}
 CASES = Path(__file__).with_name("wall_cases")
+
+BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)    # its corners
+FACES = np.array([face for a, b, c, d in
+                  [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
+                  for face in ((a, b, c), (a, c, d))])
 
 
 def test_pushes_pass_no_wall_freeze_nowhere_and_say_what_is_true(runner_command, tmp_path):
@@ -54,7 +59,7 @@ def test_a_thin_tip_that_snaps_round_under_a_weak_hub_passes_no_wall_and_goes_to
     scene["displacementPerStep"] = every * 1e3 * scene["insertionSpeed"] * scene["timeStep"]
     positions = read_log(tmp_path / "run", spheres="all").positions
     radii = material_pushes.radii_of(scene)
-    assert material_claims.judge(scene, summary, positions, radii, walls) == []
+    assert material_claims.violations(scene, summary, positions, radii, walls) == []
     hub = read_hub(tmp_path / "run")
     assert 0.9 * scene["hubForceLimit"] < np.abs(hub.force).max() <= scene["hubForceLimit"]
     assert summary["extremes"]["axialForce"] <= scene["hubForceLimit"]
@@ -72,18 +77,16 @@ def test_a_wire_that_buckles_at_the_exit_of_its_sheath_fails_before_it_is_outsid
                          np.dtype([("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("count", "<u2")]))
     mesh = MeshSearch(data["corners"].astype(float))
     positions = read_log(tmp_path / "run", spheres="all").positions
-    out = positions[positions[..., 2] > json.loads((CASES / "jammed_at_the_exit.json").read_text())["sheath"]["exit"][2]]
+    scene = json.loads((CASES / "jammed_at_the_exit.json").read_text())
+    out = positions[positions[..., 2] > scene["sheath"]["exit"][2]]
     assert len(out) > 1000 and mesh.inside(out).all()
 
 
 def test_a_mesh_that_crosses_itself_is_known():
-    box = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    faces = np.array([face for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
-    both = np.concatenate([faces, faces + 8])
-    assert not crosses_itself(box, faces)
-    assert crosses_itself(np.concatenate([box, box + [0.7, 0.6, 0.5]]), both)
-    assert not crosses_itself(np.concatenate([box, box + [2.7, 0.6, 0.5]]), both)
+    both = np.concatenate([FACES, FACES + 8])
+    assert not crosses_itself(BOX, FACES)
+    assert crosses_itself(np.concatenate([BOX, BOX + [0.7, 0.6, 0.5]]), both)
+    assert not crosses_itself(np.concatenate([BOX, BOX + [2.7, 0.6, 0.5]]), both)
 
 
 def test_a_seed_is_one_scene_and_seeds_have_all_kinds_and_rules(tmp_path):
@@ -101,9 +104,7 @@ def test_a_seed_is_one_scene_and_seeds_have_all_kinds_and_rules(tmp_path):
 
 
 def _box_mesh(half):
-    corners = half * np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)
-    quads = [(0, 1, 3, 2), (4, 6, 7, 5), (0, 4, 5, 1), (2, 3, 7, 6), (0, 2, 6, 4), (1, 5, 7, 3)]
-    return np.array([corners[list(face)] for a, b, c, d in quads for face in ((a, b, c), (a, c, d))])
+    return (half * BOX)[FACES]
 
 
 def test_the_search_knows_a_box_from_its_formula():
@@ -120,9 +121,9 @@ def test_the_search_knows_a_box_from_its_formula():
     distance = wall.distance
     assert distance(points) == pytest.approx(signed, abs=1e-12)
     a, b = points[:1000], points[1000:]
-    share = np.linspace(0.0, 1.0, 2001)[:, None]
+    fraction = np.linspace(0.0, 1.0, 2001)[:, None]
     for p, q in zip(a[:6], b[:6]):
-        along = distance((1.0 - share) * p + share * q)
+        along = distance((1.0 - fraction) * p + fraction * q)
         step = np.linalg.norm(q - p) / 2000
         least = wall.least_along(p[None], q[None], np.inf)
         assert along.min() - step <= least <= along.min() + 1e-12
@@ -140,52 +141,52 @@ def test_the_search_knows_a_tube_on_its_axis_and_beyond_its_open_end():
         [7.0, 9.0], abs=1e-12)
 
 
-def _judged(scene, summary, positions):
+def _broken(scene, summary, positions):
     """The first words of what a claim is made of."""
     walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])))
-    return [claim.split(" = ")[0] for claim in judge(scene, summary, positions, walls)]
+    return [claim.split(" = ")[0] for claim in violations(scene, summary, positions, walls)]
 
 
-def test_the_judge_finds_what_was_made_wrong():
+def test_the_check_finds_what_was_made_wrong():
     scene = {"vessel": {"shape": "mesh"}, "elementContact": "barycentric", "displacementPerStep": 0.5,
              "sphereRadius": 2.0}
     steps = 30
     z = 10.0 * np.arange(4)[None] + 0.5 * np.arange(steps + 1)[:, None]
     positions = np.stack([np.full_like(z, 9.0), np.zeros_like(z), z], axis=2)
-    doubt = "the drive fell short: as in the walls' way"
+    warning = "the drive fell short: as walls are in front of it"
     summary = {"passages": 0, "maxPenetration": 1.0, "driveAsked": 0.5 * steps, "driveShortfall": 0.0,
-               "outcome": "finished", "reason": "all steps are done", "warnings": [doubt], "reliable": False}
+               "outcome": "finished", "reason": "all steps are done", "warnings": [warning], "reliable": False}
     trusted = {**summary, "warnings": [], "reliable": True}
-    assert _judged(scene, summary, positions) == [] == _judged(scene, trusted, positions)
-    assert _judged(scene, {**summary, "reliable": True}, positions) == ["reliable"]
-    assert _judged(scene, {**trusted, "reliable": False}, positions) == ["reliable"]
-    assert _judged(scene, {**trusted, "reason": "all steps are done, but not well"}, positions) == ["reliable"]
-    assert _judged(scene, {**trusted, "outcome": "diverged"}, positions) == ["reliable"]
-    assert _judged(scene, {**summary, "maxPenetration": 1.0 + 1e-8}, positions) == ["maxPenetration"]
-    assert _judged(scene, {**summary, "driveAsked": 0.5 * steps + 1e-7}, positions) == ["driveAsked"]
-    assert _judged(scene, {**summary, "passages": 1}, positions) == ["passages"]
+    assert _broken(scene, summary, positions) == [] == _broken(scene, trusted, positions)
+    assert _broken(scene, {**summary, "reliable": True}, positions) == ["reliable"]
+    assert _broken(scene, {**trusted, "reliable": False}, positions) == ["reliable"]
+    assert _broken(scene, {**trusted, "reason": "all steps are done, but not well"}, positions) == ["reliable"]
+    assert _broken(scene, {**trusted, "outcome": "diverged"}, positions) == ["reliable"]
+    assert _broken(scene, {**summary, "maxPenetration": 1.0 + 1e-8}, positions) == ["maxPenetration"]
+    assert _broken(scene, {**summary, "driveAsked": 0.5 * steps + 1e-7}, positions) == ["driveAsked"]
+    assert _broken(scene, {**summary, "passages": 1}, positions) == ["passages"]
     frozen = positions.copy()
     frozen[5:, 2:4] = frozen[5, 2:4]
-    assert _judged(scene, summary, frozen) == ["element 2 is frozen from step 5 to 25"]
+    assert _broken(scene, summary, frozen) == ["element 2 is frozen from step 5 to 25"]
     across = positions.copy()
     across[7, 1, 0] = 10.0 + 1e-7
-    claims = _judged(scene, {**summary, "maxPenetration": 2.0, "passages": 1}, across)
+    claims = _broken(scene, {**summary, "maxPenetration": 2.0, "passages": 1}, across)
     assert claims == ["sphere 1 is beyond a wall after step 7", "element 0 crosses a wall after step 7; 2 times in all"]
-    assert "calls itself reliable" in _judged(scene, {**trusted, "maxPenetration": 2.0, "passages": 1}, across)[0]
+    assert "calls itself reliable" in _broken(scene, {**trusted, "maxPenetration": 2.0, "passages": 1}, across)[0]
 
 
 @pytest.mark.parametrize("solver", ["direct", "xpbd"])
-def test_the_judge_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(solver):
+def test_the_check_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(solver):
     scene = {"solver": solver, "vessel": {"shape": "mesh"}, "displacementPerStep": 0.5, "guidewireLength": 30.0}
     walls = Walls.of(scene, _box_mesh(np.array([10.0, 10.0, 100.0])))
     radii = np.full(3, 2.0)
     entries = 11
 
-    def judged(depth, summary, kept=entries):
+    def broken(depth, summary, kept=entries):
         z = 10.0 * np.arange(4)[None] + 0.5 * np.arange(kept)[:, None]
         positions = np.stack([np.full_like(z, 8.0 + depth), np.zeros_like(z), z], axis=2)
         return [claim.split(" = ")[0].split(" by ")[0]
-                for claim in material_claims.judge(scene, summary, positions, radii, walls)]
+                for claim in material_claims.violations(scene, summary, positions, radii, walls)]
 
     def summary(depth, *warnings, **changed):
         return {"outcome": "finished", "reason": "all steps are done", "warnings": list(warnings), "passages": 0,
@@ -195,12 +196,12 @@ def test_the_judge_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(s
     deep = "the surface is in a wall"
     wall, short = "the wire penetrated a wall by 0.12 units", "the drive fell short: of 5 units"
     too_deep = [] if solver == "xpbd" else [deep, "maxPenetration"]
-    assert judged(0.0, summary(0.0)) == []
-    assert judged(0.09, summary(0.09)) == too_deep  # a twentieth of 2 is allowed with xpbd
-    assert judged(0.12, summary(0.12, wall)) == too_deep
-    assert deep in judged(0.12, summary(0.12)) and deep in judged(0.12, summary(0.12, short))
-    assert judged(0.12, summary(0.12, wall, reliable=True))[:2] == ["reliable", deep]
-    assert judged(0.0, summary(0.0, passages=1)) == ["passages"]
+    assert broken(0.0, summary(0.0)) == []
+    assert broken(0.09, summary(0.09)) == too_deep  # a twentieth of 2 is allowed with xpbd
+    assert broken(0.12, summary(0.12, wall)) == too_deep
+    assert deep in broken(0.12, summary(0.12)) and deep in broken(0.12, summary(0.12, short))
+    assert broken(0.12, summary(0.12, wall, reliable=True))[:2] == ["reliable", deep]
+    assert broken(0.0, summary(0.0, passages=1)) == ["passages"]
     # A last step without a state did not go, and is not asked for.
     failed = summary(0.0, outcome="failed", reliable=False)
-    assert judged(0.0, failed) == [] and "driveAsked" in judged(0.0, failed, entries - 1)
+    assert broken(0.0, failed) == [] and "driveAsked" in broken(0.0, failed, entries - 1)

@@ -49,8 +49,8 @@ def test_a_recording_is_exact_or_as_near_as_16_bits_are():
     for channel in whole.channels:
         np.testing.assert_array_equal(exact[channel.name][1], channel.values)
         span = channel.values.max() - channel.values.min()
-        share = 1e-7 if channel.place == "frame" else 0.51 / 65535.0
-        np.testing.assert_allclose(near[channel.name][1], channel.values, atol=share * span + 1e-7, rtol=1e-7)
+        fraction = 1e-7 if channel.place == "frame" else 0.51 / 65535.0
+        np.testing.assert_allclose(near[channel.name][1], channel.values, atol=fraction * span + 1e-7, rtol=1e-7)
 
 
 def test_what_colours_the_wire_is_its_own():

@@ -1,4 +1,4 @@
-"""The reference step keeps what the equations promise, before it is trusted to judge the C# code."""
+"""The reference step keeps what the equations promise, before the C# code is compared with it."""
 
 import numpy as np
 import pytest

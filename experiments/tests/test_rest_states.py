@@ -148,8 +148,8 @@ def test_couple_in_space_ends_in_a_shape_to_which_it_comes_back(ends: dict, seed
     # With drag l on turns and l/L^2 on shifts: in units of L and EI/L the drag of every unknown is 1/n.
     slowest = np.min(np.linalg.eigvals(energy.count * energy.tangent()).real)
     assert slowest > 0.0
-    told = solver_report(read_run(folder), "smallestEigenvalue") * BASE.length**2 / BASE.bending
-    assert told == pytest.approx(slowest, rel=1e-4, abs=1e-4)
+    reported = solver_report(read_run(folder), "smallestEigenvalue") * BASE.length**2 / BASE.bending
+    assert reported == pytest.approx(slowest, rel=1e-4, abs=1e-4)
 
 
 def test_couples_in_space_often_have_a_rest_shape(ends: dict) -> None:

@@ -59,7 +59,7 @@ def test_smooth_is_true_or_false(value, tmp_path, runner_command) -> None:
     assert not (tmp_path / "one" / "run").exists()
 
 
-def test_a_corner_that_is_too_steep_for_an_arc_is_told(tmp_path, runner_command) -> None:
+def test_a_corner_that_is_too_steep_for_an_arc_is_reported(tmp_path, runner_command) -> None:
     scene = bent(20, True)
     scene["vessel"] |= {"knots": [[0, 0, -400], [0, 0, 30], [0, 8, 30.5], [0, 400, 31]], "radius": [3, 3, 10.9, 11]}
     done = run(runner_command, tmp_path / "one", scene)

@@ -58,16 +58,21 @@ def test_saved_tables_of_wire_and_catheter_give_the_bits_that_were_steered(runne
             shown.append((state.positions, state.catheters[0].positions))
         with pytest.raises(ValueError):
             instruments.hold(2)
-    for number in (0, 1):
-        (tmp_path / f"steered-{number}.csv").write_text(instruments.to_csv(number))
-    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run"), "-driveFile",
-                    str(tmp_path / "steered-0.csv"), "-catheters[0].driveFile", str(tmp_path / "steered-1.csv"),
-                    "-maxSimulationSteps", "25", "-deltaThreshold", "0", "-logEvery", "1"], check=True,
-                   capture_output=True)
-    log = read_log(tmp_path / "run", "all")
+    log = run_of_tables(runner_command, tmp_path, file, instruments, 25)
     for end, (wire, catheter) in zip(np.cumsum([0, 4, 8, 8, 1, 4]), shown, strict=True):
         np.testing.assert_array_equal(log.positions[end], wire, err_msg=f"step {end}")
         np.testing.assert_array_equal(log.catheters[0][end], catheter, err_msg=f"step {end}")
+
+
+def run_of_tables(runner_command, folder, file, instruments, steps):
+    """The log of a run driven by the saved tables of a wire and its catheter."""
+    for number in (0, 1):
+        (folder / f"steered-{number}.csv").write_text(instruments.to_csv(number))
+    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(folder / "run"), "-driveFile",
+                    str(folder / "steered-0.csv"), "-catheters[0].driveFile", str(folder / "steered-1.csv"),
+                    "-maxSimulationSteps", str(steps), "-deltaThreshold", "0", "-logEvery", "1"], check=True,
+                   capture_output=True)
+    return read_log(folder / "run", "all")
 
 
 @pytest.mark.parametrize("held, push, gone", [(0, 0.8, 4.0), (1, -0.8, -4.0), (0, -7.0, -50.0)])
@@ -90,12 +95,7 @@ def test_saved_tables_of_a_hub_that_was_stopped_are_taken_and_repeat_it(runner_c
             shown.append((state.positions, state.catheters[0].positions))
     hub = state.catheters[0] if held else state.hub
     assert hub.insertion == pytest.approx(1e-3 * (gone - 2.0 * push), abs=1e-12)
-    for number in (0, 1):
-        (tmp_path / f"steered-{number}.csv").write_text(instruments.to_csv(number))
-    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run"), "-driveFile",
-                    str(tmp_path / "steered-0.csv"), "-catheters[0].driveFile", str(tmp_path / "steered-1.csv"),
-                    "-maxSimulationSteps", "14", "-logEvery", "1"], check=True, capture_output=True)
-    log = read_log(tmp_path / "run", "all")
+    log = run_of_tables(runner_command, tmp_path, file, instruments, 14)
     for end, (wire, catheter) in zip(np.cumsum([0, 4, 4, 4, 2]), shown, strict=True):
         np.testing.assert_allclose(log.positions[end], wire, rtol=0.0, atol=1e-6, err_msg=f"step {end}")
         np.testing.assert_allclose(log.catheters[0][end], catheter, rtol=0.0, atol=1e-6, err_msg=f"step {end}")

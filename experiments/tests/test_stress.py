@@ -2,34 +2,25 @@
 
 from __future__ import annotations
 
-import json
-
 import numpy as np
 import pytest
 
 from analysis.figures.stress import draw_stress
 from analysis.logs import LogError
 from analysis.stress import read_stress
+from analysis.tests.chain import write_log
 
 N, ENTRIES = 5, 4
 
 
 def _write(folder, with_stress=True):
-    entries = {}
-    for k in range(ENTRIES):
-        entries[str(k)] = entry = {
-            "totalTime": 0.1 * k, "elapsedMilliseconds": 0.0, "delta": 0.0,
-            "sphere": {str(i): {"x": 0.0, "y": 0.1 * k * i * i, "z": 2.0 * i, "vx": 0.0, "vy": 0.0, "vz": 0.0}
-                       for i in range(N + 1)},
-        }
-        if with_stress:
-            entry["stress"] = {
-                "kineticEnergy": 1.0 * k, "elasticEnergy": 2.0, "potentialEnergy": -1.0 * k,
-                "curvature": [[3.0 * k, 4.0 * k, 0.5]] * (N + 1), "couple": [[0.0, 0.0, 0.1 * i] for i in range(N + 1)],
-                "strain": [[0.0, 0.0, 1e-3]] * N, "force": [[0.0, 1.0 * j, 0.0] for j in range(N)],
-                "angularVelocity": [[0.0, 0.0, 7.0]] * N,
-            }
-    (folder / "positions.json").write_text(json.dumps(entries))
+    stresses = [{"stress": {
+        "kineticEnergy": 1.0 * k, "elasticEnergy": 2.0, "potentialEnergy": -1.0 * k,
+        "curvature": [[3.0 * k, 4.0 * k, 0.5]] * (N + 1), "couple": [[0.0, 0.0, 0.1 * i] for i in range(N + 1)],
+        "strain": [[0.0, 0.0, 1e-3]] * N, "force": [[0.0, 1.0 * j, 0.0] for j in range(N)],
+        "angularVelocity": [[0.0, 0.0, 7.0]] * N}} for k in range(ENTRIES)]
+    write_log(folder, [[(0.0, 0.1 * k * i * i, 2.0 * i) for i in range(N + 1)] for k in range(ENTRIES)], 0.1,
+              stresses if with_stress else ())
 
 
 def test_a_log_with_stress_is_read_whole(tmp_path):

@@ -136,7 +136,7 @@ def test_a_run_over_its_time_limit_is_named(fake, tmp_path):
         ("converged", False), ("failed", True)]
 
 
-def test_a_run_that_cannot_be_made_is_told_before_anything_is_made_or_written(fake, tmp_path):
+def test_a_run_that_cannot_be_made_is_reported_before_anything_is_made_or_written(fake, tmp_path):
     bad = study_of("bad", Axis("refused", ("unknown key",)), variants={"a": {}, "b": {}})
     with pytest.raises(PreparationError, match="^bad: run a,refused=.*: unknown key .and 1 more of 2 runs.$"):
         sweep([SMALL, bad], fake.command, tmp_path)

@@ -91,11 +91,11 @@ def test_an_episode_has_one_of_the_vessels_of_a_list_and_says_whether_it_was_ope
     (narrow / "anatomy.json").write_text(wide.replace(", 3.0]", ", 2.0]"))
     both = replace(tube, scene="", anatomies=(*tube.anatomies, str(narrow / "anatomy.json")), frictions=(0.0,))
     with Environment(both) as own:
-        told = [(own.reset(seed=seed)[1], own.widest) for seed in range(8)]
-        assert {info["draw"]["anatomy"] for info, _ in told} == {0, 1}
-        assert all(widest == (3.0, 2.0)[info["draw"]["anatomy"]] for info, widest in told)
-        met = [info["draw"]["anatomy"] for info, _ in told]
-        assert [info["loaded"] for info, _ in told] == [one in met[:k] for k, one in enumerate(met)]
+        drawn = [(own.reset(seed=seed)[1], own.widest) for seed in range(8)]
+        assert {info["draw"]["anatomy"] for info, _ in drawn} == {0, 1}
+        assert all(widest == (3.0, 2.0)[info["draw"]["anatomy"]] for info, widest in drawn)
+        met = [info["draw"]["anatomy"] for info, _ in drawn]
+        assert [info["loaded"] for info, _ in drawn] == [one in met[:k] for k, one in enumerate(met)]
 
 
 def test_gymnasiums_own_check_passes_on_every_task(tube):

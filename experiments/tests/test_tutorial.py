@@ -1,4 +1,4 @@
-"""docs/tutorial.md: what a reader is told to save and every command, in the page's order, with runs of a few steps."""
+"""docs/tutorial.md: what a reader is to save and every command, in the page's order, with runs of a few steps."""
 
 import csv
 import os

@@ -1,4 +1,4 @@
-"""Unity in place of the headless runner: which program, what it is told, when its run counts."""
+"""Unity in place of the headless runner: which program, its arguments, when its run counts."""
 
 from __future__ import annotations
 
@@ -36,7 +36,7 @@ def run(unity: unity_runner.Unity, tmp_path: Path, wish: int, **more: object) ->
     return unity_runner.answer(unity, json.dumps(request))
 
 
-def test_editor_is_told_its_project_and_method(tmp_path: Path) -> None:
+def test_editor_is_given_its_project_and_method(tmp_path: Path) -> None:
     editor = unity_runner.find(str(program(tmp_path, "Unity")))
     command = editor.command(tmp_path / "log", ["-out", "x"])
     assert editor.is_editor
@@ -46,7 +46,7 @@ def test_editor_is_told_its_project_and_method(tmp_path: Path) -> None:
     assert "-quit" not in command and "-nographics" in command
 
 
-def test_player_is_told_neither(player: unity_runner.Unity, tmp_path: Path) -> None:
+def test_player_is_given_neither(player: unity_runner.Unity, tmp_path: Path) -> None:
     command = player.command(tmp_path / "log", [])
     assert not player.is_editor
     assert "-executeMethod" not in command and "-projectPath" not in command
@@ -84,7 +84,7 @@ def test_diverged(player: unity_runner.Unity, tmp_path: Path) -> None:
     assert (reply["exitCode"], reply["outcome"]) == (4, "diverged")
 
 
-def test_refused_parameters_are_told_in_their_own_line(player: unity_runner.Unity, tmp_path: Path) -> None:
+def test_refused_parameters_are_reported_in_their_own_line(player: unity_runner.Unity, tmp_path: Path) -> None:
     reply = run(player, tmp_path, 2)
     assert (reply["exitCode"], reply["outcome"]) == (2, None)
     assert "displacement = x is not allowed" in str(reply["message"])

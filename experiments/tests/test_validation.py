@@ -83,7 +83,7 @@ def _wrong():
     raise AssertionError("goes on after a run without a result")
 
 
-def test_check_whose_run_has_no_result_is_dropped_and_told(tmp_path: Path, runner_command: list[str]) -> None:
+def test_check_whose_run_has_no_result_is_dropped_and_reported(tmp_path: Path, runner_command: list[str]) -> None:
     done = make([Check("wrong", "Test", "wrong", _wrong)], tmp_path, runner_command)
     (failure,) = done.failures
     assert failure.exit_code == 2 and "numberRodElements" in failure.message

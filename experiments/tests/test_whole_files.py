@@ -74,7 +74,7 @@ def full_disk(monkeypatch):
     monkeypatch.setattr("viewer.command.three", lambda tell: {})
 
 
-def told(capsys, *words):
+def said_by(capsys, *words):
     """What a command says on a full disk."""
     assert commands.run(commands.parse([str(word) for word in words])) == 5
     line = capsys.readouterr().err.splitlines()[-1]
@@ -86,25 +86,25 @@ def told(capsys, *words):
     ["render", "RUN", "--out", "new/a.png"], ["render", "RUN", "--out", "new/a.gif", "--frames", "3"],
     ["view", "RUN", "--html", "new/a.html"], ["plot", "TABLE", "--x", "timeStep", "--y", "steps", "--out", "new/a.png"],
 ], ids=["picture", "film", "page", "plot"])
-def test_what_does_not_fit_on_the_disk_is_told_in_one_line_and_leaves_no_file(run, tmp_path, monkeypatch, capsys,
+def test_what_does_not_fit_on_the_disk_is_reported_in_one_line_and_leaves_no_file(run, tmp_path, monkeypatch, capsys,
                                                                               request, words):
     monkeypatch.chdir(tmp_path)
     table = tmp_path / "runs.csv"
     table.write_text("key,variant,timeStep,repeat,outcome,steps\na,,0.1,,finished,3\nb,,0.2,,finished,4\n")
     request.getfixturevalue("full_disk")
-    line = told(capsys, *({"RUN": run, "TABLE": table}.get(word, word) for word in words))
+    line = said_by(capsys, *({"RUN": run, "TABLE": table}.get(word, word) for word in words))
     assert f": {words[words.index('--out' if '--out' in words else '--html') + 1]}: " in f": {line.split(' ', 1)[1]}"
     assert not list((tmp_path / "new").iterdir())
 
 
-def test_a_sweep_on_a_full_disk_is_told_in_one_line_and_leaves_no_half_table(
+def test_a_sweep_on_a_full_disk_is_reported_in_one_line_and_leaves_no_half_table(
         runner_command, tmp_path, monkeypatch, capsys, request):
     monkeypatch.chdir(tmp_path)
     (tmp_path / "scene.json").write_text(json.dumps({**SMALL, "maxSimulationSteps": 1}))
     (tmp_path / "two.json").write_text(json.dumps(
         {"study": "two", "scene": "scene.json", "repeats": 1, "axes": {"timeStep": [0.01, 0.02]}}))
     request.getfixturevalue("full_disk")
-    assert "results/two/" in told(capsys, "sweep", "two.json")
+    assert "results/two/" in said_by(capsys, "sweep", "two.json")
     assert not [path for path in (tmp_path / "results").rglob("*") if path.is_file()]
 
 

@@ -9,10 +9,10 @@ const STEPS = 256;
 export function ramp(isSigned) {
   const colours = new Float32Array(3 * STEPS);
   for (let k = 0; k < STEPS; k++) {
-    const share = isSigned ? (2 * k) / (STEPS - 1) - 1 : k / (STEPS - 1);
+    const level = isSigned ? (2 * k) / (STEPS - 1) - 1 : k / (STEPS - 1);
     for (let part = 0; part < 3; part++) {
-      const far = share < 0 ? BLUE[part] : RED[part];
-      colours[3 * k + part] = GREY[part] + Math.abs(share) * (far - GREY[part]);
+      const far = level < 0 ? BLUE[part] : RED[part];
+      colours[3 * k + part] = GREY[part] + Math.abs(level) * (far - GREY[part]);
     }
   }
   return colours;

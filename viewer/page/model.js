@@ -13,7 +13,7 @@ import { DrawnInstrument } from "./instrument.js";
 export const [BEHIND, BEFORE] = [1, 2];
 const PLAIN = "#ff9d2e"; // of a wire that is not coloured and has no instrument
 const ARROWS = 0x7fe07f;
-const LONGEST_ARROW = 0.2; // share of the wire's length
+const LONGEST_ARROW = 0.2; // fraction of the wire's length
 const LEAST_RADIUS = 2; // points of the screen that a wire takes so that it is seen
 const SHEATH_COLOUR = 0x8fa9c4;
 const SHEATH = 2; // radius of a sheath over that of the widest instrument in it

@@ -23,7 +23,7 @@ export function make(tag, properties, ...children) {
 export class Panel {
   /**
    * @param {import("./stage.js").Stage} stage
-   * @param {() => void} changed told when something else is to be shown
+   * @param {() => void} changed called when something else is to be shown
    */
   constructor(stage, changed) {
     this._stage = stage;

@@ -42,12 +42,12 @@ export class Replay {
       return made;
     };
     this._play = button("play", () => this.play(!this.isPlaying));
-    this._over = button("", () => this.lay(!this.areOver));
+    this._over = button("", () => this.arrange(!this.areOver));
     byId("bar").replaceChildren(button("|<", () => this.go(this._start), "to the start"),
       button("<", () => this.step(-1), "previous frame"), this._play, button(">", () => this.step(1), "next frame"),
       this._slider, this._speed,
       ...(recordings.length > 1 ? [this._over] : []));
-    this.lay(false);
+    this.arrange(false);
   }
 
   get _start() {
@@ -60,7 +60,7 @@ export class Replay {
   }
 
   /** Side by side, or superimposed. @param {boolean} areOver */
-  lay(areOver) {
+  arrange(areOver) {
     this.areOver = areOver;
     this._over.textContent = areOver ? "side by side" : "superimposed";
     this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));

@@ -16,14 +16,14 @@ const BACKGROUND = new Color(20 / 255, 23 / 255, 31 / 255);
 const COPY = `precision mediump float;
 uniform lowp sampler2D map;
 uniform vec2 origin;
-uniform float share;
+uniform float fraction;
 out lowp vec4 colour;
-void main() { colour = texelFetch(map, ivec2((gl_FragCoord.xy - origin) * share), 0); }`;
+void main() { colour = texelFetch(map, ivec2((gl_FragCoord.xy - origin) * fraction), 0); }`;
 const COARSE = 0.5; // points of walls a point of the picture, while the camera moves
 const AT_REST = 200; // ms after which it does not
 const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
 const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
-const EASE = 0.2; // of the way that the camera follows in a picture
+const EASE = 0.2; // of the distance that the camera follows in a picture
 
 /**
  * Part of the picture. Walls are drawn when the camera moves, and kept: all of them as what is behind the wire, and
@@ -56,9 +56,9 @@ class Pane {
   /** Chooses the walls of the backdrop. @param {boolean} isCoarse */
   take(isCoarse) {
     this.isCoarse = isCoarse;
-    const { map, share } = this.backdrop.uniforms;
+    const { map, fraction } = this.backdrop.uniforms;
     map.value = (isCoarse ? this.coarse : this.behind).texture;
-    share.value = isCoarse ? COARSE : 1;
+    fraction.value = isCoarse ? COARSE : 1;
   }
 
   dispose() {
@@ -72,7 +72,7 @@ class Pane {
  * @param {import("three").Blending} blending
  */
 function copyOf(target, origin, blending) {
-  const uniforms = { map: { value: target.texture }, origin: { value: origin }, share: { value: 1 } };
+  const uniforms = { map: { value: target.texture }, origin: { value: origin }, fraction: { value: 1 } };
   const quad = new Mesh(new PlaneGeometry(2, 2), new RawShaderMaterial({
     glslVersion: GLSL3, uniforms, fragmentShader: COPY,
     vertexShader: "in vec3 position; void main() { gl_Position = vec4(position.xy, 0.0, 1.0); }",
@@ -181,8 +181,8 @@ export class Stage {
     const before = this._renderer.getSize(new Vector2()); // set anew it costs as much as a picture
     if (width !== before.x || height !== before.y) this._renderer.setSize(width, height, false);
     if (this.followsTip) this._follow();
-    const share = Math.floor(width / this._panes.length);
-    this._camera.aspect = share / height;
+    const paneWidth = Math.floor(width / this._panes.length);
+    this._camera.aspect = paneWidth / height;
     this._camera.updateProjectionMatrix();
     this._camera.updateMatrixWorld();
     this._light.position.copy(this._camera.position).sub(this._controls.target);
@@ -192,13 +192,13 @@ export class Stage {
     this._panes.forEach((pane, k) => {
       pane.scene.add(this._light);
       const shown = pane.models.map((model) => model.walls.visible);
-      const seen = [...this._camera.matrixWorld.elements, share, height, ...shown].join();
-      if (seen !== pane.seen && this._isSlow && pane.seen) this._drawCoarseWalls(pane, share, height);
-      else if (seen !== pane.seen) this._drawWalls(pane, share, height);
+      const seen = [...this._camera.matrixWorld.elements, paneWidth, height, ...shown].join();
+      if (seen !== pane.seen && this._isSlow && pane.seen) this._drawCoarseWalls(pane, paneWidth, height);
+      else if (seen !== pane.seen) this._drawWalls(pane, paneWidth, height);
       pane.seen = seen;
-      this._renderer.setViewport(k * share, 0, share, height);
-      this._renderer.setScissor(k * share, 0, share, height);
-      pane.origin.set(k * share, 0);
+      this._renderer.setViewport(k * paneWidth, 0, paneWidth, height);
+      this._renderer.setScissor(k * paneWidth, 0, paneWidth, height);
+      pane.origin.set(k * paneWidth, 0);
       this._camera.layers.set(0);
       this._renderer.clear(false, true);
       this._renderer.render(pane.backdrop.scene, this._flat);

@@ -4,18 +4,18 @@ const DRIVES = {
   w: ["push", 1], ArrowUp: ["push", 1], s: ["push", -1], ArrowDown: ["push", -1],
   d: ["turn", 1], ArrowRight: ["turn", 1], a: ["turn", -1], ArrowLeft: ["turn", -1],
 };
-const DEAD_ZONE = 0.15; // of a stick's way
+const DEAD_ZONE = 0.15; // of a stick's travel
 const STEPS = 50; // of a stick from 0 to 1: a message is sent where it is at another
 const PAD_BUTTONS = { 0: "pause", 3: "reset" };
 
 /** What keys, held buttons, a touch pad and a gamepad ask for: push and turn from -1 to 1. */
 export class Steering {
   /**
-   * @param {(push: number, turn: number) => void} told where that has changed
+   * @param {(push: number, turn: number) => void} onChange called where that has changed
    * @param {(button: string) => void} pressed "pause" or "reset" of a gamepad
    */
-  constructor(told, pressed) {
-    this._told = told;
+  constructor(onChange, pressed) {
+    this._onChange = onChange;
     this._pressed = pressed;
     /** @type {Set<string>} */
     this._held = new Set();
@@ -103,7 +103,7 @@ export class Steering {
     const turn = limited(Math.sign(keys.turn) + this._touch[1] + this._pad[1]);
     if (push === this.push && turn === this.turn) return;
     [this.push, this.turn] = [push, turn];
-    this._told(push, turn);
+    this._onChange(push, turn);
   }
 }
 

@@ -18,7 +18,7 @@ namespace Guidewire.Core
         /// <summary>A solver gave up, or the output was lost.</summary>
         Failed,
 
-        /// <summary>It was told to stop.</summary>
+        /// <summary>It was stopped from outside.</summary>
         Interrupted,
     }
 }

@@ -1,6 +1,6 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
+using static System.FormattableString;
 
 namespace Guidewire.Core
 {
@@ -78,23 +78,23 @@ namespace Guidewire.Core
             var lines = new List<string>();
             if (contacts != null && contacts.Passages > 0)
             {
-                lines.Add(Text("{0} points of the wire passed a wall", contacts.Passages));
+                lines.Add(Invariant($"{contacts.Passages} points of the wire passed a wall"));
             }
             if (contacts != null && contacts.MaxPenetration > _depth)
             {
-                lines.Add(Text("the wire penetrated a wall by {0:G3} units, {1:G3} units are allowed",
-                    contacts.MaxPenetration, _depth));
+                lines.Add(Invariant($"the wire penetrated a wall by {contacts.MaxPenetration:G3} units, ")
+                    + Invariant($"{_depth:G3} units are allowed"));
             }
             double change = LengthOf(state) / _length - 1.0;
             if (Math.Abs(change) > OddStretch)
             {
-                lines.Add(Text("the wire is {0:0.0} % {1} than at rest", 100.0 * Math.Abs(change),
-                    change < 0.0 ? "shorter" : "longer"));
+                string than = change < 0.0 ? "shorter" : "longer";
+                lines.Add(Invariant($"the wire is {100.0 * Math.Abs(change):0.0} % {than} than at rest"));
             }
             if (contacts != null && contacts.DriveShortfall > OddShortfall * contacts.DriveAsked)
             {
-                lines.Add(Text("the drive fell short: of {0:G4} units that it asked of the first sphere {1:G3} are"
-                    + " missing", contacts.DriveAsked, contacts.DriveShortfall));
+                lines.Add(Invariant($"the drive fell short: of {contacts.DriveAsked:G4} units that it asked of the ")
+                    + Invariant($"first sphere {contacts.DriveShortfall:G3} are missing"));
             }
             return lines;
         }
@@ -107,11 +107,6 @@ namespace Guidewire.Core
                 length += Vector3d.Distance(state.Positions[i - 1], state.Positions[i]);
             }
             return length;
-        }
-
-        private static string Text(string format, params object[] values)
-        {
-            return string.Format(CultureInfo.InvariantCulture, format, values);
         }
     }
 }

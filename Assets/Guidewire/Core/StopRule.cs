@@ -1,10 +1,9 @@
-using System.Globalization;
+using static System.FormattableString;
 
 namespace Guidewire.Core
 {
     /// <summary>Decides after each step whether a run has ended, and with which outcome: by the report of the method
-    /// (failed, diverged, steady state), a number that is not finite, the last
-    /// step.</summary>
+    /// (failed, diverged, steady state), a number that is not finite, the last step.</summary>
     internal sealed class StopRule
     {
         private readonly int _maxSteps;
@@ -40,7 +39,7 @@ namespace Guidewire.Core
                 return End(Outcome.Converged, stepper.SteadyState);
             }
             return step < _maxSteps ? Outcome.Running
-                : End(Outcome.Finished, Text("all {0} steps are done", _maxSteps));
+                : End(Outcome.Finished, Invariant($"all {_maxSteps} steps are done"));
         }
 
         private Outcome End(Outcome outcome, string reason)
@@ -56,19 +55,14 @@ namespace Guidewire.Core
             {
                 if (!state.Positions[i].IsFinite)
                 {
-                    return Text("sphere {0} has no finite position at step {1}", i, step);
+                    return Invariant($"sphere {i} has no finite position at step {step}");
                 }
                 if (!state.Velocities[i].IsFinite)
                 {
-                    return Text("sphere {0} has no finite velocity at step {1}", i, step);
+                    return Invariant($"sphere {i} has no finite velocity at step {step}");
                 }
             }
             return null;
-        }
-
-        private static string Text(string format, params object[] values)
-        {
-            return string.Format(CultureInfo.InvariantCulture, format, values);
         }
     }
 }

@@ -12,7 +12,7 @@ namespace Guidewire.Cli
     {
         private const double FirstAfter = 1000.0;     // ms
         private const double Every = 200.0;           // ms
-        private const double Smoothing = 0.1;         // share of the newest interval in the rate: some 2 s of it
+        private const double Smoothing = 0.1;         // weight of the newest interval in the rate: some 2 s of it
         private const int NarrowestTerminal = 20;     // columns; what says less does not know
 
         private readonly RunCommand _command;
@@ -29,7 +29,7 @@ namespace Guidewire.Cli
             _command = command;
         }
 
-        /// <summary>Told after every step, with the wall time in ms.</summary>
+        /// <summary>Called after every step, with the wall time in ms.</summary>
         public void Show(Simulation simulation, double elapsed)
         {
             if (_silent || elapsed < _next)

@@ -44,7 +44,7 @@ namespace Guidewire.Cli
         /// <summary>Number of a timed repeat, or null.</summary>
         public int? Repeat { get; }
 
-        /// <summary>Whether the parameters are only checked, and the run's address told.</summary>
+        /// <summary>Whether the parameters are only checked, and the run's address reported.</summary>
         public bool IsCheck { get; }
 
         /// <summary>Whether the run leaves a log.</summary>
@@ -60,7 +60,7 @@ namespace Guidewire.Cli
         /// <summary>Steps to make.</summary>
         public int Steps { get; }
 
-        /// <summary>Way of sphere 0 along the first element in all of them, units.</summary>
+        /// <summary>Displacement of sphere 0 along the first element in all of them, units.</summary>
         public double Push { get; }
 
         /// <summary>Turn of the first element about its axis in all of them, rad.</summary>

@@ -161,7 +161,7 @@ namespace Guidewire.Cli
             }
         }
 
-        // What X-rays see of the instruments, and the way to the target, for who draws pictures of his own.
+        // What X-rays see of the instruments, and the path to the target, for whoever draws pictures of their own.
         private void Describe(JObject answer)
         {
             SimulationSession session = Opened();

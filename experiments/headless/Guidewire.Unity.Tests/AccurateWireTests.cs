@@ -3,7 +3,6 @@ using System;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>The wire with a material, in the scene that a user steers.</summary>
-    [TestFixture]
     public sealed class AccurateWireTests
     {
         private static readonly bool InFull = Environment.GetEnvironmentVariable("GUIDEWIRE_ALL") == "1";

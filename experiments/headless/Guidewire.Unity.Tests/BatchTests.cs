@@ -7,7 +7,6 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>Runs without frames: the same results and exit codes as the console program's.</summary>
-    [TestFixture]
     public sealed class BatchTests
     {
         private static readonly Regex WallTime = new Regex("\"elapsedMilliseconds\": [^,]+");

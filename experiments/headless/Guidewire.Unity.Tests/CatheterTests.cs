@@ -4,7 +4,6 @@ using Guidewire.Io;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>A wire in a catheter, in the scene that a user steers.</summary>
-    [TestFixture]
     public sealed class CatheterTests
     {
         private static readonly string[] NoDrive = { "deltaThreshold=0", "maxSimulationSteps=1000000" };

@@ -4,7 +4,7 @@ using System.Globalization;
 
 namespace Guidewire.Unity.Tests
 {
-    /// <summary>How long frames take that are played one by one: what a frame has room for is said, not asserted,
+    /// <summary>How long frames take that are played one by one: what a frame has time for is printed, not asserted,
     /// since machines do other things too.</summary>
     internal sealed class FrameTimes
     {

@@ -4,7 +4,6 @@ namespace Guidewire.Unity.Tests
 {
     /// <summary>Unity's garbage collector is not generational: what a frame leaves behind, frames later stop
     /// for.</summary>
-    [TestFixture]
     public sealed class GarbageTests
     {
         private const int WarmUp = 60;

@@ -3,7 +3,6 @@ using System;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>What each key and the mouse do, in the scene that a user steers.</summary>
-    [TestFixture]
     public sealed class KeyTests
     {
         [SetUp]

@@ -4,7 +4,6 @@ using System.Linq;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>The lines of plain C# in docs/unity.md, as they stand there.</summary>
-    [TestFixture]
     public sealed class PlainCodeTests
     {
         // A closed box from -100 to 100 along z.

@@ -4,7 +4,6 @@ using UnityEngine.TestTools;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>Unity's own PlayMode test, its frames made by the stub engine.</summary>
-    [TestFixture]
     public sealed class PlayModeTests
     {
         [Test]

@@ -4,7 +4,6 @@ using UnityEditor.Build.Reporting;
 
 namespace Guidewire.Unity.Tests
 {
-    [TestFixture]
     public sealed class PlayerBuildTests
     {
         private string _before = "";

@@ -7,7 +7,6 @@ namespace Guidewire.Unity.Tests
     /// <summary>The package's samples, in a scene that is made here: a vessel of a mesh, turned, moved and scaled,
     /// and the
     /// wire's object in another place.</summary>
-    [TestFixture]
     public sealed class SampleTests
     {
         private const float Scale = 0.001f;
@@ -122,8 +121,8 @@ namespace Guidewire.Unity.Tests
                 Vector3 expected = Place + Turned * (Scale * state.Positions[i].ToUnity());
                 Assert.That(Vector3.Distance(_line.GetPosition(i), expected), Is.LessThan(1e-6f));
             }
-            float way = Vector3.Distance(_line.GetPosition(24), start);
-            Assert.That(way, Is.EqualTo(0.2f).Within(0.02f), "5 s at 40 units of a millimetre a second");
+            float distance = Vector3.Distance(_line.GetPosition(24), start);
+            Assert.That(distance, Is.EqualTo(0.2f).Within(0.02f), "5 s at 40 units of a millimetre a second");
             Assert.That(_loop.Session.Simulation.Contacts!.Passages, Is.EqualTo(0));
             Assert.That(state.Positions[24].X, Is.GreaterThan(5.0), "the vessel has bent it");
             Assert.That(Engine.Console, Is.Empty);
@@ -191,8 +190,8 @@ namespace Guidewire.Unity.Tests
             {
                 _loop.Step();
             }
-            double way = _loop.Session.Simulation.Hub()!.Insertion - before;
-            Assert.That(way, Is.EqualTo(counted * 10 * 0.01 * 40.0 * 1e-3).Within(1e-9), "m: speed times time");
+            double distance = _loop.Session.Simulation.Hub()!.Insertion - before;
+            Assert.That(distance, Is.EqualTo(counted * 10 * 0.01 * 40.0 * 1e-3).Within(1e-9), "m: speed times time");
         }
 
         [Test]

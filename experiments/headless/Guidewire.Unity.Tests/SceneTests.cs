@@ -1,6 +1,5 @@
 namespace Guidewire.Unity.Tests
 {
-    [TestFixture]
     public sealed class SceneTests
     {
         private const int Frames = 300;

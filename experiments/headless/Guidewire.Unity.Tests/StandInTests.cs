@@ -7,7 +7,6 @@ using UnityEngine.TestTools;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>The stand-in does what Unity does where a test that passes here could fail there.</summary>
-    [TestFixture]
     public sealed class StandInTests
     {
         [SetUp]

@@ -5,7 +5,6 @@ using System.Text.RegularExpressions;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>What is public in the package's Unity assembly is public on purpose: docs/unity.md lists it.</summary>
-    [TestFixture]
     public sealed class SurfaceTests
     {
         private const BindingFlags Own = BindingFlags.Public | BindingFlags.Instance | BindingFlags.Static

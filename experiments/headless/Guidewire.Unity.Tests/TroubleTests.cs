@@ -2,7 +2,6 @@ namespace Guidewire.Unity.Tests
 {
     /// <summary>What a user can do wrong: the scene stops with a message on the screen and in the console, and a reset
     /// makes it usable again.</summary>
-    [TestFixture]
     public sealed class TroubleTests
     {
         [SetUp]

@@ -3,7 +3,6 @@ using System;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>The scene in which a hand pushes the wire into the vessel.</summary>
-    [TestFixture]
     public sealed class VesselTests
     {
         [SetUp]

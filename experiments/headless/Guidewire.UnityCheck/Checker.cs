@@ -5,7 +5,7 @@ namespace Guidewire.UnityCheck
     /// <summary>Compiles the assemblies of a project and holds every rule against their sources.</summary>
     internal sealed class Checker
     {
-        /// <summary>Errors of one source that are told; more say nothing new.</summary>
+        /// <summary>Largest number of errors reported of one source; more say nothing new.</summary>
         private const int MostErrors = 20;
 
         private readonly Sources _sources = new Sources();
@@ -33,7 +33,7 @@ namespace Guidewire.UnityCheck
                     var source = new Source(form, compilation, tree, usage, reply);
                     if (isJudged)
                     {
-                        Judge(source, reply);
+                        CheckSource(source, reply);
                     }
                     if (isTold)
                     {
@@ -50,7 +50,7 @@ namespace Guidewire.UnityCheck
             return attribute.StartsWith("InternalsVisibleTo", StringComparison.Ordinal);
         }
 
-        private static void Judge(Source source, Reply reply)
+        private static void CheckSource(Source source, Reply reply)
         {
             foreach (Diagnostic error in source.Model.GetDiagnostics()
                 .Where(error => error.Severity == DiagnosticSeverity.Error).Take(MostErrors))

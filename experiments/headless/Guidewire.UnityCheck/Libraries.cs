@@ -11,7 +11,7 @@ namespace Guidewire.UnityCheck
             Directory.GetFiles(Given("Standard"), "*.dll").OrderBy(path => path, StringComparer.Ordinal)
                 .Select(path => (MetadataReference)MetadataReference.CreateFromFile(path)).ToArray());
 
-        private static readonly Dictionary<string, MetadataReference> Known =
+        private static readonly Dictionary<string, MetadataReference> Loaded =
             new Dictionary<string, MetadataReference>();
 
         private static readonly string[] FrameworkNames = { "mscorlib", "System", "System.Core", "System.Numerics" };
@@ -33,7 +33,7 @@ namespace Guidewire.UnityCheck
         /// <summary>A library by its file's name; null where it is none of a package's.</summary>
         public static MetadataReference? Find(string name)
         {
-            if (!Known.TryGetValue(name, out MetadataReference? found))
+            if (!Loaded.TryGetValue(name, out MetadataReference? found))
             {
                 string? path = Values().FirstOrDefault(given => given.Key == name)?.Value;
                 if (path == null)
@@ -41,7 +41,7 @@ namespace Guidewire.UnityCheck
                     return null;
                 }
                 found = MetadataReference.CreateFromFile(path);
-                Known[name] = found;
+                Loaded[name] = found;
             }
             return found;
         }

@@ -16,7 +16,7 @@ namespace Guidewire.UnityCheck
     /// <param name="Root">Folder of the project.</param>
     /// <param name="Assemblies">Its assemblies.</param>
     /// <param name="Changes">Sources with other text than the file has.</param>
-    /// <param name="Only">The sources to judge; null for all.</param>
+    /// <param name="Only">The sources to check; null for all.</param>
     /// <param name="Words">Words whose places are asked for.</param>
     /// <param name="Events">Names of methods that scenes call.</param>
     internal sealed record Request(string Root, AssemblyForm[] Assemblies, Dictionary<string, string> Changes,

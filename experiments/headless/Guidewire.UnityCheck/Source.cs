@@ -1,6 +1,6 @@
 namespace Guidewire.UnityCheck
 {
-    /// <summary>One source that is judged, with what the compiler knows of it.</summary>
+    /// <summary>One source that is checked, with what the compiler knows of it.</summary>
     internal sealed class Source
     {
         private readonly Reply _reply;

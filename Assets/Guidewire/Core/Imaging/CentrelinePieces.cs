@@ -1,5 +1,3 @@
-using System;
-
 namespace Guidewire.Core
 {
     /// <summary>Cuts the centreline of an instrument into straight pieces: a cubic through all points whose slope at

@@ -1,5 +1,3 @@
-using System;
-
 namespace Guidewire.Core
 {
     /// <summary>Extrapolates the frame of a clamp that a start does not state from the elements next to it.</summary>

@@ -61,13 +61,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>The eigenvector with a negative eigenvalue that is no neutral motion, where the last answer was no;
-        /// null where there were too many, or one beyond all doubt.</summary>
-        public RodVector[]? Doubtful { get; private set; }
+        /// null where there were too many, or one that is clearly negative.</summary>
+        public RodVector[]? Undecided { get; private set; }
 
         /// <summary>Whether no eigenvalue of K is negative in this shape but those of neutral motions.</summary>
         public bool IsStable(RodShape shape)
         {
-            Doubtful = null;
+            Undecided = null;
             int negative = Factorise(shape, 0.0);
             if (negative == 0)
             {
@@ -84,7 +84,7 @@ namespace Guidewire.Core
                 double eigenvalue = FindMode(k) - shift;
                 if (eigenvalue < 0.0 && !IsNeutral(shape, _modes[k]))
                 {
-                    Doubtful = _modes[k];
+                    Undecided = _modes[k];
                     return false;
                 }
             }

@@ -221,10 +221,9 @@ namespace Guidewire.Core
 
         private static void AddGradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient)
         {
-            var measured = default(GradientMeasures);
             foreach (EnergyTerm term in terms)
             {
-                term.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+                term.AddGradient(shape, gradient);
             }
         }
 

@@ -80,7 +80,7 @@ namespace Guidewire.Core
             return _stress;
         }
 
-        /// <summary>Whether the wire moves with more energy than was put in; then it is told with this
+        /// <summary>Whether the wire moves with more energy than was put in; the reason then ends with this
         /// remedy.</summary>
         protected bool HasBlownUp(string remedy)
         {

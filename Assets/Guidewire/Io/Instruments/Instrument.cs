@@ -53,45 +53,31 @@ namespace Guidewire.Io
     }
 
     /// <summary>A section between shaft and tip.</summary>
-    internal readonly struct DistalSection
+    internal struct DistalSection
     {
-        public DistalSection(double length, double bendingStiffness, bool isTapered)
-        {
-            Length = length;
-            BendingStiffness = bendingStiffness;
-            IsTapered = isTapered;
-        }
-
         /// <summary>m.</summary>
-        public double Length { get; }
+        public double Length;
 
         /// <summary>EI at its distal end, N m^2.</summary>
-        public double BendingStiffness { get; }
+        public double BendingStiffness;
 
         /// <summary>Whether EI changes linearly from that of the section before; else it is uniform.</summary>
-        public bool IsTapered { get; }
+        public bool IsTapered;
     }
 
     /// <summary>An arc of the wire at rest and the straight piece behind it.</summary>
-    internal readonly struct TipBend
+    internal struct TipBend
     {
-        public TipBend(double angle, double radius, double straight)
-        {
-            Angle = angle;
-            Radius = radius;
-            Straight = straight;
-        }
-
         /// <summary>rad; negative: to the other side.</summary>
-        public double Angle { get; }
+        public double Angle;
 
         /// <summary>Of the arc, m.</summary>
-        public double Radius { get; }
+        public double Radius;
 
         /// <summary>Straight length between this arc and the next or the tip, m.</summary>
-        public double Straight { get; }
+        public double Straight;
 
         /// <summary>Of the arc along the wire, m.</summary>
-        public double ArcLength => Math.Abs(Angle) * Radius;
+        public readonly double ArcLength => Math.Abs(Angle) * Radius;
     }
 }

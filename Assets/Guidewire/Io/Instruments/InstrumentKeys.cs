@@ -129,15 +129,22 @@ namespace Guidewire.Io
             int count = Count(to - from, element);
             if (isUniform)
             {
-                pieces.Add(new Piece(from, to, a, curvature, count));
+                pieces.Add(new Piece
+                    { From = from, To = to, BendingStiffness = a, Curvature = curvature, Elements = count });
                 return;
             }
             for (int i = 0; i < count; i++)
             {
                 double left = a + (b - a) * i / count;
                 double right = a + (b - a) * (i + 1) / count;
-                pieces.Add(new Piece(from + (to - from) * i / count, from + (to - from) * (i + 1) / count,
-                    (right - left) / Math.Log(right / left), curvature, 1));
+                pieces.Add(new Piece
+                {
+                    From = from + (to - from) * i / count,
+                    To = from + (to - from) * (i + 1) / count,
+                    BendingStiffness = (right - left) / Math.Log(right / left),
+                    Curvature = curvature,
+                    Elements = 1,
+                });
             }
         }
 
@@ -162,26 +169,13 @@ namespace Guidewire.Io
         }
 
         // A part of the wire from the clamp, m, with its EI, N m^2, and its curvature at rest, 1/m.
-        private readonly struct Piece
+        private struct Piece
         {
-            public Piece(double from, double to, double bendingStiffness, double curvature, int elements)
-            {
-                From = from;
-                To = to;
-                BendingStiffness = bendingStiffness;
-                Curvature = curvature;
-                Elements = elements;
-            }
-
-            public double From { get; }
-
-            public double To { get; }
-
-            public double BendingStiffness { get; }
-
-            public double Curvature { get; }
-
-            public int Elements { get; }
+            public double From;
+            public double To;
+            public double BendingStiffness;
+            public double Curvature;
+            public int Elements;
         }
     }
 }

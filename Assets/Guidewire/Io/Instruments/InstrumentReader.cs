@@ -69,9 +69,12 @@ namespace Guidewire.Io
         {
             foreach (InstrumentFields section in fields.List("distalSections", "length", "bendingStiffness", "profile"))
             {
-                instrument.Sections.Add(new DistalSection(section.Quantity("length", Dimension.Length),
-                    section.Quantity("bendingStiffness", Dimension.Stiffness),
-                    section.Word("profile", Profiles) == "linear"));
+                instrument.Sections.Add(new DistalSection
+                {
+                    Length = section.Quantity("length", Dimension.Length),
+                    BendingStiffness = section.Quantity("bendingStiffness", Dimension.Stiffness),
+                    IsTapered = section.Word("profile", Profiles) == "linear",
+                });
             }
             if (instrument.DistalLength > instrument.Length)
             {
@@ -95,8 +98,12 @@ namespace Guidewire.Io
                 {
                     throw bend.Wrong("radius", "at least the instrument's own radius");
                 }
-                var arc = new TipBend(isOpposite ? -angle : angle, radius,
-                    bend.Bare("straight", Dimension.Length, mayBeZero: true));
+                var arc = new TipBend
+                {
+                    Angle = isOpposite ? -angle : angle,
+                    Radius = radius,
+                    Straight = bend.Bare("straight", Dimension.Length, mayBeZero: true),
+                };
                 length += arc.ArcLength + arc.Straight;
                 instrument.Bends.Add(arc);
             }

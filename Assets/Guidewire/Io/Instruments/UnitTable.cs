@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
 
 namespace Guidewire.Io
 {
@@ -61,8 +60,7 @@ namespace Guidewire.Io
             int space = trimmed.IndexOf(' ');
             string number = space < 0 ? trimmed : trimmed.Substring(0, space);
             string unit = space < 0 ? "" : trimmed.Substring(space + 1).Trim();
-            if (!double.TryParse(number, NumberStyles.Float, CultureInfo.InvariantCulture, out value)
-                || double.IsNaN(value) || double.IsInfinity(value))
+            if (!NumberText.TryRead(number, out value))
             {
                 return "a number, a space and a unit, such as \"" + Words(dimension).Example + "\"";
             }

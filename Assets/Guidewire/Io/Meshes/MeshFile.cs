@@ -23,11 +23,11 @@ namespace Guidewire.Io
                 throw new ParameterException(file + ": needs a name that ends in .obj or .stl");
             }
             byte[] bytes = PlainFile.ReadBytes(file, "a mesh file");
-            string? complaint = extension == ".obj" ? ObjReader.Read(bytes, vertices, triangles)
+            string? problem = extension == ".obj" ? ObjReader.Read(bytes, vertices, triangles)
                 : StlReader.Read(bytes, vertices, triangles);
-            if (complaint != null)
+            if (problem != null)
             {
-                throw new ParameterException(file + ": " + complaint);
+                throw new ParameterException(file + ": " + problem);
             }
             var points = new Vector3d[rims.Count];
             for (int i = 0; i < points.Length; i++)

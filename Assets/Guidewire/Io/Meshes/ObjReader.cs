@@ -29,27 +29,16 @@ namespace Guidewire.Io
             while (lines.Next())
             {
                 string word = lines.Words.Length > 0 ? lines.Words[0] : "";
-                string? complaint = word == "v" ? ReadVertex(lines, vertices)
+                string? problem = word == "v" ? lines.ReadVertex(vertices)
                     : word == "f" ? ReadFace(lines, vertices.Count, triangles)
                     : word.Length == 0 || Array.IndexOf(PassedOver, word) >= 0 ? null
-                    : lines.Complain("an OBJ word (v, f, ...)");
-                if (complaint != null)
+                    : lines.Error("an OBJ word (v, f, ...)");
+                if (problem != null)
                 {
-                    return complaint;
+                    return problem;
                 }
             }
             return triangles.Count == 0 ? "has no triangles" : null;
-        }
-
-        private static string? ReadVertex(TextLines lines, List<Vector3d> vertices)
-        {
-            if (!lines.TryNumber(1, out double x) || !lines.TryNumber(2, out double y)
-                || !lines.TryNumber(3, out double z))
-            {
-                return lines.Complain("three finite numbers behind v");
-            }
-            vertices.Add(new Vector3d(x, y, z));
-            return null;
         }
 
         private static string? ReadFace(TextLines lines, int count, List<int> triangles)
@@ -57,7 +46,7 @@ namespace Guidewire.Io
             string[] words = lines.Words;
             if (words.Length < 4)
             {
-                return lines.Complain("at least three vertices behind f");
+                return lines.Error("at least three vertices behind f");
             }
             int first = 0;
             int previous = 0;
@@ -68,7 +57,7 @@ namespace Guidewire.Io
                 if (!int.TryParse(text, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int index)
                     || index == 0 || index > count || index < -count)
                 {
-                    return lines.Complain("vertices from 1 to " + count.ToString(CultureInfo.InvariantCulture));
+                    return lines.Error("vertices from 1 to " + count.ToString(CultureInfo.InvariantCulture));
                 }
                 index = index > 0 ? index - 1 : count + index;
                 if (k > 2)

@@ -88,19 +88,17 @@ namespace Guidewire.Io
                 switch (word)
                 {
                     case "vertex":
-                        if (!lines.TryNumber(1, out double x) || !lines.TryNumber(2, out double y)
-                            || !lines.TryNumber(3, out double z))
-                        {
-                            return lines.Complain("three finite numbers behind vertex");
-                        }
                         triangles.Add(vertices.Count);
-                        vertices.Add(new Vector3d(x, y, z));
                         corners++;
+                        if (lines.ReadVertex(vertices) is string wrong)
+                        {
+                            return wrong;
+                        }
                         break;
                     case "endfacet":
                         if (corners != 3)
                         {
-                            return lines.Complain("three vertices before it, and has " + corners);
+                            return lines.Error("three vertices before it, and has " + corners);
                         }
                         corners = 0;
                         break;
@@ -112,7 +110,7 @@ namespace Guidewire.Io
                     case "endsolid":
                         break;
                     default:
-                        return lines.Complain("an STL word (facet, vertex, ...)");
+                        return lines.Error("an STL word (facet, vertex, ...)");
                 }
             }
             return corners != 0 ? "ends inside a facet" : triangles.Count == 0 ? "has no triangles" : null;

@@ -1,6 +1,8 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 using System.Text;
+using Guidewire.Core;
 
 namespace Guidewire.Io
 {
@@ -46,17 +48,21 @@ namespace Guidewire.Io
             return true;
         }
 
-        /// <summary>The number that word k is; not finite is no number.</summary>
-        public bool TryNumber(int k, out double number)
+        /// <summary>Adds the vertex that the three words after the first are.</summary>
+        /// <returns>What is wrong with the line, in one phrase, or null.</returns>
+        public string? ReadVertex(List<Vector3d> vertices)
         {
-            number = double.NaN;
-            return k < Words.Length
-                && double.TryParse(Words[k], NumberStyles.Float, CultureInfo.InvariantCulture, out number)
-                && !double.IsNaN(number) && !double.IsInfinity(number);
+            if (Words.Length < 4 || !NumberText.TryRead(Words[1], out double x)
+                || !NumberText.TryRead(Words[2], out double y) || !NumberText.TryRead(Words[3], out double z))
+            {
+                return Error("three finite numbers behind " + Words[0]);
+            }
+            vertices.Add(new Vector3d(x, y, z));
+            return null;
         }
 
         /// <summary>What is wrong with the current line, in one phrase.</summary>
-        public string Complain(string needed)
+        public string Error(string needed)
         {
             string line = string.Join(" ", Words);
             line = line.Length > 60 ? line.Substring(0, 57) + "..." : line;

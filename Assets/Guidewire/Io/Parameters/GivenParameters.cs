@@ -101,8 +101,8 @@ namespace Guidewire.Io
                 : new ParameterException((source.Length > 0 ? source : nobody) + ": " + path + " needs " + needed);
         }
 
-        /// <summary>Lays the parts over the values that they are of, those that hold others first: a part counts over
-        /// its whole, wherever the two stand. A value that nobody gave is the default.</summary>
+        /// <summary>Replaces parts of values, those that hold others first: a part overrides the value that it is
+        /// of, wherever the two stand. A value that nobody gave is the default.</summary>
         /// <param name="defaults">The method's.</param>
         /// <exception cref="ParameterException">A part that is not there, that the method does not take, or whose value
         /// is not allowed.</exception>
@@ -134,7 +134,7 @@ namespace Guidewire.Io
                         throw new ParameterException(own, path.Text, value.ToString(Formatting.None),
                             "solver " + entry.MethodWords);
                     }
-                    whole = Lay(path, whole, value, own);
+                    whole = Replace(path, whole, value, own);
                 }
             }
             var scratch = new RunParameters(defaults.Simulation.Method.Solver);
@@ -150,7 +150,8 @@ namespace Guidewire.Io
         {
             List<(ParameterPath Path, JToken Value, string Source)> own =
                 _parts.FindAll(part => part.Path.Key == entry.Key);
-            int wrong = own.FindIndex(part => !entry.TryRead(scratch, part.Path.Lay(before.DeepClone(), part.Value)));
+            int wrong = own.FindIndex(part =>
+                !entry.TryRead(scratch, part.Path.Replace(before.DeepClone(), part.Value)));
             (ParameterPath path, JToken value, string source) = own[wrong < 0 ? own.Count - 1 : wrong];
             if (path.Field.Length > 0 && entry.Fields.Count > 0 && entry.AllowedOf(path.Field) == null)
             {
@@ -161,11 +162,11 @@ namespace Guidewire.Io
                 entry.AllowedOf(path.Field) ?? entry.Allowed);
         }
 
-        private static JToken Lay(ParameterPath path, JToken whole, JToken value, string source)
+        private static JToken Replace(ParameterPath path, JToken whole, JToken value, string source)
         {
             try
             {
-                return path.Lay(whole, value);
+                return path.Replace(whole, value);
             }
             catch (ParameterException error)
             {

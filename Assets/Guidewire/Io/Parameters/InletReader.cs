@@ -52,10 +52,10 @@ namespace Guidewire.Io
                         + string.Join(", ", anatomy.BranchNames) + ", or an end, one of " + anatomy.List());
                 }
             }
-            Lay(values, given, inlet);
+            StartAt(inlet, values, given);
         }
 
-        private static void Lay(RunParameters values, GivenParameters given, VesselEnd inlet)
+        private static void StartAt(VesselEnd inlet, RunParameters values, GivenParameters given)
         {
             SceneParameters scene = values.Simulation.Scene;
             scene.StartAxis = new StartAxis(inlet.Centre, inlet.Direction);

@@ -18,14 +18,6 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit("a number" + _range.Text);
 
-        /// <summary>The bounds, for whoever offers a slider.</summary>
-        public NumberRange Range => _range;
-
-        public override JToken Write(RunParameters source)
-        {
-            return new JValue(Get(source));
-        }
-
         internal override bool TryRead(RunParameters target, JToken value)
         {
             if (!TryNumber(value, out double number) || !_range.Contains(number))
@@ -38,22 +30,14 @@ namespace Guidewire.Io
 
         internal static bool TryNumber(JToken value, out double number)
         {
-            number = double.NaN;
-            if (value.Type != JTokenType.Float && value.Type != JTokenType.Integer)
+            number = value.Type == JTokenType.Float ? (double)value : double.NaN;
+            if (value.Type != JTokenType.Integer)
             {
-                return false;
+                return !double.IsNaN(number) && !double.IsInfinity(number);
             }
             // Integers beyond 64 bits arrive as BigInteger; their text reads as a double like any other number.
             string text = Convert.ToString(((JValue)value).Value, CultureInfo.InvariantCulture) ?? "";
-            if (value.Type == JTokenType.Float)
-            {
-                number = (double)value;
-            }
-            else if (!double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number))
-            {
-                return false;
-            }
-            return !double.IsNaN(number) && !double.IsInfinity(number);
+            return NumberText.TryRead(text, out number);
         }
     }
 
@@ -69,11 +53,6 @@ namespace Guidewire.Io
         }
 
         public override string Allowed => WithUnit("null or a number" + _range.Text);
-
-        public override JToken Write(RunParameters source)
-        {
-            return Get(source) is double number ? new JValue(number) : JValue.CreateNull();
-        }
 
         internal override bool TryRead(RunParameters target, JToken value)
         {
@@ -103,11 +82,6 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit(string.Format(CultureInfo.InvariantCulture,
             "a whole number from {0} to {1}", _minimum, _maximum));
-
-        public override JToken Write(RunParameters source)
-        {
-            return new JValue(Get(source));
-        }
 
         internal override bool TryRead(RunParameters target, JToken value)
         {

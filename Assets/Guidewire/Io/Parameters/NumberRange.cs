@@ -23,17 +23,14 @@ namespace Guidewire.Io
         /// <summary>0 and above.</summary>
         public static NumberRange NotNegative => new NumberRange(0.0, false, double.PositiveInfinity);
 
+        /// <summary>From 0 to 1.</summary>
+        public static NumberRange Fraction => new NumberRange(0.0, false, 1.0);
+
         /// <summary>Lower bound.</summary>
         public double Minimum { get; }
 
         /// <summary>Upper bound.</summary>
         public double Maximum { get; }
-
-        /// <summary>From a lower to an upper bound, both inside.</summary>
-        public static NumberRange Between(double minimum, double maximum)
-        {
-            return new NumberRange(minimum, false, maximum);
-        }
 
         /// <summary>Above 0, up to a bound that is inside.</summary>
         public static NumberRange PositiveUpTo(double maximum)

@@ -36,7 +36,7 @@ namespace Guidewire.Io
 
         /// <summary>Whether a method that does not take the key refuses it in a file too, if it has an effect: a run
         /// without its wall or load would simulate something else.</summary>
-        public bool IsRefusedElsewhere { get; internal set; }
+        public bool IsRefusedElsewhere { get; private set; }
 
         /// <summary>The keys that say it for the other methods, or null.</summary>
         public string? Instead { get; internal set; }
@@ -118,7 +118,15 @@ namespace Guidewire.Io
             return Write(new RunParameters(method)).ToString(Formatting.None);
         }
 
-        /// <summary>Tells the entry, once, what its group knows.</summary>
+        /// <summary>Names the methods that take the key; the others refuse it in a file too.</summary>
+        internal ParameterEntry OnlyWith(IReadOnlyList<Solver> methods)
+        {
+            Methods = methods;
+            IsRefusedElsewhere = true;
+            return this;
+        }
+
+        /// <summary>Gives the entry, once, what its group knows.</summary>
         /// <param name="values">The object among the parameters whose properties the group's keys are.</param>
         /// <param name="methods">The methods that take keys which name none of their own.</param>
         internal void JoinGroup(Func<RunParameters, object> values, IReadOnlyList<Solver> methods)

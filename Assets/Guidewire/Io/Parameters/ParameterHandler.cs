@@ -276,12 +276,12 @@ namespace Guidewire.Io
             {
                 throw Refused(conflict.Key, conflict.Needed);
             }
-            string? complaint = Simulation.FindProblemOfStart(simulation);
-            if (complaint != null)
+            string? problem = Simulation.FindProblemOfStart(simulation);
+            if (problem != null)
             {
                 string source = _given.SourceOf(
                     Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles");
-                throw new ParameterException(source + ": " + complaint);
+                throw new ParameterException(source + ": " + problem);
             }
             string? sizes = WireStart.FindOddSizes(simulation);
             if (sizes != null)

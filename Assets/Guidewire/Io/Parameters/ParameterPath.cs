@@ -70,7 +70,7 @@ namespace Guidewire.Io
         /// <param name="value">The part.</param>
         /// <returns>What the key holds now.</returns>
         /// <exception cref="ParameterException">The path does not exist: one line without a source.</exception>
-        public JToken Lay(JToken root, JToken value)
+        public JToken Replace(JToken root, JToken value)
         {
             if (Depth == 0)
             {

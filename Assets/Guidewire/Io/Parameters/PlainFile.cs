@@ -16,7 +16,7 @@ namespace Guidewire.Io
 
         /// <summary>All bytes of a file.</summary>
         /// <param name="file">Its name.</param>
-        /// <param name="needed">What a folder of that name is told to be instead, as a noun phrase.</param>
+        /// <param name="needed">What is needed where the name is a folder's, as a noun phrase.</param>
         /// <exception cref="ParameterException">It cannot be read, is a folder, or is too large.</exception>
         public static byte[] ReadBytes(string file, string needed)
         {
@@ -53,7 +53,7 @@ namespace Guidewire.Io
             return reader.ReadToEnd();
         }
 
-        // What a device or a pipe says of its length is not true, so the bytes themselves are counted.
+        // A device or a pipe does not state its true length, so the bytes themselves are counted.
         private static byte[] ReadToEnd(Stream stream, string file)
         {
             long limit = (long)LargestMebibytes << 20;
@@ -61,9 +61,9 @@ namespace Guidewire.Io
             {
                 throw TooLarge(file);
             }
-            long told = stream.CanSeek ? stream.Length : 0;
-            using var content = new MemoryStream((int)told);
-            var chunk = new byte[Math.Clamp(told + 1, SmallestChunk, LargestChunk)];
+            long stated = stream.CanSeek ? stream.Length : 0;
+            using var content = new MemoryStream((int)stated);
+            var chunk = new byte[Math.Clamp(stated + 1, SmallestChunk, LargestChunk)];
             int count;
             while ((count = stream.Read(chunk, 0, chunk.Length)) > 0)
             {

@@ -56,7 +56,7 @@ namespace Guidewire.Io
             }
             for (int c = 0; c < row.Length; c++)
             {
-                if (!TryNumber(cells[c], out row[c]))
+                if (!NumberText.TryRead(cells[c], out row[c]))
                 {
                     return false;
                 }
@@ -74,12 +74,6 @@ namespace Guidewire.Io
             string[] cells = line.Split(',');
             return cells.Length == count && Array.TrueForAll(cells, cell => cell.Trim().Length > 0
                 && !double.TryParse(cell, NumberStyles.Float, CultureInfo.InvariantCulture, out _));
-        }
-
-        private static bool TryNumber(string text, out double number)
-        {
-            return double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number)
-                && !double.IsNaN(number) && !double.IsInfinity(number);
         }
     }
 }

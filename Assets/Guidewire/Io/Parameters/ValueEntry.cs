@@ -1,4 +1,5 @@
 using System;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -20,6 +21,12 @@ namespace Guidewire.Io
 
         /// <summary>Takes over the value, with Getter; else null.</summary>
         public Action<RunParameters, T>? Setter { get; internal set; }
+
+        /// <inheritdoc/>
+        public override JToken Write(RunParameters source)
+        {
+            return new JValue((object?)Get(source));
+        }
 
         private protected T Get(RunParameters source)
         {

@@ -14,11 +14,6 @@ namespace Guidewire.Io
 
         public override string Allowed => "true or false";
 
-        public override JToken Write(RunParameters source)
-        {
-            return new JValue(Get(source));
-        }
-
         internal override bool TryRead(RunParameters target, JToken value)
         {
             if (value.Type != JTokenType.Boolean)
@@ -100,11 +95,6 @@ namespace Guidewire.Io
         }
 
         public override string Allowed => "a text in double quotes";
-
-        public override JToken Write(RunParameters source)
-        {
-            return new JValue(Get(source));
-        }
 
         internal override bool TryRead(RunParameters target, JToken value)
         {

@@ -22,7 +22,7 @@ namespace Guidewire.Io
 
         private readonly FileStream _rows;
         private readonly RunParameters _parameters;
-        private readonly string _number;
+        private readonly string _realType;
         private readonly List<ArrayColumn> _columns = new List<ArrayColumn>();
         private byte[] _block = Array.Empty<byte>();
         private int _length;
@@ -38,7 +38,7 @@ namespace Guidewire.Io
         {
             _rows = rows;
             _parameters = parameters;
-            _number = parameters.LogFormat == LogFormat.Npz32 ? Single : Double;
+            _realType = parameters.LogFormat == LogFormat.Npz32 ? Single : Double;
         }
 
         /// <inheritdoc/>
@@ -159,22 +159,22 @@ namespace Guidewire.Io
             Add("elapsedMilliseconds", Double);
             Add("delta", Double);
             Add("firstSphere", Whole);
-            Add("positions", _number, spheres - first, 3);
-            Add("velocities", _number, spheres - first, 3);
+            Add("positions", _realType, spheres - first, 3);
+            Add("velocities", _realType, spheres - first, 3);
             if (_parameters.LogOrientations)
             {
-                Add("orientations", _number, elements, 4);
+                Add("orientations", _realType, elements, 4);
             }
             if (hasStress)
             {
-                Add("kineticEnergy", _number);
-                Add("elasticEnergy", _number);
-                Add("potentialEnergy", _number);
-                Add("curvature", _number, elements + 1, 3);
-                Add("couple", _number, elements + 1, 3);
-                Add("strain", _number, elements, 3);
-                Add("force", _number, elements, 3);
-                Add("angularVelocity", _number, elements, 3);
+                Add("kineticEnergy", _realType);
+                Add("elasticEnergy", _realType);
+                Add("potentialEnergy", _realType);
+                Add("curvature", _realType, elements + 1, 3);
+                Add("couple", _realType, elements + 1, 3);
+                Add("strain", _realType, elements, 3);
+                Add("force", _realType, elements, 3);
+                Add("angularVelocity", _realType, elements, 3);
             }
         }
 
@@ -188,33 +188,33 @@ namespace Guidewire.Io
             {
                 return;
             }
-            Add("hubInsertion", _number);
-            Add("hubTurn", _number);
-            Add("hubForce", _number);
-            Add("hubTorque", _number);
-            Add("tipDirection", _number, 3);
-            Add("twist", _number);
-            Add("largestCurvature", _number);
+            Add("hubInsertion", _realType);
+            Add("hubTurn", _realType);
+            Add("hubForce", _realType);
+            Add("hubTorque", _realType);
+            Add("tipDirection", _realType, 3);
+            Add("twist", _realType);
+            Add("largestCurvature", _realType);
             if (hub.LengthInBody != null)
             {
-                Add("lengthInBody", _number);
+                Add("lengthInBody", _realType);
             }
         }
 
         private void AddCatheter(CoaxialRecord catheter, string name)
         {
-            Add(name + "Positions", _number, catheter.Positions.Length, 3);
+            Add(name + "Positions", _realType, catheter.Positions.Length, 3);
             if (_parameters.LogOrientations)
             {
-                Add(name + "Orientations", _number, catheter.Orientations.Length, 4);
+                Add(name + "Orientations", _realType, catheter.Orientations.Length, 4);
             }
-            Add(name + "Extension", _number);
+            Add(name + "Extension", _realType);
             if (_parameters.LogHub)
             {
-                Add(name + "Insertion", _number);
-                Add(name + "Turn", _number);
-                Add(name + "Force", _number);
-                Add(name + "Torque", _number);
+                Add(name + "Insertion", _realType);
+                Add(name + "Turn", _realType);
+                Add(name + "Force", _realType);
+                Add(name + "Torque", _realType);
             }
         }
 
@@ -224,19 +224,19 @@ namespace Guidewire.Io
             {
                 return;
             }
-            Add("contactForces", _number, state.SphereCount, 3);
-            Add("contactTotal", _number, 3);
-            Add("reaction", _number, 3);
+            Add("contactForces", _realType, state.SphereCount, 3);
+            Add("contactTotal", _realType, 3);
+            Add("reaction", _realType, 3);
             if (contacts.WallForces.Length > 0)
             {
-                Add("wallForces", _number, contacts.WallForces.Length, 3);
+                Add("wallForces", _realType, contacts.WallForces.Length, 3);
             }
             if (contacts.ElementForces.Length > 0)
             {
-                Add("elementForces", _number, contacts.ElementForces.Length, 3);
-                Add("wallPressure", _number);
-                Add("contactTotalMean", _number, 3);
-                Add("reactionAtEnd", _number, 3);
+                Add("elementForces", _realType, contacts.ElementForces.Length, 3);
+                Add("wallPressure", _realType);
+                Add("contactTotalMean", _realType, 3);
+                Add("reactionAtEnd", _realType, 3);
             }
         }
 
@@ -260,7 +260,8 @@ namespace Guidewire.Io
             {
                 length *= size;
             }
-            _columns.Add(new ArrayColumn(name, type, shape, _rowLength, length));
+            _columns.Add(new ArrayColumn
+                { Name = name, Type = type, Shape = shape, Offset = _rowLength, Length = length });
             _rowLength += length;
         }
 
@@ -402,7 +403,7 @@ namespace Guidewire.Io
 
         private void Put(double value)
         {
-            if (_number == Double)
+            if (_realType == Double)
             {
                 PutExact(value);
                 return;

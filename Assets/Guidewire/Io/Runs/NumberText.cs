@@ -18,6 +18,13 @@ namespace Guidewire.Io
         private const int MostDigits = 17;    // every double survives conversion to so many digits and back
         private const double SmallestNormal = 2.2250738585072014e-308;
 
+        /// <summary>The finite number that a text is; false where it is none.</summary>
+        public static bool TryRead(string text, out double number)
+        {
+            return double.TryParse(text, NumberStyles.Float, CultureInfo.InvariantCulture, out number)
+                && !double.IsNaN(number) && !double.IsInfinity(number);
+        }
+
         /// <summary>Writes a finite number as ASCII from an index on.</summary>
         /// <returns>Bytes written, at most <see cref="Longest"/>.</returns>
         public static int Write(double value, byte[] target, int start)

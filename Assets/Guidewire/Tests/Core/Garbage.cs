@@ -34,17 +34,8 @@ namespace Guidewire.Core.Tests
         /// </summary>
         public static long LeftBySteps(Simulation run, int before, int steps)
         {
-            for (int k = 0; k < before; k++)
-            {
-                run.Step();
-            }
-            return LeftBy(() =>
-            {
-                for (int k = 0; k < steps; k++)
-                {
-                    run.Step();
-                }
-            });
+            Wires.Step(run, before);
+            return LeftBy(() => Wires.Step(run, steps));
         }
     }
 }

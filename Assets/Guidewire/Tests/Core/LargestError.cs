@@ -15,11 +15,11 @@ namespace Guidewire.Core.Tests
             _peak = Math.Max(_peak, Math.Abs(expected));
         }
 
-        /// <summary>Some value was above `least`, and no error is as large as `fraction` of the largest.</summary>
-        public void AssertBelow(double fraction, double least)
+        /// <summary>Some value was above `least`, and no error is as large as a millionth of the largest.</summary>
+        public void AssertSmall(double least)
         {
             Assert.That(_peak, Is.GreaterThan(least));
-            Assert.That(_error, Is.LessThan(fraction * _peak));
+            Assert.That(_error, Is.LessThan(1e-6 * _peak));
         }
     }
 }

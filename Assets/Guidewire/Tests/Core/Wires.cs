@@ -66,10 +66,17 @@ namespace Guidewire.Core.Tests
         /// <summary>Runs to its end.</summary>
         public static Simulation Run(SimulationParameters parameters)
         {
-            Simulation simulation = Simulation.Create(parameters);
+            return Run(Simulation.Create(parameters));
+        }
+
+        /// <summary>Goes on to the run's end.</summary>
+        /// <param name="afterStep">Called after every step.</param>
+        public static Simulation Run(Simulation simulation, Action? afterStep = null)
+        {
             while (simulation.Outcome == Outcome.Running)
             {
                 simulation.Step();
+                afterStep?.Invoke();
             }
             return simulation;
         }
@@ -77,12 +84,37 @@ namespace Guidewire.Core.Tests
         /// <summary>Runs to its end, which must be that of its last step.</summary>
         public static Simulation Finish(SimulationParameters parameters)
         {
-            Simulation simulation = Run(parameters);
+            return Finish(Simulation.Create(parameters));
+        }
+
+        /// <summary>Goes on to the run's end, which must be that of its last step.</summary>
+        /// <param name="afterStep">Called after every step.</param>
+        public static Simulation Finish(Simulation simulation, Action? afterStep = null)
+        {
+            Run(simulation, afterStep);
             Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
             return simulation;
         }
 
-        /// <summary>Runs to its end, and beside it a run that is restored from it after so many steps.</summary>
+        /// <summary>Makes so many steps.</summary>
+        public static void Step(Simulation simulation, int steps)
+        {
+            for (int i = 0; i < steps; i++)
+            {
+                simulation.Step();
+            }
+        }
+
+        /// <summary>Makes so many steps, which must not be its last.</summary>
+        public static Simulation GoOn(Simulation simulation, int steps)
+        {
+            Step(simulation, steps);
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running), simulation.Reason);
+            return simulation;
+        }
+
+        /// <summary>Runs to its end, that of its last step, and beside it a run that is restored from it after so many
+        /// steps.</summary>
         public static Simulation RunAndRestore(SimulationParameters parameters, int steps, out Simulation restored)
         {
             Simulation simulation = Simulation.Create(parameters);
@@ -97,9 +129,29 @@ namespace Guidewire.Core.Tests
                 other?.Step();
             }
             restored = other!;
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
             Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
             Assert.That(restored.State.Orientations, Is.EqualTo(simulation.State.Orientations));
             return simulation;
+        }
+
+        /// <summary>Makes so many steps, and beside them those of a run that is continued before one of them and
+        /// restored before another, with the same bits.</summary>
+        public static Simulation RunInParts(SimulationParameters parameters, int steps, int continued, int restored,
+            out Simulation part)
+        {
+            Simulation whole = Simulation.Create(parameters);
+            part = Simulation.Create(parameters);
+            for (int k = 0; k < steps; k++)
+            {
+                whole.Step();
+                part = k == continued ? part.Continue(parameters)
+                    : k == restored ? Simulation.Restore(parameters, part.Save()) : part;
+                part.Step();
+            }
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            Assert.That(part.State.Velocities, Is.EqualTo(whole.State.Velocities));
+            return whole;
         }
 
         /// <summary>A vector with components in [-1, 1).</summary>
@@ -112,10 +164,16 @@ namespace Guidewire.Core.Tests
         /// <summary>The largest distance between spheres of the same index.</summary>
         public static double Distance(RodState a, RodState b)
         {
+            return Distance(a.Positions, b.Positions);
+        }
+
+        /// <summary>The largest distance between points of the same index.</summary>
+        public static double Distance(Vector3d[] a, Vector3d[] b)
+        {
             double worst = 0.0;
-            for (int i = 0; i < a.SphereCount; i++)
+            for (int i = 0; i < a.Length; i++)
             {
-                worst = Math.Max(worst, Vector3d.Distance(a.Positions[i], b.Positions[i]));
+                worst = Math.Max(worst, Vector3d.Distance(a[i], b[i]));
             }
             return worst;
         }

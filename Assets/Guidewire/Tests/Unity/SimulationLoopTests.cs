@@ -9,7 +9,6 @@ using UnityEngine.TestTools;
 namespace Guidewire.Unity.Tests
 {
     /// <summary>The loop without frames, as EditMode has it: no message is sent, its methods are called.</summary>
-    [TestFixture]
     public sealed class SimulationLoopTests
     {
         private GameObject _object = null!;

@@ -5,7 +5,6 @@ using UnityEngine;
 
 namespace Guidewire.Unity.Tests
 {
-    [TestFixture]
     public sealed class TubeMeshTests
     {
         private const int PerElement = 4;

@@ -22,9 +22,6 @@ namespace Guidewire.Core
             Array.Copy(hubs, 1, Inner, 0, Inner.Length);
         }
 
-        /// <summary>How many there are.</summary>
-        public int Count => _hub.Length;
-
         /// <summary>That of the outermost instrument.</summary>
         public HubMotion Outer => _hub[0];
 

@@ -49,14 +49,15 @@ namespace Guidewire.Core
             double reduced = lambda * outer.BendStiffness1 * inner.BendStiffness1 / sum;
             joint.Compliance1 += lambda / sum;
             joint.Compliance2 += lambda / sum;
-            AddPair(reduced, isInner ? -1.0 : 1.0, outer, inner, ref joint.Held, ref part.Cosine, ref part.Sine);
+            AddPair(reduced, isInner ? -1.0 : 1.0, outer, inner, ref joint.Held, ref part.FrameCosine,
+                ref part.FrameSine);
             double fraction = lambda * outer.BendStiffness1 / sum;
             Vector3d own = fraction * outer.RestCurvature;
             Vector3d other = (lambda - fraction) * inner.RestCurvature;
             joint.FixedX += isInner ? other.X : own.X;
             joint.FixedY += isInner ? other.Y : own.Y;
-            part.TurnedX += isInner ? own.X : other.X;
-            part.TurnedY += isInner ? own.Y : other.Y;
+            part.RestX += isInner ? own.X : other.X;
+            part.RestY += isInner ? own.Y : other.Y;
         }
 
         /// <summary>Adds a piece of all three.</summary>
@@ -124,10 +125,10 @@ namespace Guidewire.Core
             in CrossSection other, ref double held)
         {
             double reduced = perSum * frame.BendStiffness1 * other.BendStiffness1;
-            AddPair(reduced, 1.0, frame, other, ref held, ref part.Cosine, ref part.Sine);
+            AddPair(reduced, 1.0, frame, other, ref held, ref part.FrameCosine, ref part.FrameSine);
             Vector3d turned = perSum * other.BendStiffness1 * other.RestCurvature;
-            part.TurnedX += turned.X;
-            part.TurnedY += turned.Y;
+            part.RestX += turned.X;
+            part.RestY += turned.Y;
         }
 
         // What two instruments of different curvature hold; sense: 1 where the angle is counted from the first, or -1.

@@ -7,9 +7,9 @@ namespace Guidewire.Core
     /// (<see cref="CoaxialJoint"/>).</summary>
     internal struct CoaxialPart
     {
-        public double TurnedX, TurnedY;   // F', rad
-        public double Cosine;      // C with the instrument whose frame it is, J
-        public double Sine;        // S
+        public double RestX, RestY;   // F', rest rotation of the part in its own axes, rad
+        public double FrameCosine;    // C of its energy C cos t + S sin t with the instrument whose frame it is, J
+        public double FrameSine;      // S
         public double Twist;       // K', N m; 0 where it ends at the joint
         public double RestTwist;   // r', rad
         public double Weight;      // of the angle after the joint in t; the rest is that before it
@@ -22,14 +22,14 @@ namespace Guidewire.Core
         {
             slope = Vector3d.Zero;
             turned = Vector3d.Zero;
-            if (TurnedX == 0.0 && TurnedY == 0.0)
+            if (RestX == 0.0 && RestY == 0.0)
             {
                 return;
             }
             double c = Math.Cos(t);
             double s = Math.Sin(t);
-            double x = c * TurnedX - s * TurnedY;
-            double y = s * TurnedX + c * TurnedY;
+            double x = c * RestX - s * RestY;
+            double y = s * RestX + c * RestY;
             Vector3d before = rest;
             rest = new Vector3d(before.X + x, before.Y + y, 0.0);
             slope = new Vector3d(-y, x, 0.0);
@@ -41,7 +41,8 @@ namespace Guidewire.Core
         public readonly double Held(double t, out double slope)
         {
             slope = 0.0;
-            return Cosine == 0.0 && Sine == 0.0 ? 0.0 : CoaxialJoint.Wave(Cosine, Sine, t, out slope);
+            return FrameCosine == 0.0 && FrameSine == 0.0 ? 0.0
+                : CoaxialJoint.Wave(FrameCosine, FrameSine, t, out slope);
         }
     }
 }

@@ -93,12 +93,5 @@ namespace Guidewire.Core
                 gradient[i].X3 -= Force[i].Z;
             }
         }
-
-        /// <inheritdoc/>
-        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
-        {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
-        }
     }
 }

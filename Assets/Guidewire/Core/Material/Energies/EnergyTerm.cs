@@ -24,9 +24,21 @@ namespace Guidewire.Core
         public abstract void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured);
 
+        /// <summary>Adds the gradient of the whole rod.</summary>
+        public void AddGradient(RodShape shape, RodVector[] gradient)
+        {
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+        }
+
         /// <summary>Adds gradient and second derivatives of what belongs to indices from (inclusive) to to (exclusive).
-        /// Only blocks from .. to are touched, the last by what its predecessor leaves on it.</summary>
-        public abstract void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to);
+        /// Only blocks from .. to are touched, the last by what its predecessor leaves on it. Without an override the
+        /// second derivatives are 0.</summary>
+        public virtual void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
+        {
+            var measured = default(GradientMeasures);
+            AddGradient(shape, gradient, from, to, ref measured);
+        }
 
         /// <summary>Adds the second derivatives by the twist angles from (inclusive) to to (exclusive) of an instrument
         /// inside; their gradient is added with that of the rest. Called after <see cref="AddBlocks"/> with the same

@@ -5,9 +5,9 @@ namespace Guidewire.Core
     /// <remarks>F = R f has no potential, not even in a plane: its work depends on the path. It enters by its work on
     /// the straight path since the anchor, -1/2 (F_anchor + F) . (x - x_anchor), whose second derivative at the anchor
     /// is the symmetric half of the true tangent, d(-F)/dtheta = R [f]: half of it on (x, theta), half on (theta, x).
-    /// The other half, R [f]/2 less its transpose, no energy carries: rest shapes put it in exactly (<see
-    /// cref="FollowerTangent"/>); the stages of a motion leave it to Newton's iteration, which finds the force anew for
-    /// each iterate and is judged by what is then unbalanced.</remarks>
+    /// The other half, R [f]/2 less its transpose, belongs to no energy: rest shapes add it exactly (<see
+    /// cref="FollowerTangent"/>); the stages of a motion leave it out of the matrix, since Newton's method evaluates
+    /// the force anew in each iterate and ends by the residual force.</remarks>
     internal sealed class TipFollowerForce : EnergyTerm
     {
         private Vector3d _anchorPosition;
@@ -62,8 +62,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
+            base.AddBlocks(shape, blocks, gradient, from, to);
             int last = shape.ElementCount - 1;
             if (from <= last && last < to && Force != Vector3d.Zero)
             {

@@ -55,12 +55,5 @@ namespace Guidewire.Core
                 gradient[last].T3 -= Moment.Z;
             }
         }
-
-        /// <inheritdoc/>
-        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
-        {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
-        }
     }
 }

@@ -108,8 +108,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Turns the elements of a shape and lays them end to end from node 0, each with the strain that it
-        /// has along its own axes.</summary>
+        /// <summary>Rotates the elements of a shape and chains them end to end from node 0, each with the strain
+        /// that it has along its own axes.</summary>
         /// <param name="orientations">The elements' new orientations.</param>
         /// <param name="start">New position of node 0.</param>
         /// <param name="end">Where the last node is held, if it is.</param>

@@ -1,5 +1,5 @@
 using System;
-using System.Globalization;
+using static System.FormattableString;
 
 namespace Guidewire.Core
 {
@@ -106,8 +106,7 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            return Text("the prediction error has stayed below {0} units since step {1}", _threshold,
-                _step - Hold + 1);
+            return Invariant($"the prediction error has stayed below {_threshold} units since step {_step - Hold + 1}");
         }
 
         private string? FindLoss(RodState state, out double worst)
@@ -121,8 +120,8 @@ namespace Guidewire.Core
             {
                 if ((x[i] - _origin).LengthSquared > limit * limit)
                 {
-                    return Text("sphere {0} is farther than {1} wire lengths from the start at step {2}", i,
-                        DivergedDistance, _step);
+                    return Invariant($"sphere {i} is farther than {DivergedDistance} wire lengths from the start at ")
+                        + Invariant($"step {_step}");
                 }
                 if (i > 0)
                 {
@@ -150,16 +149,11 @@ namespace Guidewire.Core
             }
             if (shortLost || longLost)
             {
-                return Text("elements are up to {0:0.#} % wrong in length and do not recover (step {1}): a pbd "
-                    + "stiffness beyond its limit, or too few iterations for the load",
-                    100.0 * (shortLost ? _shortMonitor : _longMonitor).Largest, _step);
+                double off = 100.0 * (shortLost ? _shortMonitor : _longMonitor).Largest;
+                return Invariant($"elements are up to {off:0.#} % wrong in length and do not recover (step {_step})")
+                    + ": a pbd stiffness beyond its limit, or too few iterations for the load";
             }
             return null;
-        }
-
-        private static string Text(string format, params object[] values)
-        {
-            return string.Format(CultureInfo.InvariantCulture, format, values);
         }
     }
 }

@@ -41,7 +41,7 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Pbd,
             },
-            new NumberEntry("collisionStiffness", "", NumberRange.Between(0.0, 1.0),
+            new NumberEntry("collisionStiffness", "", NumberRange.Fraction,
                 "k_C, stiffness of the contact constraint per iteration") { Methods = Takers.Pbd },
             new ChoiceEntry<ElementContact>("elementContact",
                 "contact of rod elements, in addition to spheres: with forces by the lever rule, none, or by "

@@ -14,10 +14,7 @@ namespace Guidewire.Io
                 + " the wire's length, elements, radii, stiffnesses, density, sections and tip shape, and for the"
                 + " frictionCoefficient of walls that state none (docs/instruments.md); other keys of the file override"
                 + " it; on the command line it replaces the file's wire, except guidewireLength and numberRodElements")
-            {
-                Methods = Takers.Material,
-                IsRefusedElsewhere = true,
-            },
+                .OnlyWith(Takers.Material),
             new NumberEntry("youngsModulus", "Pa", NumberRange.Positive, "E"),
             new NumberEntry("shearModulus", "Pa", NumberRange.Positive, "G"),
             new NumberEntry("density", "kg/m^3", NumberRange.Positive, "rho; the wire's mass follows from it"),
@@ -49,10 +46,7 @@ namespace Guidewire.Io
                 "a in the force -a M v: a mode of angular frequency w has the damping ratio a/(2 w) at any timeStep"),
             new NumberEntry("materialDamping", "s", NumberRange.NotNegative,
                 "b in the stress b K times the strain rate (Kelvin-Voigt): damping ratio b w/2 at any timeStep")
-            {
-                Methods = Takers.Only(Solver.Direct),
-                IsRefusedElsewhere = true,
-            },
+                .OnlyWith(Takers.Only(Solver.Direct)),
             new ChoiceEntry<ClampRule>("clampRule",
                 "weights of the joints at a clamp: order 4 under transverse loads, order 2 (exact for an arc), order"
                 + " 1; with any of them a buckling load is too low by (k l)^2/12, k the wave number of the buckled "

@@ -65,13 +65,11 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
-            new NumberEntry("damping", "", NumberRange.Between(0.0, 1.0),
+            new NumberEntry("damping", "", NumberRange.Fraction,
                 "fraction of its velocity that a sphere loses per step; a material has massDamping and materialDamping")
             {
-                Methods = Takers.Pbd,
-                IsRefusedElsewhere = true,
                 Instead = "massDamping (1/s), which is damping over timeStep, or materialDamping (s)",
-            },
+            }.OnlyWith(Takers.Pbd),
             new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
                 "ends the run in a steady state: with pbd, prediction errors below it; with a material, distance from"
                 + " the rest shape and amplitude of any swing below it, whatever the timeStep; 0: never"),

@@ -1,5 +1,3 @@
-using Guidewire.Core;
-
 namespace Guidewire.Io
 {
     /// <summary>The keys of group "pbd": the wire of pbd, stiffness per iteration.</summary>

@@ -62,18 +62,10 @@ namespace Guidewire.Io
                 "CSV file of time (s), displacement x, y, z (m) and rotation vector x, y, z (rad) of the proximal "
                 + "end, in world axes and relative to its start, with a first row of zeros: linear between rows, at "
                 + "rest after the last; time steps end at rows; needs drive \"hold\"; the path is relative to the"
-                + " parameter file's folder")
-            {
-                Methods = Takers.Only(Solver.Direct),
-                IsRefusedElsewhere = true,
-            },
+                + " parameter file's folder").OnlyWith(Takers.Only(Solver.Direct)),
             new TextEntry("distalMotionFile",
                 "the same for the distal end, instead of distalRotation and distalDisplacement; a sliding end "
-                + "remains free along its initial axis")
-            {
-                Methods = Takers.Only(Solver.Direct),
-                IsRefusedElsewhere = true,
-            },
+                + "remains free along its initial axis").OnlyWith(Takers.Only(Solver.Direct)),
             new NumberEntry("axialForce", "N", NumberRange.Any, "pull on a sliding distal end along its axis")
             {
                 Methods = Takers.Only(Solver.Direct),
@@ -89,21 +81,13 @@ namespace Guidewire.Io
             },
             new JsonEntry("pointLoads", JTokenType.Array, "null or a list of {\"at\" (units), \"force\" [x, y, z] (N)}",
                 "forces of constant direction at points of the wire, each given by its arc length at rest from sphere "
-                + "0; between two spheres a force is distributed by the lever rule")
-            {
-                Methods = Takers.Material,
-                IsRefusedElsewhere = true,
-            },
+                + "0; between two spheres a force is distributed by the lever rule").OnlyWith(Takers.Material),
             new JsonEntry("loadTables", JTokenType.Object,
                 "null or {\"tipForce\": FILE, ..}, with any of gravity, tipForce, distributedForce, pointLoads,"
                 + " axialForce, tipMoment, tipFollowerForce",
                 "CSV files of time (s) and a factor (without unit) on that load, linear between rows, constant"
                 + " before the first and after the last; two rows with the same time are a jump; time steps of direct"
-                + " end at each row; paths are relative to the parameter file's folder")
-            {
-                Methods = Takers.Material,
-                IsRefusedElsewhere = true,
-            },
+                + " end at each row; paths are relative to the parameter file's folder").OnlyWith(Takers.Material),
             new NumberEntry("tipForceReleaseTime", "s", NumberRange.NotNegative, "time at which the tip force ends")
             {
                 Methods = Takers.Material,
@@ -111,17 +95,10 @@ namespace Guidewire.Io
             new VectorEntry("tipFollowerForce", "N", true,
                 "follower force on the last sphere, in the axes of the tip, with which it rotates: [0, 0, -1] is a"
                 + " thrust of 1 N along the tip's tangent; it has no potential, so the rest shape is found by "
-                + "motion with drag")
-            {
-                Methods = Takers.Material,
-                IsRefusedElsewhere = true,
-            },
+                + "motion with drag").OnlyWith(Takers.Material),
             new VectorEntry("tipMoment", "N m", true,
                 "follower couple at the tip, in the axes of the tip, with which it rotates")
-            {
-                Methods = Takers.Only(Solver.Direct, Solver.Explicit),
-                IsRefusedElsewhere = true,
-            },
+                .OnlyWith(Takers.Only(Solver.Direct, Solver.Explicit)),
             new JsonEntry("vessel", JTokenType.Object,
                 "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
@@ -130,21 +107,14 @@ namespace Guidewire.Io
                 + "sliding wire do not oscillate from knot to knot; the path of a mesh is relative to the parameter"
                 + " file's folder, openRims names a point near the middle of each open rim;"
                 + " anatomy is the file of the mesh's ends and centreline that 'guidewire.py anatomy' writes, which "
-                + "names the rims too; each shape may have a \"frictionCoefficient\" (0)")
-            {
-                Methods = Takers.Walls,
-                IsRefusedElsewhere = true,
-            },
+                + "names the rims too; each shape may have a \"frictionCoefficient\" (0)").OnlyWith(Takers.Walls),
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part of the wire, on the wire's initial axis:"
                 + " of a single wire only the part beyond its exit (units) is simulated, the rest is an axial and a "
                 + "torsional spring; catheters are in the sheath, too; the default exit is one element inside the "
                 + "vessel's inlet, the default direction that of the wire;"
                 + " needs a vessel, proximalEnd \"clamped\" and drive \"displace\"")
-            {
-                Methods = Takers.Only(Solver.Direct),
-                IsRefusedElsewhere = true,
-            },
+                .OnlyWith(Takers.Only(Solver.Direct)),
             new JsonEntry("catheters", JTokenType.Array, "null or a list of one or two {\"start\", \"length\","
                 + " \"elements\", \"wireRadius\", \"lumenRadius\", ...}",
                 "catheters over the wire, the outermost one first, on one shared centreline: start is the distance of "
@@ -154,29 +124,17 @@ namespace Guidewire.Io
                 + "one catheter); the other keys are as for the wire: instrument, youngsModulus, shearModulus, density,"
                 + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
                 + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit (with one catheter); needs"
-                + " proximalEnd \"clamped\"")
-            {
-                Methods = Takers.Only(Solver.Direct),
-                IsRefusedElsewhere = true,
-            },
+                + " proximalEnd \"clamped\"").OnlyWith(Takers.Only(Solver.Direct)),
             new EndEntry("inlet",
                 "end of the vessel at which the wire starts, straight along the centreline there, regardless of z;"
                 + " guidewireOffset is then measured from that end, positive into the vessel; its default puts the tip"
                 + " two radii of the end inside, at least one element out of the sheath, which ends one radius inside;"
                 + " the drive moves along the same direction; a point is that of the nearest end; needs"
-                + " vessel.anatomy")
-            {
-                Methods = Takers.Walls,
-                IsRefusedElsewhere = true,
-            },
+                + " vessel.anatomy").OnlyWith(Takers.Walls),
             new EndEntry("target",
                 "end or branch of the vessel, or a point of its lumen: the summary says whether and when the tip "
                 + "comes within a radius of it along the centreline (for a branch: a radius beyond its root); needs "
-                + "inlet")
-            {
-                Methods = Takers.Walls,
-                IsRefusedElsewhere = true,
-            },
+                + "inlet").OnlyWith(Takers.Walls),
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"},"
@@ -184,11 +142,7 @@ namespace Guidewire.Io
                 + " \"to\", \"fromRadius\", \"toRadius\"}, {\"shape\": \"plane\", \"point\", \"normal\"}",
                 "convex bodies in the wire's path (units, degrees): capsules and cones have spherical ends, cylinders "
                 + "and planes are infinite, a plane's normal points to the wire; each may have a"
-                + " \"frictionCoefficient\" (0)")
-            {
-                Methods = Takers.Walls,
-                IsRefusedElsewhere = true,
-            },
+                + " \"frictionCoefficient\" (0)").OnlyWith(Takers.Walls),
             new VectorEntry("position", "units", true, "position of the vessel") { Methods = Takers.Walls },
             new VectorEntry("scale", "", false, "scale factors of the vessel") { Methods = Takers.Walls },
             new VectorEntry("rotation", "degrees", true, "Euler angles of the vessel, about z, then x, then y")

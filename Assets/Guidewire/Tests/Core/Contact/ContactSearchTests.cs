@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What the search says of a wire among walls, against the walls' own distances.</summary>
-    [TestFixture]
     internal sealed class ContactSearchTests
     {
         private const int Elements = 8;

@@ -5,7 +5,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Which of the points that are outside after a step passed the wall, and which left by an open rim, at a
     /// tube of radius 1 from z = 0 on; the wire goes in from z below 0.</summary>
-    [TestFixture]
     internal sealed class PassageCountTests
     {
         private const int Elements = 15;
@@ -19,7 +18,7 @@ namespace Guidewire.Core.Tests
         {
             Vector3d[] from = Straight(depth);
             Vector3d[] to = Moved(from, new Vector3d(aside * Math.Cos(side), aside * Math.Sin(side), -depth - before));
-            Assert.That(Meets(from[Elements], to[Elements]), Is.True, "the way of the tip cuts the lip");
+            Assert.That(Meets(from[Elements], to[Elements]), Is.True, "the path of the tip cuts the lip");
             Assert.That(Count(from, to), Is.Zero);
         }
 
@@ -27,7 +26,7 @@ namespace Guidewire.Core.Tests
         public void TipThatTunnelsThroughTheWallBesideTheInlet_IsAPassage([Values(0.1, 0.35, 0.9)] double depth,
             [Values(0.0, 0.4, 2.5)] double side, [Values(1.3, 6.0)] double aside, [Values(0.01, 0.05)] double after)
         {
-            // No point is inside any more, and the wire crosses the wall nowhere: the way alone tells.
+            // No point is inside any more, and the wire crosses the wall nowhere: the path alone shows it.
             Vector3d[] from = Straight(depth);
             Vector3d[] to = Moved(from, new Vector3d(aside * Math.Cos(side), aside * Math.Sin(side), after - depth));
             Assert.That(Count(from, to), Is.GreaterThan(0));

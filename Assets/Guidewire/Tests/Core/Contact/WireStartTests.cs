@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Wires that start in a lumen, or in none, or in one that is too narrow for them on their way.</summary>
-    [TestFixture]
     internal sealed class WireStartTests
     {
         private const double Length = 100.0;

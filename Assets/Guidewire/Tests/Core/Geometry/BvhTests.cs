@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>The hierarchy misses nothing: compared with a loop over all triangles.</summary>
-    [TestFixture]
     internal sealed class BvhTests
     {
         private const double Tolerance = 1e-9;

@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Closest points against enumeration over features, and the degenerate cases one by one.</summary>
-    [TestFixture]
     internal sealed class ClosestPointsTests
     {
         // Figures have size 1; the promise is 1e-9 of the size.
@@ -18,27 +17,21 @@ namespace Guidewire.Core.Tests
         [Test]
         public void SegmentTriangle_AgreesWithEnumeration_OnRandomPairs()
         {
-            var random = new RandomGeometry(1);
-            double worst = 0.0;
-            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            RandomGeometry.AssertErrors(1, Tolerance, random =>
             {
                 Vector3d[] t = random.Triangle();
                 Vector3d[] s = random.Segment(t[random.Index(2) + 1] - t[0]);
                 double distance = SegmentTriangle(s[0], s[1], t, out double position, out Vector3d c, out int feature);
                 double direct = Vector3d.Distance(Vector3d.Lerp(s[0], s[1], position), c);
-                worst = Math.Max(worst, Math.Abs(distance - BruteForce.Distance(s, t)));
-                worst = Math.Max(worst, Math.Abs(distance - direct));
-                worst = Math.Max(worst, BruteForce.Distance(new[] { c }, FeatureOf(t, feature)));
-            }
-            Assert.That(worst, Is.LessThan(Tolerance));
+                return Math.Max(Math.Abs(distance - BruteForce.Distance(s, t)),
+                    Math.Max(Math.Abs(distance - direct), BruteForce.Distance(new[] { c }, FeatureOf(t, feature))));
+            });
         }
 
         [Test]
         public void PointTriangle_AgreesWithEnumeration_OnRandomPairs()
         {
-            var random = new RandomGeometry(2);
-            double worst = 0.0;
-            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            RandomGeometry.AssertErrors(2, Tolerance, random =>
             {
                 Vector3d[] t = random.Triangle();
                 Vector3d p = random.Index(3) == 0
@@ -46,28 +39,23 @@ namespace Guidewire.Core.Tests
                     : random.Point();
                 double distance = Math.Sqrt(
                     ClosestPoints.PointTriangle(p, t[0], t[1], t[2], out Vector3d c, out int feature));
-                worst = Math.Max(worst, Math.Abs(distance - BruteForce.Distance(new[] { p }, t)));
-                worst = Math.Max(worst, Math.Abs(distance - Vector3d.Distance(p, c)));
-                worst = Math.Max(worst, BruteForce.Distance(new[] { c }, FeatureOf(t, feature)));
-            }
-            Assert.That(worst, Is.LessThan(Tolerance));
+                return Math.Max(Math.Abs(distance - BruteForce.Distance(new[] { p }, t)),
+                    Math.Max(Math.Abs(distance - Vector3d.Distance(p, c)),
+                        BruteForce.Distance(new[] { c }, FeatureOf(t, feature))));
+            });
         }
 
         [Test]
         public void SegmentSegment_AgreesWithEnumeration_OnRandomPairs()
         {
-            var random = new RandomGeometry(3);
-            double worst = 0.0;
-            for (int i = 0; i < RandomGeometry.Cases(100_000); i++)
+            RandomGeometry.AssertErrors(3, Tolerance, random =>
             {
                 Vector3d[] q = random.Segment(X);
                 Vector3d[] p = random.Segment(q[1] - q[0]);
                 double squared = ClosestPoints.SegmentSegment(p[0], p[1], q[0], q[1], out double s, out double t);
                 double direct = Vector3d.Distance(Vector3d.Lerp(p[0], p[1], s), Vector3d.Lerp(q[0], q[1], t));
-                worst = Math.Max(worst, Math.Abs(direct - BruteForce.Distance(p, q)));
-                worst = Math.Max(worst, Math.Abs(direct - Math.Sqrt(squared)));
-            }
-            Assert.That(worst, Is.LessThan(Tolerance));
+                return Math.Max(Math.Abs(direct - BruteForce.Distance(p, q)), Math.Abs(direct - Math.Sqrt(squared)));
+            });
         }
 
         [Test]

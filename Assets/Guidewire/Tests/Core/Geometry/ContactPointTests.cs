@@ -5,7 +5,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>What holds for the places that every shape lists: the nearest is among them, normal and curvature are
     /// the first and second derivative of the distance, and sums over them have no jumps.</summary>
-    [TestFixture]
     internal sealed class ContactPointTests
     {
         private const double Tolerance = 1e-9;

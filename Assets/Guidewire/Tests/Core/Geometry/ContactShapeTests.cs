@@ -5,7 +5,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>What holds for every shape: the normal is the gradient of the distance, the inside is where the
     /// distance is positive, and a swept segment meets no wall before its time of impact.</summary>
-    [TestFixture]
     internal sealed class ContactShapeTests
     {
         // Central differences with step h: rounding 1e-16/h, curvature h^2/distance^2; both below 1e-6 at h = 1e-6

@@ -1,13 +1,11 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
     /// <summary>Pairs of half-edges against a table of all edges, and merged vertices against all pairs.</summary>
-    [TestFixture]
     internal sealed class HalfEdgesTests
     {
         [Test]

@@ -5,7 +5,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Edges of hulls, and what segments meet of them.</summary>
-    [TestFixture]
     public sealed class HullEdgesTests
     {
         private const double Flatness = 1e-9;
@@ -76,18 +75,19 @@ namespace Guidewire.Core.Tests
             // their distances is smooth where the nearest place jumps from one edge to the other.
             ConvexObstacle box = ConvexObstacle.Box(Vector3d.Zero, new Vector3d(1.0, 1.0, 1.0), Quaterniond.Identity);
             double step = 1e-3;
-            double before = Slope(box, -step, 1e-5);
-            double after = Slope(box, step, 1e-5);
-            double atRest = Slope(box, 0.0, 1e-5);
+            double before = Slope(box, -step);
+            double after = Slope(box, step);
+            double atRest = Slope(box, 0.0);
             // By symmetry the slope is odd: any kink is a jump of it at 0.
             Assert.That(atRest, Is.EqualTo(0.0).Within(1e-9));
             Assert.That(after, Is.EqualTo(-before).Within(1e-7));
-            Assert.That(Slope(box, 0.5 * step, 1e-5), Is.EqualTo(0.5 * after).Within(0.01 * Math.Abs(after)));
+            Assert.That(Slope(box, 0.5 * step), Is.EqualTo(0.5 * after).Within(0.01 * Math.Abs(after)));
         }
 
         // Derivative with the tilt of the sum of W (0.2 - d)^3 over the ridges of a segment 0.1 above the face.
-        private static double Slope(ConvexObstacle box, double tilt, double h)
+        private static double Slope(ConvexObstacle box, double tilt)
         {
+            const double h = 1e-5;
             return (Sum(box, tilt + h) - Sum(box, tilt - h)) / (2.0 * h);
         }
 

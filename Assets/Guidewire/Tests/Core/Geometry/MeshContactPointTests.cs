@@ -5,7 +5,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>The places of meshes against enumeration over all their triangles, edges and corners.</summary>
-    [TestFixture]
     internal sealed class MeshContactPointTests
     {
         private const double Tolerance = 1e-9;

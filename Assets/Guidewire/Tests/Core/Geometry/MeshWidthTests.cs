@@ -5,7 +5,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>How narrow the lumen of a mesh is.</summary>
-    [TestFixture]
     internal sealed class MeshWidthTests
     {
         private const int Around = 32;

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
@@ -19,6 +20,19 @@ namespace Guidewire.Core.Tests
         public static int Cases(int all, int oneOf = 10)
         {
             return string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL")) ? all / oneOf : all;
+        }
+
+        /// <summary>Draws 100,000 cases, or a tenth of them, and asserts that no error of one exceeds the
+        /// tolerance.</summary>
+        public static void AssertErrors(int seed, double tolerance, Func<RandomGeometry, double> error)
+        {
+            var random = new RandomGeometry(seed);
+            double worst = 0.0;
+            for (int i = 0; i < Cases(100_000); i++)
+            {
+                worst = Math.Max(worst, error(random));
+            }
+            Assert.That(worst, Is.LessThan(tolerance));
         }
 
         /// <summary>The first seed and the number of runs that an environment variable asks for as FIRST:COUNT; no run

@@ -5,7 +5,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What a mesh must be to be a vessel: reported, repaired or refused.</summary>
-    [TestFixture]
     internal sealed class TriangleMeshTests
     {
         [Test]

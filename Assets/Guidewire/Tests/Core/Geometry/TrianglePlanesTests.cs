@@ -1,12 +1,10 @@
 using System;
-using Guidewire.Core;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
     /// <summary>What the four planes of a triangle leave out, against exact distances; needles are among the triangles,
     /// and half of them lie a thousand times their size from the origin.</summary>
-    [TestFixture]
     internal sealed class TrianglePlanesTests
     {
         private const double Far = 1000.0;

@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What a tube leaves out because a bound says that it is too far is too far.</summary>
-    [TestFixture]
     internal sealed class TubeBoundsTests
     {
         private const int Knots = 9;

@@ -4,7 +4,6 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    [TestFixture]
     public sealed class WallSurfaceTests
     {
         private const double Reach = 40.0;    // units

@@ -9,7 +9,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Every key of the table, changed while a run goes on, with every method.</summary>
-    [TestFixture]
     public sealed class LiveKeyTests : FolderTests
     {
         private const int Steps = 2;               // before, between and after the changes

@@ -7,7 +7,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>Mesh files, whole and broken: one clear line for each.</summary>
-    [TestFixture]
     internal sealed class MeshFileTests : FolderTests
     {
         [Test]

@@ -11,7 +11,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>The rule by which numbers are written, against the bits and against .NET's own shortest text.</summary>
     [Category("Target")]
-    [TestFixture]
     public sealed class NumberTextTests
     {
         private static readonly int Count = RandomGeometry.Cases(200_000, 20);

@@ -7,7 +7,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What a run says of whether its result is to be trusted, and what it logs where it is not.</summary>
-    [TestFixture]
     public sealed class ReliableRunTests : FolderTests
     {
         private const string Tube = "\"vessel\": {\"shape\": \"tube\", \"knots\": [[0, 0, -30], [0, 0, 65]],"
@@ -45,7 +44,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Tube + ", \"solver\": \"direct\", \"proximalEnd\": \"clamped\", \"drive\": \"displace\","
             + " \"timeStep\": 0.01, \"displacementDirection\": [0, 1, 0], \"displacementPerStep\": 1,"
             + " \"hubForceLimit\": 0.1,"
-            + " \"maxSimulationSteps\": 12", TestName = "A drive that did not get its way is not reliable")]
+            + " \"maxSimulationSteps\": 12", TestName = "A drive that falls short is not reliable")]
         public void FinishedWithADoubt(string keys)
         {
             var run = Run(keys);

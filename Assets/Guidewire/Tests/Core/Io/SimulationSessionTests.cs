@@ -8,7 +8,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     [Category("Target")]
-    [TestFixture]
     public sealed class SimulationSessionTests : FolderTests
     {
         private string _file = "";

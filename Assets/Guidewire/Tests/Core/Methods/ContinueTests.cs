@@ -4,7 +4,6 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    [TestFixture]
     public sealed class ContinueTests
     {
         private static SimulationParameters Transversal()
@@ -14,14 +13,6 @@ namespace Guidewire.Core.Tests
                 Drive = { DisplacementDirection = Vector3d.UnitY },
                 Method = { ConstraintSolverSteps = 50, DeltaThreshold = 0.0, MaxSimulationSteps = 100 },
             };
-        }
-
-        private static void Step(Simulation simulation, int count)
-        {
-            for (int k = 0; k < count; k++)
-            {
-                simulation.Step();
-            }
         }
 
         private static IEnumerable<TestCaseData> Runs()
@@ -140,18 +131,18 @@ namespace Guidewire.Core.Tests
         {
             Simulation through = Simulation.Create(parameters);
             byte[] start = through.Save();
-            Step(through, 23);
+            Wires.Step(through, 23);
             byte[] middle = through.Save();
             AssertSameBits(Simulation.Restore(parameters, middle), through, "where it was saved");
-            Step(through, 17);
+            Wires.Step(through, 17);
             for (int k = 0; k < 2; k++)
             {
                 Simulation restored = Simulation.Restore(parameters, middle);
-                Step(restored, 17);
+                Wires.Step(restored, 17);
                 AssertSameBits(restored, through, "from the middle");
             }
             Simulation again = Simulation.Restore(parameters, start);
-            Step(again, 40);
+            Wires.Step(again, 40);
             AssertSameBits(again, through, "from the start");
         }
 
@@ -161,7 +152,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Transversal();
             parameters.Method.MaxSimulationSteps = 3;
             Simulation run = Simulation.Create(parameters);
-            Step(run, 3);
+            Wires.Step(run, 3);
             Simulation restored = Simulation.Restore(parameters, run.Save());
             restored.Step();
             AssertSameBits(restored, run, "after its end");
@@ -212,11 +203,11 @@ namespace Guidewire.Core.Tests
         public void Continue_CountsTimeOn_WhenTheStepChanges()
         {
             Simulation first = Simulation.Create(Transversal());
-            Step(first, 10);
+            Wires.Step(first, 10);
             SimulationParameters finer = Transversal();
             finer.Method.TimeStep = 0.001;
             Simulation second = first.Continue(finer);
-            Step(second, 5);
+            Wires.Step(second, 5);
             Assert.That(second.Time, Is.EqualTo(10 * 0.01 + 5 * 0.001).Within(1e-12));
         }
 
@@ -224,9 +215,9 @@ namespace Guidewire.Core.Tests
         public void Continue_LeavesTheFirstRunAlone()
         {
             Simulation first = Simulation.Create(Transversal());
-            Step(first, 10);
+            Wires.Step(first, 10);
             Vector3d tip = first.State.Positions[30];
-            Step(first.Continue(Transversal()), 10);
+            Wires.Step(first.Continue(Transversal()), 10);
             Assert.That(first.State.Positions[30], Is.EqualTo(tip));
         }
 

@@ -123,8 +123,8 @@ namespace Guidewire.Core.Tests
             second.GoOnFrom(first);
             Vector3d end = second.State.Positions[N];
             second.Advance(1);
-            double way = Displacement * Step(after) / parameters.Scene.DistalRampTime;
-            Assert.That(second.State.Positions[N].Z - end.Z, Is.EqualTo(way).Within(1e-9));
+            double moved = Displacement * Step(after) / parameters.Scene.DistalRampTime;
+            Assert.That(second.State.Positions[N].Z - end.Z, Is.EqualTo(moved).Within(1e-9));
             Assert.That(second.Stepper.Failure, Is.Null);
             Assert.That(second.Stepper.Divergence, Is.Null);
             Assert.That(end.Z - 1e3 * Rods.Length, Is.EqualTo(Displacement * time

@@ -3,7 +3,6 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    [TestFixture]
     public sealed class RodStrainTests
     {
         private const int Elements = 20;

@@ -1,5 +1,3 @@
-using System;
-
 namespace Guidewire.Core
 {
     /// <summary>State of a rod one step ago, for BDF2: y = 4/3 y_0 - 1/3 y_-1 + 2/3 dt y'. The first step is one of

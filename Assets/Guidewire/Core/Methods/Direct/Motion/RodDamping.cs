@@ -168,13 +168,6 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>Adds the gradient of the whole rod.</summary>
-        public void AddGradient(RodShape shape, RodVector[] gradient)
-        {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, 0, shape.X.Length, ref measured);
-        }
-
         /// <inheritdoc/>
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)

@@ -120,10 +120,10 @@ namespace Guidewire.Core
                     }
                     // A negative eigenvalue within rounding of 0 along which the energy falls neither way is 0: such as
                     // that of a localised helix that moves along the rod.
-                    RodVector[]? doubtful = _stability!.Doubtful;
-                    if (doubtful != null)
+                    RodVector[]? undecided = _stability!.Undecided;
+                    if (undecided != null)
                     {
-                        Array.Copy(doubtful, _direction, _direction.Length);
+                        Array.Copy(undecided, _direction, _direction.Length);
                         if (!DescendAlong(shape, 1.0) && !DescendAlong(shape, -1.0))
                         {
                             return Finish(shape, result);

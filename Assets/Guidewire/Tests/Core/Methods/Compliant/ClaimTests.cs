@@ -118,10 +118,7 @@ namespace Guidewire.Core.Tests
         // Farthest that a sphere is from where it belongs in the rest shape, over the largest displacement.
         private static double ErrorAtRest(SimulationParameters parameters, Simulation run)
         {
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
+            Wires.Run(run);
             parameters.Method.Solver = Solver.Direct;
             parameters.Method.Integrator = Integrator.ImplicitEuler;
             parameters.Scene.InitialState = InitialState.Equilibrium;
@@ -148,10 +145,7 @@ namespace Guidewire.Core.Tests
             while (run.Outcome == Outcome.Running)
             {
                 run.Step();
-                for (int k = 0; k < substeps; k++)
-                {
-                    exact.Step();
-                }
+                Wires.Step(exact, substeps);
                 error = Math.Max(error, Wires.Distance(exact.State, run.State));
                 moved = Math.Max(moved, Wires.Distance(exact.State, start));
             }

@@ -8,7 +8,6 @@ namespace Guidewire.Core.Tests
     /// wall, and each run ends as asked or says why not.</summary>
     /// <remarks>The environment variable GUIDEWIRE_COMPLIANT_PUSHES = FIRST:COUNT asks for other pushes than the first
     /// 100.</remarks>
-    [TestFixture]
     internal sealed class CompliantPushTests
     {
         [Test]

@@ -21,10 +21,7 @@ namespace Guidewire.Core.Tests
             double depth = stiffness == 0.0 ? 0.0 : 1e3 * force / stiffness;
             SimulationParameters scene = WallScenes.OverPlane(10, 3e-3);
             scene.Scene.Gravity = new Vector3d(0.0, -100.0 * Gravity, 0.0);
-            scene.Scene.Walls = new ContactShape[]
-            {
-                new PlaneShape(new Vector3d(0.0, depth - 23.0, 0.0), Vector3d.UnitY),
-            };
+            scene.Scene.Walls = WallScenes.Floor(depth - 23.0);
             scene.Contact.ContactStiffness = stiffness;
             scene.Material.MassDamping = 200.0;    // 1/s
             Simulation run = Wires.Run(WallScenes.Compliant(scene, 60e9));
@@ -41,8 +38,7 @@ namespace Guidewire.Core.Tests
         public void Wire_LyingInATube_IsCarriedWhole()
         {
             SimulationParameters scene = Lying(0.0);
-            var knots = new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 310.0) };
-            scene.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 1.0, 1.0 }, true, true) };
+            scene.Scene.Walls = WallScenes.Tube(-10.0, 310.0, 1.0);
             scene.Material.MassDamping = 40.0;    // 1/s
             scene.Method.MaxSimulationSteps = 40;
             Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
@@ -75,13 +71,12 @@ namespace Guidewire.Core.Tests
             scene.Scene.Gravity = Slope(Vector3d.UnitZ);
             scene.Method.ConstraintSolverSteps = sweeps;
             scene.Method.MaxSimulationSteps = steps;
-            Simulation run = Wires.Run(scene);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(scene);
             Assert.That(run.State.Positions[5].Z, Is.EqualTo(150.0).Within(creep));
         }
 
-        // A cylinder rolls with 2/3 of the slope's share of gravity where friction is above a third of tan(angle), and
-        // slips and spins below; a smooth slope does not turn it.
+        // A cylinder rolls with 2/3 of the slope's component of gravity where friction is above a third of tan(angle),
+        // and slips and spins below; a smooth slope does not turn it.
         [TestCase(0.2, 0.2, 1.0)]
         [TestCase(0.05, 0.25, 0.4)]
         [TestCase(0.0, 0.3, 0.0)]
@@ -103,7 +98,7 @@ namespace Guidewire.Core.Tests
         public void Push_ThroughARoughArch_GoesAsDirectHasIt()
         {
             // 200 pieces: at the edges of coarser ones barriers of any width round off what rigid contact does not.
-            SimulationParameters scene = Arch(24, 60.0, WallScenes.ArchTube(200));
+            SimulationParameters scene = Arch(24, WallScenes.ArchTube(200));
             scene.Scene.Walls[0].FrictionCoefficient = 0.2;
             Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
             SimulationParameters direct = WallScenes.Soft(scene, Young);
@@ -127,10 +122,9 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Push_ThroughAMesh_PassesNoWall()
         {
-            SimulationParameters scene = Arch(15, 60.0, ArchVessel.Shape);
+            SimulationParameters scene = Arch(15, ArchVessel.Shape);
             scene.Scene.Gravity = new Vector3d(0.0, -Gravity, 0.0);
-            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             Assert.That(ArchVessel.PointsOutside(run.State), Is.EqualTo(0));
             Assert.That(run.Contacts.LargestForce, Is.GreaterThan(0.0));
@@ -140,56 +134,41 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Forces_BalanceTheChangeOfMomentum()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             scene.Material.MassDamping = 0.0;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
             double peak = 0.0;
             double worst = 0.0;
             Vector3d before = Vector3d.Zero;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 Vector3d momentum = WallScenes.Momentum(run.State);
                 Vector3d given = run.Contacts!.Total + run.Contacts.Reaction;
                 peak = Math.Max(peak, Math.Max(run.Contacts.Total.Length, run.Contacts.Reaction.Length));
                 worst = Math.Max(worst, Vector3d.Distance((momentum - before) / scene.Method.TimeStep, given));
                 before = momentum;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(worst, Is.LessThan(1e-4 * peak), "as far as the first element's sweeps have converged");
         }
 
         [Test]
         public void Run_ThatIsContinued_TakesTheSameSteps()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             scene.Drive.TwistPerStep = 0.02;
             SimulationParameters parameters = WallScenes.Compliant(scene, Young);
-            Simulation whole = Simulation.Create(parameters);
-            Simulation part = Simulation.Create(parameters);
-            for (int k = 0; k < 50; k++)
-            {
-                whole.Step();
-                part = k == 30 ? part.Continue(parameters) : k == 40 ? Simulation.Restore(parameters, part.Save())
-                    : part;
-                part.Step();
-            }
+            Simulation whole = Wires.RunInParts(parameters, 50, 30, 40, out Simulation part);
             Assert.That(whole.Contacts!.Total.Length, Is.GreaterThan(0.0));
-            for (int i = 0; i <= 10; i++)
-            {
-                Assert.That(part.State.Positions[i], Is.EqualTo(whole.State.Positions[i]));
-                Assert.That(part.State.Velocities[i], Is.EqualTo(whole.State.Velocities[i]));
-                Assert.That(part.Contacts!.Forces[i], Is.EqualTo(whole.Contacts.Forces[i]));
-            }
-            Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts.DriveAsked));
+            Assert.That(part.Contacts!.Forces, Is.EqualTo(whole.Contacts.Forces));
+            Assert.That(part.Contacts.DriveAsked, Is.EqualTo(whole.Contacts.DriveAsked));
         }
 
         [Test]
         public void Run_GoesOnWithoutItsWalls_AndBetweenThemAgain_AndFromAnotherMethod()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             SimulationParameters between = WallScenes.Compliant(scene, Young);
             SimulationParameters without = between.Copy();
             without.Scene.Walls = Array.Empty<ContactShape>();
@@ -210,7 +189,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Steps_LeaveNoGarbage()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Scene.Walls[0].FrictionCoefficient = 0.1;
             Simulation run = Simulation.Create(WallScenes.Compliant(scene, Young));
             long left = Garbage.LeftBySteps(run, 40, 10);
@@ -221,7 +200,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void StartOutside_IsRefusedByItsElement()
         {
-            SimulationParameters scene = Arch(10, 60.0, WallScenes.ArchTube(40));
+            SimulationParameters scene = Arch(10, WallScenes.ArchTube(40));
             scene.Material.WireRadius = 3.2e-3;
             ArgumentException? error = Assert.Throws<ArgumentException>(
                 () => Simulation.Create(WallScenes.Compliant(scene, Young)));
@@ -232,7 +211,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Hub_ThatIsPulledAgainstAWall_FallsShort()
         {
-            // Node 0 itself is pulled back to a wall across its way.
+            // Node 0 itself is pulled back to a wall across its path.
             SimulationParameters scene = Lying(0.0);
             scene.Scene.Gravity = Vector3d.Zero;
             scene.Scene.ProximalEnd = ProximalEnd.Clamped;
@@ -243,8 +222,7 @@ namespace Guidewire.Core.Tests
             scene.Drive.Kind = Drive.Displace;
             scene.Drive.DisplacementPerStep = -0.2;
             scene.Method.MaxSimulationSteps = 15;
-            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             ContactRecord contacts = run.Contacts!;
             Assert.That(contacts.Passages, Is.EqualTo(0));
             Assert.That(contacts.DriveAsked, Is.EqualTo(3.0).Within(1e-9));
@@ -260,8 +238,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters scene = Lying(0.0);
             scene.Scene.Gravity = new Vector3d(0.0, -200.0 * Gravity, 0.0);
             scene.Contact.ContactStiffness = 1e-9;
-            Simulation run = Wires.Run(WallScenes.Compliant(scene, Young));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Compliant(scene, Young));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             for (int i = 0; i <= 10; i++)
             {
@@ -272,11 +249,11 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WayAskedFor_IsWhatNode0WentAndWhatIsMissing_WhereTheSweepsHaveNotConverged(
+        public void DisplacementAskedFor_IsWhatNode0WentAndWhatIsMissing_WhereTheSweepsHaveNotConverged(
             [Values(1, 3, 10, 40)] int substeps, [Values(1, 3)] int sweeps)
         {
             // Pushed against a plane across its axis, 0.4 mm a step, with substeps that are too long. A step that
-            // blew up leaves no state, so that the way it asked for is not counted either.
+            // blew up leaves no state, so that the displacement it asked for is not counted either.
             SimulationParameters scene = Lying(0.0);
             scene.Scene.Gravity = Vector3d.Zero;
             scene.Scene.ProximalEnd = ProximalEnd.Clamped;
@@ -305,9 +282,9 @@ namespace Guidewire.Core.Tests
             Assert.That(isWarned, Is.True, "the scene is to be one that does not converge: " + run.Reason);
         }
 
-        private static SimulationParameters Arch(int n, double way, ContactShape vessel)
+        private static SimulationParameters Arch(int n, ContactShape vessel)
         {
-            SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, way);
+            SimulationParameters scene = WallScenes.Arch(n, 0.01, 100.0, 60.0);
             scene.Scene.Walls = new[] { vessel };
             scene.Material.MassDamping = 20.0;    // 1/s
             return scene;

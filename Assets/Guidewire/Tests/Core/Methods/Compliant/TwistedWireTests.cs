@@ -7,7 +7,7 @@ namespace Guidewire.Core.Tests
     /// twist is about to leave its shape.</summary>
     public sealed class TwistedWireTests
     {
-        private const double Share = 0.03;  // of the critical twist: held below it, left above
+        private const double Margin = 0.03;  // of the critical twist: held below it, left above
         private const double Radius = 3e-3;
 
         [TestCase(1)]
@@ -22,8 +22,8 @@ namespace Guidewire.Core.Tests
             // Closed, straight when free, EI = GJ: 2 pi sqrt(3) EI/GJ.
             const int N = 32;
             double critical = 2.0 * Math.PI * Math.Sqrt(3.0);
-            Assert.That(Ring(N, sweeps, (1.0 - Share) * critical, 1e-3), Is.LessThan(1e-3));
-            Assert.That(Ring(N, sweeps, (1.0 + Share) * critical, 1e-2), Is.GreaterThan(1e-2));
+            Assert.That(Ring(N, sweeps, (1.0 - Margin) * critical, 1e-3), Is.LessThan(1e-3));
+            Assert.That(Ring(N, sweeps, (1.0 + Margin) * critical, 1e-2), Is.GreaterThan(1e-2));
         }
 
         [Test]
@@ -34,8 +34,8 @@ namespace Guidewire.Core.Tests
             // only leans on its own tension: (a/L)^2 EA is of the order of what the couple is above its limit.
             const int N = 24;
             double critical = 8.9868 * Rods.Young / (2.0 * Rods.Shear);
-            Assert.That(Straight(N, (1.0 - Share) * critical, 1e-4), Is.LessThan(1e-4));
-            Assert.That(Straight(N, (1.0 + Share) * critical, 1e-3), Is.GreaterThan(1e-3));
+            Assert.That(Straight(N, (1.0 - Margin) * critical, 1e-4), Is.LessThan(1e-4));
+            Assert.That(Straight(N, (1.0 + Margin) * critical, 1e-3), Is.GreaterThan(1e-3));
         }
 
         private static double Ring(int n, int sweeps, double twist, double enough)

@@ -22,7 +22,7 @@ namespace Guidewire.Core.Tests
                 foreach (bool hasWall in new[] { false, true })
                 {
                     Simulation run = Simulation.Create(Wire(scale, radius, elements, hasWall));
-                    Finish(run);
+                    Wires.Finish(run);
                     string which = "scale " + scale + ", wall " + hasWall;
                     double bending = Math.PI / 4.0 * Math.Pow(radius, 4.0) * Young * scale;
                     double shear = 5.0 / 6.0 * Math.PI * radius * radius * Shear * scale;
@@ -49,7 +49,7 @@ namespace Guidewire.Core.Tests
                 parameters.Scene.DistalEnd = DistalEnd.Clamped;
                 parameters.Scene.Gravity = new Vector3d(0.0, Math.Min(9.81, 1e-2 * scale), 0.0);
                 Simulation run = Simulation.Create(parameters);
-                Finish(run);
+                Wires.Finish(run);
                 double area = Math.PI * 0.35e-3 * 0.35e-3;
                 double weight = area * parameters.Material.Density * parameters.Scene.Gravity.Y;
                 double bending = 0.25 * area * 0.35e-3 * 0.35e-3 * Young * scale;
@@ -96,7 +96,7 @@ namespace Guidewire.Core.Tests
             double load = 0.5 * bending / (0.25 * Length * Length);
             parameters.Scene.TipForce = new Vector3d(0.0, load, 0.0);
             Simulation run = Simulation.Create(parameters);
-            Finish(run);
+            Wires.Finish(run);
             CoaxialRecord record = run.Coaxial()!;
             double arm = 1e-3 * (run.State.Positions[2 * n].Z - record.Positions[n].Z);
             double guide = Math.Pow(load * arm, 2.0) / (2.0 * bending);
@@ -122,21 +122,9 @@ namespace Guidewire.Core.Tests
             parameters.Method.MaxSimulationSteps = 60;
             if (hasWall)
             {
-                parameters.Scene.Walls = new ContactShape[]
-                {
-                    new PlaneShape(new Vector3d(0.0, -50.0, 0.0), Vector3d.UnitY),
-                };
+                parameters.Scene.Walls = WallScenes.Floor(-50.0);
             }
             return parameters;
-        }
-
-        private static void Finish(Simulation run)
-        {
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
         }
     }
 }

@@ -52,17 +52,12 @@ namespace Guidewire.Core.Tests
         // P L^2/EI.
         private static double Elastica(double shortening)
         {
-            double low = 0.0;
-            double high = 0.99;
-            for (int k = 0; k < 60; k++)
+            double modulus = Bisection.Limit(0.0, 0.99, k =>
             {
-                double middle = 0.5 * (low + high);
-                Complete(middle, out double first, out double second);
-                bool isLess = 2.0 * (1.0 - second / first) < shortening;
-                low = isLess ? middle : low;
-                high = isLess ? high : middle;
-            }
-            Complete(low, out double quarter, out _);
+                Complete(k, out double first, out double second);
+                return 2.0 * (1.0 - second / first) < shortening;
+            });
+            Complete(modulus, out double quarter, out _);
             return 16.0 * quarter * quarter;
         }
 

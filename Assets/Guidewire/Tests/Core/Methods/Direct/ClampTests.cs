@@ -79,7 +79,7 @@ namespace Guidewire.Core.Tests
                 * Math.Sqrt(Rods.BendStiffness / (Rods.Density * Rods.Area));
         }
 
-        /// <summary>Tip deflection by bending over F L^3/(3 EI); the shear's share F L/GA is taken off.</summary>
+        /// <summary>Tip deflection by bending over F L^3/(3 EI); the shear's part F L/GA is taken off.</summary>
         private static double TipCompliance(int n, ClampRule rule)
         {
             MaterialRod rod = Rods.Wire(n);

@@ -23,7 +23,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             rod.MassDamping = ofMass ? 2.0 * omega * Ratio : 0.0;
             rod.MaterialDamping = ofMass ? 0.0 : 2.0 * Ratio / omega;
-            double measured = Decrement(rod, mode, integrator, 160, 1e-4);
+            double measured = Decrement(rod, mode, integrator, 160);
             double expected = 2.0 * Math.PI * Ratio / Math.Sqrt(1.0 - Ratio * Ratio);
             TestContext.WriteLine("{0:G6} of {1:G6}", measured, expected);
             Assert.That(measured, Is.EqualTo(expected).Within(1).Percent);
@@ -35,8 +35,8 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(N);
             rod.MassDamping = 0.04 * Omega(1);
             rod.MaterialDamping = 0.04 / Omega(1);
-            double coarse = Decrement(rod, 1, Integrator.Esdirk3, 50, 1e-4);
-            Assert.That(coarse, Is.EqualTo(Decrement(rod, 1, Integrator.Esdirk3, 200, 1e-4)).Within(1).Percent);
+            double coarse = Decrement(rod, 1, Integrator.Esdirk3, 50);
+            Assert.That(coarse, Is.EqualTo(Decrement(rod, 1, Integrator.Esdirk3, 200)).Within(1).Percent);
         }
 
         /// <summary>In whole periods the energy decays by exp(-2 z w t). At 1e-8 of L a step, of an amplitude of 1e-3,
@@ -54,10 +54,7 @@ namespace Guidewire.Core.Tests
             motion.Control.Tolerance = 1e-8;
             double start = motion.Energy;
             double period = 2.0 * Math.PI / (omega * Math.Sqrt(1.0 - Ratio * Ratio));
-            for (int k = 0; k < 5 * Periods; k++)
-            {
-                Assert.That(motion.Step(0.2 * period), Is.Null);
-            }
+            Rods.Step(motion, 0.2 * period, 5 * Periods);
             Assert.That(motion.Control.Steps, Is.GreaterThan(10 * Periods), "steps are cut");
             Assert.That(motion.Control.StepsAbove, Is.Zero);
             double expected = 2.0 * Ratio * omega * Periods * period;
@@ -208,10 +205,7 @@ namespace Guidewire.Core.Tests
                 spins[j] = new Vector3d(0.0, 0.0, 6000.0);
             }
             motion.Begin(new Vector3d[5], spins, false);
-            for (int k = 0; k < 100; k++)
-            {
-                Assert.That(motion.Step(Step), Is.Null);
-            }
+            Rods.Step(motion, Step, 100);
             Assert.That(motion.Spins[2].Z, Is.EqualTo(6000.0 * Math.Exp(-100.0 * Damping * Step))
                 .Within(100.0 * (Damping * Step) * (Damping * Step)).Percent);
         }
@@ -234,10 +228,7 @@ namespace Guidewire.Core.Tests
             rod.MassDamping = 0.3 * omega;
             rod.MaterialDamping = 0.3 / omega;
             RodDynamics motion = Swinging(rod, 1, integrator, 1e-4, out omega);
-            for (int k = 0; k < steps; k++)
-            {
-                Assert.That(motion.Step(0.6 * 2.0 * Math.PI / omega / steps), Is.Null);
-            }
+            Rods.Step(motion, 0.6 * 2.0 * Math.PI / omega / steps, steps);
             return motion.Shape.X[N].Y / Rods.Length;
         }
 
@@ -249,9 +240,9 @@ namespace Guidewire.Core.Tests
 
         /// <summary>Decrease of the logarithm of a mode's amplitude in a period, from y^2 + (v/w)^2 of the tip at whole
         /// damped periods.</summary>
-        private static double Decrement(MaterialRod rod, int mode, Integrator integrator, int steps, double amplitude)
+        private static double Decrement(MaterialRod rod, int mode, Integrator integrator, int steps)
         {
-            RodDynamics motion = Swinging(rod, mode, integrator, amplitude, out double omega);
+            RodDynamics motion = Swinging(rod, mode, integrator, 1e-4, out double omega);
             double ratio = 0.5 * (rod.MassDamping / omega + rod.MaterialDamping * omega);
             double step = 2.0 * Math.PI / (omega * Math.Sqrt(1.0 - ratio * ratio)) / steps;
             double first = 0.0;
@@ -267,7 +258,8 @@ namespace Guidewire.Core.Tests
             return 0.5 * Math.Log(first / last) / Periods;
         }
 
-        /// <summary>A straight wire with the velocities of a mode, whose tip would swing by this share of L.</summary>
+        /// <summary>A straight wire with the velocities of a mode, whose tip would swing by this fraction of
+        /// L.</summary>
         private static RodDynamics Swinging(MaterialRod rod, int mode, Integrator integrator, double amplitude,
             out double omega)
         {
@@ -308,10 +300,7 @@ namespace Guidewire.Core.Tests
             var motion = new RodDynamics(terms, Rods.Schedule(), shape,
                 DirectSetup.Scheme(Integrator.Bdf2), 1e-10, 50);
             motion.Begin(velocities, spins, false);
-            for (int k = 0; k < 200; k++)
-            {
-                Assert.That(motion.Step(1e-4), Is.Null);
-            }
+            Rods.Step(motion, 1e-4, 200);
             return motion.Energy;
         }
     }

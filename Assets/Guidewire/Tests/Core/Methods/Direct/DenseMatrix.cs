@@ -1,4 +1,5 @@
 using System;
+using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
@@ -48,6 +49,17 @@ namespace Guidewire.Core.Tests
                 sum += x[i] * y[i];
             }
             return sum;
+        }
+
+        /// <summary>Compares two vectors to 1e-9 of the largest component.</summary>
+        public static void AssertEqual(double[] found, double[] expected)
+        {
+            double largest = 0.0;
+            foreach (double value in expected)
+            {
+                largest = Math.Max(largest, Math.Abs(value));
+            }
+            Assert.That(found, Is.EqualTo(expected).Within(1e-9 * largest));
         }
 
         /// <summary>Gradient as one long vector.</summary>

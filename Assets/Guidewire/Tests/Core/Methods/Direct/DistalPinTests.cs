@@ -71,8 +71,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.Substeps = substeps;
             parameters.Method.DeltaThreshold = 0.0;
             parameters.Method.MaxSimulationSteps = (int)(0.02 / timeStep);
-            Simulation simulation = Wires.Run(parameters);
-            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+            Simulation simulation = Wires.Finish(parameters);
             Vector3d end = simulation.State.Positions[10];
             Assert.That(Vector3d.Distance(end, new Vector3d(0.0, 0.0, 299.5)), Is.LessThan(1e-9));
             Assert.That(simulation.State.Orientations[9].Director3.Y, Is.Not.EqualTo(0.0).Within(1e-4));
@@ -92,16 +91,9 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Gravity = new Vector3d(1e-3, -9.81, 0.0);
             Simulation simulation = Simulation.Create(parameters);
             Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Converged), simulation.Reason);
-            double low = 1e-3;
-            double high = 10.0;
-            for (int k = 0; k < 200; k++)
-            {
-                double a = 0.5 * (low + high);
-                bool isTooWide = 2.0 * a * Math.Log(0.15 / a + Math.Sqrt(1.0 + 0.0225 / (a * a))) > 0.24;
-                low = isTooWide ? low : a;
-                high = isTooWide ? a : high;
-            }
-            double sag = Math.Sqrt(low * low + 0.0225) - low;
+            double parameter = Bisection.Limit(1e-3, 10.0,
+                a => 2.0 * a * Math.Log(0.15 / a + Math.Sqrt(1.0 + 0.0225 / (a * a))) <= 0.24);
+            double sag = Math.Sqrt(parameter * parameter + 0.0225) - parameter;
             double found = 0.0;
             foreach (Vector3d x in simulation.State.Positions)
             {

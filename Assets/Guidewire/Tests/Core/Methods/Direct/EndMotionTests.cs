@@ -51,8 +51,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.ProximalMotion = new EndMotion(times, first, turns);
             parameters.Scene.DistalMotion = new EndMotion(times, last, turns);
             parameters.Scene.DistalEnd = DistalEnd.Clamped;
-            Simulation simulation = Wires.Run(parameters);
-            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+            Simulation simulation = Wires.Finish(parameters);
             Quaterniond turned = RotationVector.Exp(rotation);
             for (int i = 0; i <= Elements; i++)
             {

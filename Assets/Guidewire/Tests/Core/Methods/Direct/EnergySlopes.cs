@@ -1,10 +1,55 @@
 using System;
+using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Slopes of a wire's energy, against which the forces of hubs are held.</summary>
+    /// <summary>Derivatives of a wire's energy by differences, with which forces and matrices are compared.</summary>
     internal static class EnergySlopes
     {
+        // Of fourth-order central differences: truncation 1e-12, rounding 1e-16/1e-3 = 1e-13.
+        private const double Step = 1e-3;
+        private const double GradientTolerance = 1e-9;
+        private const double HessianTolerance = 1e-8;
+
+        /// <summary>Compares a gradient with the differences of the value.</summary>
+        /// <param name="value">With unknown i moved by s.</param>
+        public static void AssertGradient(double[] gradient, int unknowns, Func<int, double, double> value)
+        {
+            double worst = 0.0;
+            double largest = 0.0;
+            for (int i = 0; i < unknowns; i++)
+            {
+                double difference = FourthOrder(s => value(i, s));
+                worst = Math.Max(worst, Math.Abs(difference - gradient[i]));
+                largest = Math.Max(largest, Math.Abs(difference));
+            }
+            Assert.That(worst, Is.LessThan(GradientTolerance * largest));
+        }
+
+        /// <summary>Compares second derivatives with the differences of the value, not of the gradient: that of a
+        /// rotated shape is along its own axes.</summary>
+        /// <param name="value">With unknown i moved by s and k by t.</param>
+        public static void AssertBlocks(double[,] second, int unknowns, Func<int, double, int, double, double> value)
+        {
+            double worst = 0.0;
+            double largest = 0.0;
+            for (int i = 0; i < unknowns; i++)
+            {
+                for (int k = 0; k <= i; k++)
+                {
+                    double difference = FourthOrder(s => FourthOrder(t => value(i, s, k, t)));
+                    worst = Math.Max(worst, Math.Abs(difference - second[i, k]));
+                    largest = Math.Max(largest, Math.Abs(difference));
+                }
+            }
+            Assert.That(worst, Is.LessThan(HessianTolerance * largest));
+        }
+
+        private static double FourthOrder(Func<double, double> f)
+        {
+            return (8.0 * (f(Step) - f(-Step)) - (f(2.0 * Step) - f(-2.0 * Step))) / (12.0 * Step);
+        }
+
         /// <summary>Central difference of a value that a step on and back changes.</summary>
         public static double Difference(double step, Func<double, double> value)
         {

@@ -167,16 +167,7 @@ namespace Guidewire.Core.Tests
         // k a of x tan(x) = a/b, by bisection.
         private static double Critical(double a, double b)
         {
-            double low = 0.0;
-            double high = 0.5 * Math.PI;
-            for (int i = 0; i < 60; i++)
-            {
-                double middle = 0.5 * (low + high);
-                bool isBelow = b * middle * Math.Sin(middle) < a * Math.Cos(middle);
-                low = isBelow ? middle : low;
-                high = isBelow ? high : middle;
-            }
-            return high;
+            return Bisection.Limit(0.0, 0.5 * Math.PI, x => b * x * Math.Sin(x) < a * Math.Cos(x));
         }
 
         // How far the tip of the strip is from its plane at rest, over L.

@@ -24,7 +24,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(n);
             RodShape shape = Rods.AtRest(rod, new RodSupports(), Vector3d.Zero,
                 new Vector3d(0.0, 0.1 * Rods.BendForce, 0.0), Vector3d.Zero);
-            AssertBalanced(rod, new RodSupports(), Rods.Schedule(), shape, scheme, step, 100);
+            AssertBalanced(rod, new RodSupports(), Rods.Schedule(), shape, scheme, step);
         }
 
         [Test]
@@ -33,8 +33,7 @@ namespace Guidewire.Core.Tests
             [Values(1e-3, 5e-3)] double step)
         {
             MaterialRod rod = Rods.Wire(n);
-            AssertBalanced(rod, new RodSupports(), UnderWeight(), Rods.Straight(rod), scheme,
-                step, 100);
+            AssertBalanced(rod, new RodSupports(), UnderWeight(), Rods.Straight(rod), scheme, step);
         }
 
         [Test]
@@ -46,7 +45,7 @@ namespace Guidewire.Core.Tests
             var supports = new RodSupports { Distal = DistalEnd.Clamped };
             RodShape shape = Rods.Straight(rod);
             var schedule = Rods.Schedule(new SceneParameters { Gravity = Gravity }, shape);
-            AssertBalanced(rod, supports, schedule, shape, scheme, step, 100);
+            AssertBalanced(rod, supports, schedule, shape, scheme, step);
         }
 
         [Test]
@@ -65,7 +64,7 @@ namespace Guidewire.Core.Tests
                 DistalDisplacement = -0.02 * Rods.Length,
                 DistalRampTime = 0.05,
             }, shape);
-            AssertBalanced(rod, supports, schedule, shape, scheme, step, 100);
+            AssertBalanced(rod, supports, schedule, shape, scheme, step);
         }
 
         [Test]
@@ -81,7 +80,7 @@ namespace Guidewire.Core.Tests
                 TipForce = new Vector3d(0.0, 10.0 * Rods.BendForce, -3.0 * Rods.BendForce),
                 TipForceReleaseTime = 0.05,
             });
-            AssertBalanced(rod, new RodSupports(), schedule, Rods.Straight(rod), scheme, step, 100);
+            AssertBalanced(rod, new RodSupports(), schedule, Rods.Straight(rod), scheme, step);
         }
 
         [Test]
@@ -93,7 +92,7 @@ namespace Guidewire.Core.Tests
             MaterialRod rod = Rods.Wire(12);
             RodShape shape = Rods.Random(rod, 0.05, 0.0, 3);
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
-            AssertBalanced(rod, supports, UnderWeight(), shape, scheme, 1e-3, 100);
+            AssertBalanced(rod, supports, UnderWeight(), shape, scheme, 1e-3);
         }
 
         private static RodSchedule UnderWeight()
@@ -102,13 +101,13 @@ namespace Guidewire.Core.Tests
         }
 
         private static void AssertBalanced(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
-            Integrator scheme, double step, int steps)
+            Integrator scheme, double step)
         {
             RodDynamics motion = MotionTests.Start(rod, supports, schedule, shape, scheme, Tolerance);
             motion.Reactions.AreKept = true;
             double worst = 0.0;
             double peak = 0.0;
-            for (int i = 0; i < steps; i++)
+            for (int i = 0; i < 100; i++)
             {
                 Assert.That(motion.Step(step), Is.Null);
                 StageForces mean = motion.Reactions.Mean;

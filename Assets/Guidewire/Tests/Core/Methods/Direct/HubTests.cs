@@ -64,10 +64,7 @@ namespace Guidewire.Core.Tests
             steered.Scene.Gravity = held.Scene.Gravity;
             steered.Drive.Steering = new Steering();
             Simulation byHand = Simulation.Create(steered);
-            for (int k = 0; k < held.Method.MaxSimulationSteps; k++)
-            {
-                byHand.Step();
-            }
+            Wires.Step(byHand, held.Method.MaxSimulationSteps);
             Assert.That(byHand.State.Positions, Is.EqualTo(Wires.Finish(held).State.Positions));
         }
 
@@ -122,7 +119,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WayAskedFor_IsWhatWasGoneAndWhatIsMissing_ThereAndBack([Values(1e-9, 0.01)] double limit)
+        public void DisplacementAskedFor_IsWhatWasGoneAndWhatIsMissing_ThereAndBack([Values(1e-9, 0.01)] double limit)
         {
             // In the sense of each move: the hub goes on to a wall, waits, goes back, and on again. A hub that gives
             // way at next to nothing is carried by the wire to and fro.
@@ -220,23 +217,24 @@ namespace Guidewire.Core.Tests
                 Throws.TypeOf<ArgumentException>().With.Message.StartsWith(key + " needs"));
         }
 
-        // Ways (units) and turns that are sums of powers of two, with a pause, a pull and a change of direction.
+        // Displacements (units) and rotations that are sums of powers of two, with a pause, a pull and a change of
+        // direction.
         private static DriveTable Table(out double[] pushes, out double[] turns)
         {
             pushes = new double[Steps];
             turns = new double[Steps];
             var times = new List<double> { 0.0 };
-            var way = new List<double> { 0.0 };
+            var positions = new List<double> { 0.0 };
             var turn = new List<double> { 0.0 };
             for (int k = 0; k < Steps; k++)
             {
                 pushes[k] = k % 8 == 7 ? -0.03125 : k % 8 == 3 ? 0.0 : 0.0625;
                 turns[k] = k < 8 ? 0.03125 : -0.0625;
                 times.Add((k + 1) * TimeStep);
-                way.Add(way[k] + Unit * pushes[k]);
+                positions.Add(positions[k] + Unit * pushes[k]);
                 turn.Add(turn[k] + turns[k]);
             }
-            return new DriveTable(new TimeTable(times.ToArray(), way.ToArray()),
+            return new DriveTable(new TimeTable(times.ToArray(), positions.ToArray()),
                 new TimeTable(times.ToArray(), turn.ToArray()));
         }
 

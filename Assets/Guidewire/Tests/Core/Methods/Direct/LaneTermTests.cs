@@ -97,11 +97,10 @@ namespace Guidewire.Core.Tests
             InertiaEnergy inertia = Inertia(Rods.Wire(N), angle, out RodShape shape);
             InertiaEnergy plain = Inertia(Rods.Wire(N), angle, out _);
             inertia.RemembersCouples = true;
-            var measured = default(GradientMeasures);
             for (int k = 0; k < 3; k++)
             {
                 var gradient = new RodVector[N + 2];
-                inertia.AddGradient(shape, gradient, 0, N + 1, ref measured);
+                inertia.AddGradient(shape, gradient);
                 AssertSame(gradient, PlainGradient(plain, shape, out _));
                 shape.Q[5 + k] = shape.Q[5 + k] * RotationVector.Exp(new Vector3d(0.01, 0.02, -0.03));
             }

@@ -21,8 +21,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.Substeps = substeps;
             parameters.Scene.TipForce = new Vector3d(0.0, 0.0, 0.3);
             parameters.Scene.InitialState = InitialState.Equilibrium;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double strain = run.State.Positions[30].Z / 300.0 - 1.0;
             Assert.That(strain, Is.EqualTo(0.3 / (1e6 * Rods.Area)).Within(tolerance));
         }
@@ -36,8 +35,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
             parameters.Method.Substeps = substeps;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double fall = -1e-3 * run.State.Positions[17].Y;
             Assert.That(fall, Is.EqualTo(0.5 * 9.81 * 4.0).Within(tolerance * 0.5 * 9.81 * 4.0 * 1.0001));
         }
@@ -47,20 +45,20 @@ namespace Guidewire.Core.Tests
         public void WirePushedFar_GoesThere(Drive drive)
         {
             // 10 m/s from the first step on, 4 m in all: 13 wire lengths. Jerked so, the wire bends, and a push follows
-            // its first element: the way is as asked, its end somewhat nearer.
+            // its first element: the path is as long as asked, its end somewhat nearer.
             SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, 1e-3, 400);
             parameters.Drive.Kind = drive;
             parameters.Drive.DisplacementPerStep = 10.0;
             Simulation run = Simulation.Create(parameters);
-            double way = 0.0;
+            double gone = 0.0;
             while (run.Outcome == Outcome.Running)
             {
                 Vector3d before = run.State.Positions[0];
                 run.Step();
-                way += Vector3d.Distance(before, run.State.Positions[0]);
+                gone += Vector3d.Distance(before, run.State.Positions[0]);
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(way, Is.EqualTo(4000.0).Within(1e-6));
+            Assert.That(gone, Is.EqualTo(4000.0).Within(1e-6));
             Assert.That(run.State.Positions[0].Z, Is.EqualTo(4000.0).Within(drive == Drive.Displace ? 1e-6 : 300.0));
             Assert.That(run.State.Positions[30].Z, Is.EqualTo(4300.0).Within(300.0));
         }

@@ -16,7 +16,7 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Esdirk4, 0.2 * Rods.Radius, 5e-5)]
         public void Pendulum_LetGoLevel_KeepsItsEnergy(Integrator scheme, double radius, double fraction)
         {
-            // On a ball joint, 2 s; as a share of m g L/2, the energy that falling turns into motion.
+            // On a ball joint, 2 s; as a fraction of m g L/2, the energy that falling turns into motion.
             const int N = 30;
             const double Gravity = 9.81;
             MaterialRod rod = MaterialRod.Round(N, Rods.Length, radius, Rods.Young, Rods.Shear, Rods.Density);
@@ -24,7 +24,7 @@ namespace Guidewire.Core.Tests
             var schedule = Rods.Schedule(new SceneParameters { Gravity = new Vector3d(0.0, -Gravity, 0.0) });
             RodDynamics motion = MotionTests.Start(rod, new RodSupports { Proximal = ProximalEnd.Held }, schedule,
                 shape, scheme, 1e-6);
-            var energy = new WireEnergy(N, Rods.Length, radius, Rods.Young, Rods.Shear, Rods.Density);
+            var energy = new WireEnergy(N, radius);
             for (int k = 1; k <= 2000; k++)
             {
                 Assert.That(motion.Step(1e-3), Is.Null);
@@ -61,10 +61,7 @@ namespace Guidewire.Core.Tests
             WireEnergy wire = Wire(N).Of(shape.X, velocities, shape.Q, spins);
             double energy = wire.Kinetic;
             Vector3d angular = wire.AngularMomentum;
-            for (int k = 0; k < 2000; k++)
-            {
-                Assert.That(motion.Step(0.5e-3), Is.Null);
-            }
+            Rods.Step(motion, 0.5e-3, 2000);
             wire.Of(shape.X, motion.Velocities, shape.Q, motion.Spins);
             Assert.That((wire.Kinetic + wire.Elastic) / energy, Is.EqualTo(1.0).Within(energyShare));
             Assert.That(Vector3d.Distance(wire.AngularMomentum, angular) / angular.Length,
@@ -92,11 +89,7 @@ namespace Guidewire.Core.Tests
         {
             RodShape exact = SoftWire(Integrator.Esdirk4, 1600);
             RodShape shape = SoftWire(scheme, steps);
-            double worst = 0.0;
-            for (int i = 0; i < shape.X.Length; i++)
-            {
-                worst = Math.Max(worst, Vector3d.Distance(shape.X[i], exact.X[i]) / Rods.Length);
-            }
+            double worst = Wires.Distance(shape.X, exact.X) / Rods.Length;
             for (int j = 0; j < shape.Q.Length; j++)
             {
                 worst = Math.Max(worst, 2.0 * (exact.Q[j].Conjugate * shape.Q[j]).Imaginary.Length);
@@ -129,16 +122,13 @@ namespace Guidewire.Core.Tests
                 spins[j] = rate + new Vector3d(0.0, s / Rods.Length, 10.0 * s);
             }
             motion.Begin(velocities, spins, false);
-            for (int k = 0; k < steps; k++)
-            {
-                Assert.That(motion.Step(Time / steps), Is.Null);
-            }
+            Rods.Step(motion, Time / steps, steps);
             return shape;
         }
 
         private static WireEnergy Wire(int n)
         {
-            return new WireEnergy(n, Rods.Length, Rods.Radius, Rods.Young, Rods.Shear, Rods.Density);
+            return new WireEnergy(n, Rods.Radius);
         }
     }
 }

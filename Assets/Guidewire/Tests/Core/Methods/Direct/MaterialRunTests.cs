@@ -10,7 +10,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Units_AreThoseOfTheScene()
         {
-            // The same wire told in millimetres and in metres.
+            // The same wire stated in millimetres and in metres.
             SimulationParameters millimetres = Cantilever(12, Solver.Direct, Integrator.Esdirk3, 1e-3, 40);
             SimulationParameters metres = Cantilever(12, Solver.Direct, Integrator.Esdirk3, 1e-3, 40);
             metres.Scene.GuidewireLength = Rods.Length;
@@ -113,8 +113,7 @@ namespace Guidewire.Core.Tests
         public void LongStepsUnderGravity_ComeToRestInTheSag(double step)
         {
             SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.ImplicitEuler, step, 400);
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             Assert.That(run.State.Positions[30].Y, Is.EqualTo(-17.0399963).Within(0.9));
         }
 
@@ -172,8 +171,7 @@ namespace Guidewire.Core.Tests
             // Stiff in bending against twist, so that it stays straight: Greenhill's moment is 8.99 EI/L, here 15.7
             // GJ/L.
             parameters.Material.ShearModulus = 0.2 * Rods.Young;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double turn = 0.0;
             for (int j = 1; j < 40; j++)
             {

@@ -74,10 +74,7 @@ namespace Guidewire.Core.Tests
             RodDynamics motion = Start(rod, supports, schedule, shape, Integrator.Esdirk3, 1e-10);
             double mass = Rods.Density * Rods.Area * Rods.Length;
             Vector3d start = Centre(shape);
-            for (int i = 0; i < 50; i++)
-            {
-                Assert.That(motion.Step(Step), Is.Null);
-            }
+            Rods.Step(motion, Step, 50);
             double fall = 0.5 * 9.81 * motion.Time * motion.Time;
             Vector3d centre = Centre(shape);
             Assert.That(centre.Y - start.Y, Is.EqualTo(-fall).Within(1e-8));
@@ -140,10 +137,7 @@ namespace Guidewire.Core.Tests
                     DistalRampTime = 0.03,
                 }, shape, 20.0);
                 RodDynamics motion = Start(rod, new RodSupports { Distal = distal }, schedule, shape, scheme, 1e-6);
-                for (int i = 0; i < 50; i++)
-                {
-                    Assert.That(motion.Step(1e-3), Is.Null);
-                }
+                Rods.Step(motion, 1e-3, 50);
                 shapes[k] = shape;
             }
             double largest = 0.0;
@@ -200,10 +194,7 @@ namespace Guidewire.Core.Tests
             var supports = new RodSupports { Proximal = ProximalEnd.Free };
             RodDynamics motion = Start(rod, supports, Rods.Schedule(), shape, Integrator.Esdirk3, 1e-13);
             motion.Begin(new Vector3d[2], new[] { new Vector3d(Tilt, 0.0, Spin) }, false);
-            for (int i = 0; i < steps; i++)
-            {
-                Assert.That(motion.Step(Time / steps), Is.Null);
-            }
+            Rods.Step(motion, Time / steps, steps);
             double angle = Spin * Time;
             var spin = new Vector3d(Tilt * Math.Cos(angle), Tilt * Math.Sin(angle), Spin);
             Quaterniond turned = RotationVector.Exp(Time * new Vector3d(Tilt, 0.0, 2.0 * Spin))
@@ -222,10 +213,7 @@ namespace Guidewire.Core.Tests
             RodDynamics motion = Start(rod, new RodSupports(), Rods.Schedule(), shape, scheme, 1e-12);
             double step = 2.0 * Math.PI / omega / steps;
             double startReal = shape.X[n].Y;
-            for (int i = 0; i < steps; i++)
-            {
-                Assert.That(motion.Step(step), Is.Null);
-            }
+            Rods.Step(motion, step, steps);
             double real = shape.X[n].Y / startReal;
             double imaginary = motion.Velocities[n].Y / (omega * startReal);
             // After one period the exact factor is 1, so its logarithm is 0.

@@ -17,7 +17,7 @@ namespace Guidewire.Core.Tests
             for (int i = 0; i < count; i++)
             {
                 int n = random.Next(15, 121);
-                Vector3d force = LogUniform(random, 0.1, 100.0) * Rods.BendForce * Direction(random);
+                Vector3d force = LogUniform(random) * Rods.BendForce * Direction(random);
                 Check("force " + i, n, force, Vector3d.Zero, true);
             }
         }
@@ -34,7 +34,7 @@ namespace Guidewire.Core.Tests
                 var normal = new Vector3d(Math.Cos(across), Math.Sin(across), 0.0);
                 Vector3d any = Direction(random);
                 Vector3d inPlane = Vector3d.Normalize(any - Vector3d.Dot(any, normal) * normal);
-                Vector3d force = LogUniform(random, 0.1, 100.0) * Rods.BendForce * inPlane;
+                Vector3d force = LogUniform(random) * Rods.BendForce * inPlane;
                 double moment = (2.0 * random.NextDouble() - 1.0) * 4.0 * Math.PI * Rods.BendStiffness / Rods.Length;
                 Check("plane " + i, n, force, moment * normal, true);
             }
@@ -78,7 +78,7 @@ namespace Guidewire.Core.Tests
             for (int i = 0; i < count; i++)
             {
                 int n = random.Next(15, 121);
-                double k = LogUniform(random, 0.1, 100.0);
+                double k = LogUniform(random);
                 Vector3d force = k * Rods.BendForce * Direction(random);
                 double couple = 4.0 * Math.PI * random.NextDouble();
                 Vector3d moment = couple * Rods.BendStiffness / Rods.Length * Direction(random);
@@ -148,9 +148,10 @@ namespace Guidewire.Core.Tests
             return worst / (Rods.BendForce + rodTerms.Loads.Force[rod.ElementCount].Length);
         }
 
-        private static double LogUniform(System.Random random, double low, double high)
+        // From 0.1 to 100.
+        private static double LogUniform(System.Random random)
         {
-            return low * Math.Pow(high / low, random.NextDouble());
+            return 0.1 * Math.Pow(100.0 / 0.1, random.NextDouble());
         }
 
         private static Vector3d Direction(System.Random random)

@@ -33,23 +33,13 @@ namespace Guidewire.Core.Tests
             const int Steps = 100;  // an element
             RodShape shape = Rods.AtRest(Rods.Wire(N), new RodSupports(), Vector3d.Zero,
                 new Vector3d(0.0, k * Rods.BendForce, 0.0), Vector3d.Zero);
-            double low = 0.0;
-            double high = 20.0;
-            for (int i = 0; i < 60; i++)
+            double curvature = Bisection.Limit(0.0, 20.0, first =>
             {
-                double middle = 0.5 * (low + high);
-                Elastica(k, middle, N * Steps, null, out double end);
-                if (end > 0.0)
-                {
-                    high = middle;
-                }
-                else
-                {
-                    low = middle;
-                }
-            }
+                Elastica(k, first, N * Steps, null, out double end);
+                return end <= 0.0;
+            });
             var points = new Vector3d[N * Steps + 1];
-            Elastica(k, low, N * Steps, points, out _);
+            Elastica(k, curvature, N * Steps, points, out _);
             for (int i = 0; i <= N; i++)
             {
                 double miss = Vector3d.Distance(shape.X[i] / Rods.Length, points[i * Steps]);

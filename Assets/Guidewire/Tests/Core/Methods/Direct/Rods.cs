@@ -72,6 +72,15 @@ namespace Guidewire.Core.Tests
             return shape;
         }
 
+        /// <summary>Makes so many steps of dt, s, each with a solution.</summary>
+        public static void Step(RodDynamics motion, double dt, int steps)
+        {
+            for (int k = 0; k < steps; k++)
+            {
+                Assert.That(motion.Step(dt), Is.Null);
+            }
+        }
+
         /// <summary>What is prescribed of a wire in a scene, by default nothing.</summary>
         /// <param name="shape">Where its ends begin and how; null: at the origin, along z.</param>
         /// <param name="twistRate">Of the hub, rad/s.</param>

@@ -33,9 +33,8 @@ namespace Guidewire.Core.Tests
             var last = new double[5];
             int seen = 0;
             int means = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 HubRecord hub = run.Hub()!;
                 double bent = Start + hub.Insertion;
                 bool counts = bent > 2.0 * length && bent < TipLength - 2.0 * length && run.StepCount != half + 1;
@@ -47,8 +46,7 @@ namespace Guidewire.Core.Tests
                     Assert.That(mean, Is.EqualTo(right).Within(-fraction * right), "at " + bent);
                     means++;
                 }
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(means, Is.GreaterThan(2));
         }
 
@@ -68,8 +66,8 @@ namespace Guidewire.Core.Tests
                 forces.Add(EnergySlopes.Difference(1e-8, d => EnergyAt(run, d, 0.0)), hub.Force);
                 torques.Add(EnergySlopes.Difference(1e-5, d => EnergyAt(run, 0.0, d)), hub.Torque);
             }
-            forces.AssertBelow(1e-6, 0.1);
-            torques.AssertBelow(1e-6, 1e-7);
+            forces.AssertSmall(0.1);
+            torques.AssertSmall(1e-7);
         }
 
         [Test]
@@ -145,13 +143,11 @@ namespace Guidewire.Core.Tests
             parameters.Method.TimeStep = 1e-4;
             parameters.Method.MaxSimulationSteps = 400;
             Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 Assert.That(run.StepCount < 100 || Math.Abs(run.Hub()!.Force) < 1.02 * 0.1, run.StepCount + " "
                     + run.Hub()!.Force);
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(run.Hub()!.Insertion, Is.GreaterThan(1e-4));
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(0.5 * TipLength + run.Hub()!.Insertion).Within(1e-4));
         }
@@ -171,13 +167,11 @@ namespace Guidewire.Core.Tests
             Vector3d start = run.State.Positions[0];
             int entries = 0;
             int before = run.Hub()?.SpheresInBody ?? 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 entries += run.Hub()!.SpheresInBody != before ? 1 : 0;
                 before = run.Hub()!.SpheresInBody!.Value;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(entries, Is.GreaterThan(4));
             double gone = run.State.Positions[0].Z - start.Z;
             Assert.That(gone + run.Contacts!.DriveShortfall, Is.EqualTo(run.Contacts.DriveAsked).Within(1e-9));
@@ -228,7 +222,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Bent(10, -150.0, 0.1 * TipLength);
             int on = (int)Math.Round(7.3 / perStep);
             int back = (int)Math.Round(7.3 / (1.37 * perStep));
-            double way = on * perStep * TipLength / 10.0;
+            double most = on * perStep * TipLength / 10.0;
             parameters.Scene.TipForce = new Vector3d(0.0, -0.005, 0.0);
             parameters.Material.MassDamping = 0.0;
             double dt = 40.0 * perStep;
@@ -236,7 +230,7 @@ namespace Guidewire.Core.Tests
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.MaxSimulationSteps = 10 + on + back;
             parameters.Drive.Table = new DriveTable(new TimeTable(
-                new[] { 0.0, 10.0 * dt, (10 + on) * dt, (10 + on + back) * dt }, new[] { 0.0, 0.0, way, 0.0 }),
+                new[] { 0.0, 10.0 * dt, (10 + on) * dt, (10 + on + back) * dt }, new[] { 0.0, 0.0, most, 0.0 }),
                 new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
             Simulation run = Simulation.Create(parameters);
             double work = 0.0;
@@ -256,11 +250,11 @@ namespace Guidewire.Core.Tests
             return work;
         }
 
-        private static DriveTable FedAndDrawnBack(int half, double way, SimulationParameters parameters)
+        private static DriveTable FedAndDrawnBack(int half, double most, SimulationParameters parameters)
         {
             double time = half * parameters.Method.TimeStep;
             parameters.Method.MaxSimulationSteps = 2 * half;
-            return new DriveTable(new TimeTable(new[] { 0.0, time, 2.0 * time }, new[] { 0.0, way, 0.0 }),
+            return new DriveTable(new TimeTable(new[] { 0.0, time, 2.0 * time }, new[] { 0.0, most, 0.0 }),
                 new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
         }
 
@@ -297,11 +291,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireLength = Whole;
             parameters.Scene.GuidewireOffset = 1e3 * (isOut - TipLength) + 1e3 * TipLength - Whole;
             parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -60.0), new Vector3d(0.0, 0.0, 100.0) },
-                    new[] { 40.0, 40.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-60.0, 100.0, 40.0);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Material.MassDamping = 50.0;
             parameters.Material.Sections = new[]

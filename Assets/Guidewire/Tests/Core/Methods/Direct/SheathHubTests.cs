@@ -18,11 +18,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireLength = 300.0;
             parameters.Scene.GuidewireOffset = -295.0;
             parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -700.0), new Vector3d(0.0, 0.0, 600.0) },
-                    new[] { 4.0, 4.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-700.0, 600.0, 4.0);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 0.1, 0.11, 0.2 }, new[] { 0.0, 0.0, 0.01, 0.01 }),
@@ -67,7 +63,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double way)
+        public void HubStopsWhereTheWireEnds_AndWhereTheTipIsBackInTheSheath([Values(-1.0, 1.0)] double sense)
         {
             SimulationParameters parameters = Sheathed(20, 0.1, 25.0);
             var hand = new Steering();
@@ -77,27 +73,21 @@ namespace Guidewire.Core.Tests
             parameters.Material.Sections = Array.Empty<WireSection>();
             Simulation run = Simulation.Create(parameters);
             Vector3d start = run.State.Positions[0];
-            hand.Push = way;
-            for (int k = 0; k < 100; k++)
-            {
-                run.Step();
-            }
+            hand.Push = sense;
+            Wires.Step(run, 100);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), "steering has no end: " + run.Reason);
-            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(way > 0.0 ? 0.1 : 0.0).Within(1e-4));
-            double gone = way * (run.State.Positions[0].Z - start.Z);
-            Assert.That(1e3 * way * run.Hub()!.Insertion, Is.EqualTo(gone).Within(1e-3));
+            Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(sense > 0.0 ? 0.1 : 0.0).Within(1e-4));
+            double gone = sense * (run.State.Positions[0].Z - start.Z);
+            Assert.That(1e3 * sense * run.Hub()!.Insertion, Is.EqualTo(gone).Within(1e-3));
             Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(100.0).Within(1e-9));
             Assert.That(run.Contacts.DriveShortfall, Is.EqualTo(100.0 - gone).Within(1e-3));
             // It stays there, and comes away from there as soon as it is asked to.
             Vector3d end = run.State.Positions[0];
             run.Step();
             Assert.That(Vector3d.Distance(run.State.Positions[0], end), Is.LessThan(1e-6));
-            hand.Push = -way;
-            for (int k = 0; k < 10; k++)
-            {
-                run.Step();
-            }
-            Assert.That(way * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
+            hand.Push = -sense;
+            Wires.Step(run, 10);
+            Assert.That(sense * (end.Z - run.State.Positions[0].Z), Is.EqualTo(10.0).Within(1e-3));
             run.End(Outcome.Interrupted, "that will do");
             Assert.That(run.Reason, Does.Contain("reached an end of its sheath"));
         }
@@ -108,12 +98,11 @@ namespace Guidewire.Core.Tests
         {
             Simulation run = Simulation.Create(Weak(limit, timeStep));
             double largest = 0.0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Run(run, () =>
             {
-                run.Step();
                 largest = Math.Max(largest, Math.Abs(run.Hub()!.Force));
                 Assert.That(run.Report()!.Extremes!.AxialForce, Is.EqualTo(largest).Within(1e-12));
-            }
+            });
             // With some limits a snap at the fork draws the wire out: with which, rounding decides.
             Assert.That(run.Outcome == Outcome.Finished
                 || run.Reason.StartsWith(DrivesItselfOut, StringComparison.Ordinal), run.Reason);
@@ -128,11 +117,7 @@ namespace Guidewire.Core.Tests
             foreach (double limit in new[] { 3e-4, 4e-4, 2e-3, 2.1e-3 })
             {
                 Simulation run = Simulation.Create(Weak(limit, 0.01));
-                while (run.Outcome == Outcome.Running)
-                {
-                    run.Step();
-                    Assert.That(Math.Abs(run.Hub()!.Force), Is.LessThanOrEqualTo(limit * (1.0 + 1e-9)));
-                }
+                Wires.Run(run, () => Assert.That(Math.Abs(run.Hub()!.Force), Is.LessThanOrEqualTo(limit * (1.0 + 1e-9))));
                 if (run.Outcome == Outcome.Failed)
                 {
                     failed++;

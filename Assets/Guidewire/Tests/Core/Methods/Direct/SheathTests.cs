@@ -22,9 +22,8 @@ namespace Guidewire.Core.Tests
             double peak = 0.0;
             int least = int.MaxValue;
             int most = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 peak = Math.Max(peak, run.Stress()!.ElasticEnergy);
                 least = Math.Min(least, run.Hub()!.SpheresInBody!.Value);
                 most = Math.Max(most, run.Hub()!.SpheresInBody!.Value);
@@ -34,8 +33,7 @@ namespace Guidewire.Core.Tests
                     Vector3d place = run.State.Positions[i];
                     Assert.That(Math.Abs(place.X) + Math.Abs(place.Y), Is.LessThan(1e-3), "on the sheath's axis");
                 }
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(most - least, Is.GreaterThan(25), "elements came and went");
             StressRecord end = run.Stress()!;
             Assert.That(end.ElasticEnergy + end.KineticEnergy, Is.LessThan(1e-6 * peak));
@@ -60,9 +58,8 @@ namespace Guidewire.Core.Tests
             double atEntry = 0.0;
             double atEntryTurn = 0.0;
             int entries = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 HubRecord hub = run.Hub()!;
                 double jump = Math.Abs(hub.Force - force);
                 double turn = Math.Abs(hub.Torque - torque);
@@ -78,8 +75,7 @@ namespace Guidewire.Core.Tests
                 before = hub.SpheresInBody!.Value;
                 force = hub.Force;
                 torque = hub.Torque;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(entries, Is.GreaterThanOrEqualTo(5), "one in 25 steps of the last 140");
             Assert.That(atEntry, Is.LessThanOrEqualTo(usual));
             Assert.That(atEntryTurn, Is.LessThanOrEqualTo(usualTurn));
@@ -92,11 +88,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Sheathed(40, 0.2, 25.0);
             parameters.Drive.InsertionSpeed = -2.0 * Speed;
             parameters.Method.MaxSimulationSteps = 300;
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
+            Simulation run = Wires.Run(parameters);
             double asked = 1e3 * 2.0 * Speed * 300 * parameters.Method.TimeStep;
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             Assert.That(run.Contacts!.DriveAsked, Is.EqualTo(asked).Within(1e-9));
@@ -179,9 +171,8 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             double largest = 0.0;
             double before = 0.0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 HubRecord hub = run.Hub()!;
                 largest = Math.Max(largest, Math.Abs(hub.Turn + hub.Twist - before));
                 before = hub.Turn + hub.Twist;
@@ -189,8 +180,7 @@ namespace Guidewire.Core.Tests
                 double sheathed = 1.5 - hub.LengthInBody!.Value;
                 Assert.That(-hub.Twist, Is.EqualTo(hub.Torque * sheathed / stiffness).Within(1.5),
                     "what is wound up is the torque's, at step " + run.StepCount);
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(largest, Is.GreaterThan(Math.PI), "it jumped");
         }
 
@@ -202,11 +192,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireLength = 300.0;
             parameters.Scene.GuidewireOffset = -295.0;
             parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -12.0), new Vector3d(0.0, 0.0, 600.0) },
-                    new[] { 4.0, 4.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-12.0, 600.0, 4.0);
             parameters.Drive.Kind = Drive.Displace;
             double stiffness = parameters.Material.YoungsModulus * Math.PI * Radius * Radius;
             parameters.Scene.TipFollowerForce = new Vector3d(0.0, 0.0, 0.2 * stiffness);
@@ -251,11 +237,7 @@ namespace Guidewire.Core.Tests
             // go back.
             SimulationParameters parameters = Sheathed(40, 0.2, 7.0);
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, exit) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, Lumen), new Vector3d(0.0, 0.0, 300.0) },
-                    new[] { Lumen, Lumen }, false, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(Lumen, 300.0, Lumen, openStart: false);
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 1.0, 2.0 }, new[] { 0.0, 0.043, 0.0 }),
                 new TimeTable(new[] { 0.0, 1.0 }, new[] { 0.0, 2.0 }));

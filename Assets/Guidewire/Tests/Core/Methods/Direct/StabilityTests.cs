@@ -134,19 +134,7 @@ namespace Guidewire.Core.Tests
         {
             Assert.That(negative(low), Is.Zero, "stable at the lower end");
             Assert.That(negative(high), Is.GreaterThan(0), "unstable at the upper end");
-            for (int i = 0; i < 40; i++)
-            {
-                double middle = 0.5 * (low + high);
-                if (negative(middle) > 0)
-                {
-                    high = middle;
-                }
-                else
-                {
-                    low = middle;
-                }
-            }
-            return 0.5 * (low + high);
+            return Bisection.Limit(low, high, load => negative(load) == 0, 40);
         }
 
         private static int Negative(MaterialRod rod, RodSupports supports, RodShape shape)

@@ -22,8 +22,7 @@ namespace Guidewire.Core.Tests
             again.Scene.Start = new RodStart(rest.State.Positions, rest.State.Orientations, null, null);
             again.Method.MaxSimulationSteps = 300;
             again.Method.DeltaThreshold = 0.0;
-            Simulation simulation = Wires.Run(again);
-            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+            Simulation simulation = Wires.Finish(again);
             Assert.That(Vector3d.Distance(simulation.State.Positions[N], rest.State.Positions[N]),
                 Is.LessThan(millimetres));
         }
@@ -84,10 +83,7 @@ namespace Guidewire.Core.Tests
                 parameters.Scene.NumberRodElements = 10;
                 parameters.Scene.ProximalEnd = ProximalEnd.Free;
                 parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-                parameters.Scene.Walls = new ContactShape[]
-                {
-                    new PlaneShape(new Vector3d(0.0, -0.5 - gap, 0.0), Vector3d.UnitY),
-                };
+                parameters.Scene.Walls = WallScenes.Floor(-0.5 - gap);
                 parameters.Method.Integrator = Integrator.ImplicitEuler;
                 parameters.Method.TimeStep = 1e-3;
                 parameters.Method.Substeps = 100;
@@ -97,8 +93,7 @@ namespace Guidewire.Core.Tests
                 Assert.That(problem != null, Is.EqualTo(isOutside), problem ?? solver.ToString());
                 if (!isOutside)
                 {
-                    Simulation simulation = Wires.Run(parameters);
-                    Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Finished), simulation.Reason);
+                    Simulation simulation = Wires.Finish(parameters);
                     Assert.That(Math.Abs(simulation.State.Positions[5].Y), Is.LessThan(0.06), solver.ToString());
                 }
             }

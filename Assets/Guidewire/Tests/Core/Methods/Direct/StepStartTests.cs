@@ -68,11 +68,8 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Catheters[0].Drive.RotationSpeed = -3.0;
             parameters.Scene.Catheters[0].LumenFriction = 0.1;
             parameters.Drive.HubForceLimit = limit;
-            parameters.Scene.Walls = hasWalls ? new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 700.0) },
-                    new[] { 5.0, 5.0 }, true, true) { FrictionCoefficient = 0.1 },
-            } : Array.Empty<ContactShape>();
+            parameters.Scene.Walls = hasWalls ? WallScenes.Tube(-10.0, 700.0, 5.0, friction: 0.1)
+                : Array.Empty<ContactShape>();
             AssertSameBits(parameters, 45, 5);
         }
 

@@ -42,8 +42,7 @@ namespace Guidewire.Core.Tests
 
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
+            base.AddBlocks(shape, blocks, gradient, from, to);
             for (int i = from; i < to; i++)
             {
                 blocks[i].A11 += Stiffness[i];
@@ -171,8 +170,7 @@ namespace Guidewire.Core.Tests
 
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
+            base.AddBlocks(shape, blocks, gradient, from, to);
             for (int i = from; i < to; i++)
             {
                 double gap = Gap(shape.X[i]);

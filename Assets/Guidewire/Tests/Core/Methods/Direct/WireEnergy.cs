@@ -2,8 +2,9 @@ using System;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>Energy and momenta of an even round wire without clamps, from positions, velocities, orientations and
-    /// angular velocities alone, in SI; nothing of the product's own sums is used.</summary>
+    /// <summary>Energy and momenta of an even round wire with length and material of <see cref="Rods"/>, without
+    /// clamps, from positions, velocities, orientations and angular velocities alone, in SI; nothing of the product's
+    /// own sums is used.</summary>
     /// <remarks>Along an element the velocity is linear: its kinetic energy is rho A l/6 (v0^2 + v0 v1 + v1^2). Its
     /// strain is R^T d - e3, d = chord over l; a joint turns by the angle between its elements.</remarks>
     internal sealed class WireEnergy
@@ -13,20 +14,16 @@ namespace Guidewire.Core.Tests
         private readonly double _mass;  // of an element, kg
         private readonly double _area;
         private readonly double _second;
-        private readonly double _young;
-        private readonly double _shear;
         private readonly double _rotary;  // rho I l
 
-        public WireEnergy(int n, double length, double radius, double young, double shear, double density)
+        public WireEnergy(int n, double radius)
         {
             _n = n;
-            _l = length / n;
+            _l = Rods.Length / n;
             _area = Math.PI * radius * radius;
             _second = 0.25 * _area * radius * radius;
-            _young = young;
-            _shear = shear;
-            _mass = density * _area * _l;
-            _rotary = density * _second * _l;
+            _mass = Rods.Density * _area * _l;
+            _rotary = Rods.Density * _second * _l;
         }
 
         public double Kinetic { get; private set; }
@@ -66,8 +63,8 @@ namespace Guidewire.Core.Tests
                     + Vector3d.Cross(x[j + 1], a + 2.0 * b)) + Quaterniond.Rotate(q[j], spun);
                 Vector3d strain = Quaterniond.Rotate(q[j].Conjugate, (1.0 / _l) * (x[j + 1] - x[j]))
                     - Vector3d.UnitZ;
-                Elastic += 0.5 * _l * _area * (_shear * (strain.X * strain.X + strain.Y * strain.Y)
-                    + _young * strain.Z * strain.Z);
+                Elastic += 0.5 * _l * _area * (Rods.Shear * (strain.X * strain.X + strain.Y * strain.Y)
+                    + Rods.Young * strain.Z * strain.Z);
                 if (j > 0)
                 {
                     Quaterniond turn = q[j - 1].Conjugate * q[j];
@@ -75,8 +72,8 @@ namespace Guidewire.Core.Tests
                     double angle = 2.0 * Math.Atan2(sine, Math.Abs(turn.W));
                     Vector3d axis = sine > 0.0 ? turn.Imaginary / sine : Vector3d.Zero;
                     Vector3d bend = angle * axis;
-                    Elastic += 0.5 / _l * _second * (_young * (bend.X * bend.X + bend.Y * bend.Y)
-                        + 2.0 * _shear * bend.Z * bend.Z);
+                    Elastic += 0.5 / _l * _second * (Rods.Young * (bend.X * bend.X + bend.Y * bend.Y)
+                        + 2.0 * Rods.Shear * bend.Z * bend.Z);
                 }
             }
             return this;

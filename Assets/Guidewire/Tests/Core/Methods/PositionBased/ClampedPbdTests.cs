@@ -85,10 +85,7 @@ namespace Guidewire.Core.Tests
             RodState unbroken = Wires.Run(whole).State;
             Simulation first = Wires.Run(Clamped(8, 1.5, 0.6, 30));
             Simulation second = first.Continue(Clamped(8, 1.5, 0.6, 90));
-            while (second.Outcome == Outcome.Running)
-            {
-                second.Step();
-            }
+            Wires.Run(second);
             for (int j = 0; j < 8; j++)
             {
                 Quaterniond turn = unbroken.Orientations[j].Conjugate * second.State.Orientations[j];

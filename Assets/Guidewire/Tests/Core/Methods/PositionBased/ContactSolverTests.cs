@@ -6,7 +6,6 @@ namespace Guidewire.Core.Tests
     /// <summary>How a step between walls is divided, what of the drive is left, and how deep the wire is said to
     /// lie.</summary>
     [Category("Target")]
-    [TestFixture]
     internal sealed class ContactSolverTests
     {
         private const int Elements = 6;
@@ -79,17 +78,17 @@ namespace Guidewire.Core.Tests
                 Vector3d end = b;
                 for (int k = 0; k < 200; k++)
                 {
-                    Vector3d way = new Vector3d(0.0, -0.1, 0.0);
-                    double free = wall.TimeOfImpact(at, end, at + way, end + way, Clearance, out _);
+                    Vector3d shift = new Vector3d(0.0, -0.1, 0.0);
+                    double free = wall.TimeOfImpact(at, end, at + shift, end + shift, Clearance, out _);
                     Assert.That(free, Is.LessThanOrEqualTo(1.0));
-                    at += free * way;
-                    end += free * way;
+                    at += free * shift;
+                    end += free * shift;
                 }
                 Assert.That(at.Y, Is.GreaterThan(0.99 * Clearance));
-                foreach (Vector3d way in new[] { 0.5 * Vector3d.UnitZ, 0.5 * Vector3d.UnitY })
+                foreach (Vector3d shift in new[] { 0.5 * Vector3d.UnitZ, 0.5 * Vector3d.UnitY })
                 {
-                    Assert.That(wall.TimeOfImpact(at, end, at + way, end + way, Clearance, out _),
-                        Is.EqualTo(ContactShape.NoImpact), "along " + way);
+                    Assert.That(wall.TimeOfImpact(at, end, at + shift, end + shift, Clearance, out _),
+                        Is.EqualTo(ContactShape.NoImpact), "along " + shift);
                 }
             }
         }
@@ -171,11 +170,11 @@ namespace Guidewire.Core.Tests
         }
 
         // The base goes along z, and the rest follows.
-        private static void Predict(RodState state, double way)
+        private static void Predict(RodState state, double shift)
         {
             for (int i = 0; i <= Elements; i++)
             {
-                state.PredictedPositions[i] = state.Positions[i] + way * Vector3d.UnitZ;
+                state.PredictedPositions[i] = state.Positions[i] + shift * Vector3d.UnitZ;
             }
             Array.Copy(state.Orientations, state.PredictedOrientations, Elements);
         }

@@ -6,7 +6,6 @@ namespace Guidewire.Core.Tests
     /// <summary>What contact does to a wire: pushes straight, by the lever rule, with the force that loads
     /// it.</summary>
     [Category("Target")]
-    [TestFixture]
     internal sealed class ContactTests
     {
         private const double ForceTolerance = 1e-6;    // of the applied force
@@ -22,10 +21,7 @@ namespace Guidewire.Core.Tests
             Simulation simulation = OnASphere(s, ElementContact.Barycentric);
             simulation.State.Forces[0] = new Vector3d(0.0, -(1.0 - s) * Force, 0.0);
             simulation.State.Forces[1] = new Vector3d(0.0, -s * Force, 0.0);
-            for (int k = 0; k < 200; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 200);
             ContactRecord contacts = simulation.Contacts!;
             Vector3d[] x = simulation.State.Positions;
             Assert.That(contacts.Total.Y, Is.EqualTo(Force).Within(ForceTolerance * Force));
@@ -44,10 +40,7 @@ namespace Guidewire.Core.Tests
             Simulation simulation = OnASphere(0.8, ElementContact.Thesis);
             simulation.State.Forces[0] = new Vector3d(0.0, -0.2, 0.0);
             simulation.State.Forces[1] = new Vector3d(0.0, -0.8, 0.0);
-            for (int k = 0; k < 900; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 900);
             Vector3d[] x = simulation.State.Positions;
             Assert.That(Math.Abs(x[1].Y - x[0].Y), Is.GreaterThan(0.01 * Length));
         }
@@ -117,10 +110,7 @@ namespace Guidewire.Core.Tests
             p.Drive.DisplacementDirection = Vector3d.UnitY;
             p.Method.Damping = 0.05;
             Simulation simulation = Simulation.Create(p);
-            for (int k = 0; k < 6000; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 6000);
             double free = p.Pbd.TotalMass * p.Scene.NumberRodElements / (p.Scene.NumberRodElements + 1.0);
             double weight = free * -p.Scene.Gravity.Y;
             ContactRecord contacts = simulation.Contacts!;
@@ -171,11 +161,7 @@ namespace Guidewire.Core.Tests
                 Method = { MaxSimulationSteps = 10, ConstraintSolverSteps = 50, DeltaThreshold = 0.0 },
                 Contact = { SphereRadius = 2.0, CollisionStiffness = 0.1 },
             };
-            Simulation simulation = Simulation.Create(p);
-            while (simulation.Outcome == Outcome.Running)
-            {
-                simulation.Step();
-            }
+            Simulation simulation = Wires.Run(p);
             double reached = simulation.State.Positions[0].Y;
             ContactRecord contacts = simulation.Contacts!;
             Assert.That(reached, Is.LessThan(8.0));
@@ -216,16 +202,9 @@ namespace Guidewire.Core.Tests
             Simulation free = Simulation.Create(p);
             p.Scene.Walls = new ContactShape[] { new PlaneShape(-1000.0 * Vector3d.UnitY, Vector3d.UnitY) };
             Simulation walled = Simulation.Create(p);
-            for (int k = 0; k < 50; k++)
-            {
-                free.Step();
-                walled.Step();
-            }
-            for (int i = 0; i < free.State.SphereCount; i++)
-            {
-                Assert.That(
-                    Vector3d.Distance(walled.State.Positions[i], free.State.Positions[i]), Is.LessThan(1e-10));
-            }
+            Wires.Step(free, 50);
+            Wires.Step(walled, 50);
+            Assert.That(Wires.Distance(walled.State, free.State), Is.LessThan(1e-10));
         }
 
         [Test]

@@ -64,18 +64,15 @@ namespace Guidewire.Core.Tests
                 Pbd = { TotalMass = 0.01 },
                 Method = { ConstraintSolverSteps = 20 },
             });
-            for (int step = 0; step < 50; step++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 50);
             Vector3d centre = Vector3d.Zero;
             foreach (Vector3d x in run.State.Positions)
             {
                 centre += x / 31.0;
             }
-            double way = 1e-4 * 50 * 51 / 2.0;
-            Assert.That(centre.Y, Is.EqualTo(0.3 * way).Within(1e-10));
-            Assert.That(centre.Z - 30.0, Is.EqualTo(-0.2 * way).Within(1e-10));
+            double fall = 1e-4 * 50 * 51 / 2.0;
+            Assert.That(centre.Y, Is.EqualTo(0.3 * fall).Within(1e-10));
+            Assert.That(centre.Z - 30.0, Is.EqualTo(-0.2 * fall).Within(1e-10));
         }
 
         [Test]
@@ -87,10 +84,7 @@ namespace Guidewire.Core.Tests
                 Scene = { Gravity = new Vector3d(0.0, -9.81, 0.0) },
                 Method = { Integrator = Integrator.Euler },
             });
-            for (int step = 0; step < 100; step++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 100);
             foreach (Vector3d x in run.State.Positions)
             {
                 Assert.That(x.Y, Is.EqualTo(-9.81 * 1e-4 * 100 * 101 / 2.0).Within(1e-10));

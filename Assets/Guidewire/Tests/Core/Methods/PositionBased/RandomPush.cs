@@ -2,14 +2,14 @@ using System;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>A wire of random properties that is pushed, and perhaps turned, into the arch by a random way a step
+    /// <summary>A wire of random properties that is pushed, and perhaps turned, into the arch by a random step
     /// until 200 units were asked of it, and what came of that.</summary>
     internal sealed class RandomPush
     {
         private const double Asked = 200.0;    // units
         private readonly SimulationParameters _parameters;
         private readonly Vector3d[] _start;
-        private double _way;                   // of sphere 0, units
+        private double _path;                  // length of the path of sphere 0, units
 
         /// <summary>Draws the wire and pushes it to its end.</summary>
         public RandomPush(int seed, ElementContact rule)
@@ -30,7 +30,8 @@ namespace Guidewire.Core.Tests
         /// <summary>Points of the wire that lay outside the wall after a step, summed over the steps.</summary>
         public int PointsOutside { get; private set; }
 
-        /// <summary>Mean distance of the spheres from their start, as a share of the way asked for.</summary>
+        /// <summary>Mean distance of the spheres from their start, as a fraction of the displacement asked
+        /// for.</summary>
         public double Reached
         {
             get
@@ -45,14 +46,14 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>Share of the way asked for that sphere 0 was not held back by the walls.</summary>
+        /// <summary>Fraction of the displacement asked for in which sphere 0 was not held back by the walls.</summary>
         public double Driven => 1.0 - Contacts.DriveShortfall / Contacts.DriveAsked;
 
-        /// <summary>How far sphere 0 came along the sheath, as a share of the way asked for.</summary>
+        /// <summary>How far sphere 0 came along the sheath, as a fraction of the displacement asked for.</summary>
         public double Advance => (Simulation.State.Positions[0].Z - _start[0].Z) / Contacts.DriveAsked;
 
-        /// <summary>Length of wire that does not reach forward, as a share of the way asked for: in the sheath what is
-        /// not along z, in the vessel what is compressed.</summary>
+        /// <summary>Length of wire that does not reach forward, as a fraction of the displacement asked for: in the
+        /// sheath what is not along z, in the vessel what is compressed.</summary>
         public double TakenUp
         {
             get
@@ -70,9 +71,9 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>Share of the motion that the wire lacks and neither its base nor its shape accounts for: what
+        /// <summary>Fraction of the motion that the wire lacks and neither its base nor its shape accounts for: what
         /// sphere 0 did not advance (shortfall, or turned aside) is lost to all spheres, what buckles and compression
-        /// take up at most to all. A tenth is left to the bend, whose chord is shorter than the way.</summary>
+        /// take up at most to all. A tenth is left to the bend, whose chord is shorter than the path.</summary>
         public double Unexplained => 0.9 - Reached - (1.0 - Advance) - TakenUp;
 
         public override string ToString()
@@ -89,7 +90,7 @@ namespace Guidewire.Core.Tests
                 + ", driven " + Driven.ToString("F3")
                 + ", advance " + Advance.ToString("F3")
                 + ", taken up " + TakenUp.ToString("F3")
-                + ", way " + _way.ToString("F1")
+                + ", path " + _path.ToString("F1")
                 + ", deepest " + Contacts.MaxPenetration.ToString("F2")
                 + ", tip " + Simulation.State.Positions[^1];
         }
@@ -127,7 +128,7 @@ namespace Guidewire.Core.Tests
             {
                 Vector3d before = Simulation.State.Positions[0];
                 Simulation.Step();
-                _way += Vector3d.Distance(before, Simulation.State.Positions[0]);
+                _path += Vector3d.Distance(before, Simulation.State.Positions[0]);
                 PointsOutside += ArchVessel.PointsOutside(Simulation.State);
             }
         }

@@ -6,7 +6,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Wires of all kinds pushed hard into the vessel of the scenes: nothing passes its wall, and they
     /// move.</summary>
-    [TestFixture]
     internal sealed class RandomPushTests
     {
         [Test]
@@ -33,7 +32,7 @@ namespace Guidewire.Core.Tests
                 }
             }
             reached.Sort();
-            TestContext.WriteLine("median share of the motion asked for: " + reached[runs / 2]);
+            TestContext.WriteLine("median fraction of the motion asked for: " + reached[runs / 2]);
             TestContext.WriteLine("lowest: " + reached[0] + "; below 0.9: " + reached.FindIndex(r => r >= 0.9));
             foreach (string words in worst)
             {
@@ -42,13 +41,13 @@ namespace Guidewire.Core.Tests
             Assert.That(passages, Is.EqualTo(0));
             Assert.That(outside, Is.EqualTo(0), "points of the wire outside after a step, asked apart from the count");
             Assert.That(reached[runs / 2], Is.GreaterThanOrEqualTo(0.9));
-            Assert.That(unexplained, Is.LessThanOrEqualTo(0.0), "motion lost for no reason, as a share");
+            Assert.That(unexplained, Is.LessThanOrEqualTo(0.0), "motion lost for no reason, as a fraction");
         }
 
         [Test]
         public void Wire_ThatBacksOutOfTheOpenRim_HasPassedNoWall()
         {
-            // The base is drawn out and aside, 20 radii a step: the straight way of a whole step cuts the rim's edge,
+            // The base is drawn out and aside, 20 radii a step: the straight path of a whole step cuts the rim's edge,
             // around which the wire really went.
             Simulation simulation = Simulation.Create(new SimulationParameters
             {

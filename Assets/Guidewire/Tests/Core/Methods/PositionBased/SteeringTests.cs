@@ -4,7 +4,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     [Category("Target")]
-    [TestFixture]
     public sealed class SteeringTests
     {
         private readonly Steering _hand = new Steering();
@@ -39,16 +38,10 @@ namespace Guidewire.Core.Tests
             double start = simulation.State.Positions[0].Z;
             double tip = simulation.State.Positions[30].Z;
             _hand.Push = 0.2;
-            for (int k = 0; k < 50; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 50);
             Assert.That(simulation.State.Positions[0].Z - start, Is.EqualTo(10.0).Within(1e-9));
             _hand.Push = 0.0;
-            for (int k = 0; k < 2000; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 2000);
             Assert.That(simulation.State.Positions[0].Z - start, Is.EqualTo(10.0).Within(1e-9), "held where it is");
             Assert.That(simulation.State.Positions[30].Z - tip, Is.EqualTo(10.0).Within(1e-3),
                 "a straight wire at rest");
@@ -60,10 +53,7 @@ namespace Guidewire.Core.Tests
             Simulation simulation = Create();
             double start = simulation.State.Positions[0].Z;
             _hand.Push = -0.2;
-            for (int k = 0; k < 50; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 50);
             Assert.That(simulation.State.Positions[0].Z - start, Is.EqualTo(-10.0).Within(1e-9));
         }
 
@@ -72,16 +62,10 @@ namespace Guidewire.Core.Tests
         {
             Simulation simulation = Create();
             _hand.Turn = 0.01;
-            for (int k = 0; k < 100; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 100);
             Assert.That(Turned(simulation.State, 0), Is.EqualTo(1.0).Within(1e-9));
             _hand.Turn = 0.0;
-            for (int k = 0; k < 4000; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 4000);
             Assert.That(Turned(simulation.State, 0), Is.EqualTo(1.0).Within(1e-9));
             Assert.That(Turned(simulation.State, 29), Is.EqualTo(1.0).Within(1e-2), "no torque holds the tip back");
         }

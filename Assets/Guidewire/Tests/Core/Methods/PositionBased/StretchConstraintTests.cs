@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
         public void Stretch_RemovesItsErrorToFirstOrder_WithGainOne()
         {
             // A projection with gain 1 is one Newton step on C = 0: what remains is of second order in C. Across the
-            // element only: along it the orientation's share of the correction is a change of |q|, which is taken out.
+            // element only: along it the orientation's part of the correction is a change of |q|, which is taken out.
             var state = new RodState(1, 10.0, 2.0, 0.0);
             foreach (double size in new[] { 1e-2, 1e-3, 1e-4 })
             {

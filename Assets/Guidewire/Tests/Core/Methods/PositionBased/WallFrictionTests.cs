@@ -6,11 +6,10 @@ namespace Guidewire.Core.Tests
     /// <summary>Coulomb friction of walls: what it takes to push a wire, what a wire at rest holds, how a wire slides
     /// down a slope.</summary>
     [Category("Target")]
-    [TestFixture]
     internal sealed class WallFrictionTests
     {
         private const double Coefficient = 0.3;
-        private const double Share = 0.02;    // of mu times the weight
+        private const double Accuracy = 0.02;    // of mu times the weight
         private const double ConservativeTimeOfImpact = 10.0 / 11.0;    // of the spheres: the first is held
 
         [Test]
@@ -27,7 +26,7 @@ namespace Guidewire.Core.Tests
             // The held sphere carries a little of the wire, which at a gain of 0.01 sinks in by a hundredth of a unit.
             double weight = gain < 0.1 ? wall.Y : Weight(p) * ConservativeTimeOfImpact;
             Assert.That(wall.Y, Is.EqualTo(Weight(p) * ConservativeTimeOfImpact).Within(0.06 * Weight(p)));
-            Assert.That(reaction.Z - Drag(p), Is.EqualTo(Coefficient * weight).Within(Share * Coefficient * weight));
+            Assert.That(reaction.Z - Drag(p), Is.EqualTo(Coefficient * weight).Within(Accuracy * Coefficient * weight));
             Assert.That(wall.Z, Is.EqualTo(-Coefficient * wall.Y).Within(1e-3 * Coefficient * wall.Y));
             Assert.That(simulation.State.Velocities[10].Z, Is.GreaterThan(0.0));
         }
@@ -72,10 +71,7 @@ namespace Guidewire.Core.Tests
             p.Drive.Kind = Drive.Force;
             p.Method.Damping = 0.0;
             Simulation simulation = Simulation.Create(p);
-            for (int k = 0; k < Steps; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, Steps);
             double speed = 0.0;
             foreach (Vector3d v in simulation.State.Velocities)
             {
@@ -134,8 +130,8 @@ namespace Guidewire.Core.Tests
             return motion - Vector3d.Dot(motion, n) * n;
         }
 
-        // How far each sphere is moved by a share of mu times the weight, put on slowly: what is put on at once swings
-        // to twice its force.
+        // How far each sphere is moved by a fraction of mu times the weight, put on slowly: what is put on at once
+        // swings to twice its force.
         private static double[] AfterForce(ElementContact rule, double fraction, out double expected)
         {
             const int Steps = 1500;
@@ -145,10 +141,7 @@ namespace Guidewire.Core.Tests
             double dt = p.Method.TimeStep;
             expected = (fraction - 1.0) * friction * dt / (p.Method.Damping * p.Pbd.TotalMass) * Steps * dt;
             Simulation simulation = Simulation.Create(p);
-            for (int k = 0; k < 500; k++)
-            {
-                simulation.Step();
-            }
+            Wires.Step(simulation, 500);
             var before = (Vector3d[])simulation.State.Positions.Clone();
             for (int k = 0; k < 2 * Steps; k++)
             {

@@ -54,14 +54,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.NumberRodElements = 24;
             parameters.Scene.GuidewireOffset = -100.0;
             parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 300.0) },
-                    new[] { 1e3 * (Radius + Clearance), 1e3 * (Radius + Clearance) }, true, true)
-                {
-                    FrictionCoefficient = Friction,
-                },
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-10.0, 300.0, 1e3 * (Radius + Clearance), friction: Friction);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.HubForceLimit = 0.7 * limit;
             parameters.Material.WireRadius = 0.4e-3;
@@ -84,13 +77,7 @@ namespace Guidewire.Core.Tests
             catheter.Drive.InsertionSpeed = 1e-3 * Asked / 1.2;
             catheter.Drive.HubForceLimit = limit;
             parameters.Scene.Catheters = new[] { catheter };
-            Simulation run = Simulation.Create(parameters);
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            return run;
+            return Wires.Finish(parameters);
         }
     }
 }

@@ -8,61 +8,29 @@ namespace Guidewire.Core.Tests
     /// the dense one.</summary>
     public sealed class CoaxialDerivativeTests
     {
-        // Fourth-order central differences: truncation Step^4, rounding 1e-16/Step of the energy.
-        private const double Step = 1e-3;
-
         // From here on that of three instruments (ThreeTubes.Mixed).
         private const int Three = 10;
 
-        [TestCase(0.05, 2)]
-        [TestCase(0.6, 2)]
-        [TestCase(0.6, 0)]
-        [TestCase(0.6, -1)]
-        [TestCase(0.6, Three)]
-        [TestCase(0.6, Three + 1)]
-        [TestCase(0.6, Three + 2)]
-        [TestCase(0.6, Three + 3)]
+        // Angle, rad, and elements beyond the outer tip.
+        private static readonly object[][] Shapes = { new object[] { 0.05, 2 }, new object[] { 0.6, 2 },
+            new object[] { 0.6, 0 }, new object[] { 0.6, -1 }, new object[] { 0.6, Three },
+            new object[] { 0.6, Three + 1 }, new object[] { 0.6, Three + 2 }, new object[] { 0.6, Three + 3 } };
+
+        [TestCaseSource(nameof(Shapes))]
         public void Gradient_IsTheDifferenceOfTheEnergy(double angle, int beyond)
         {
             CoaxialPair pair = Pair(angle, beyond);
-            double[] exact = Gradient(pair);
-            double largest = 0.0;
-            double worst = 0.0;
-            for (int i = 0; i < exact.Length; i++)
-            {
-                double difference = Difference(s => pair.Bending.Value(Moved(pair, i, s)));
-                worst = Math.Max(worst, Math.Abs(difference - exact[i]));
-                largest = Math.Max(largest, Math.Abs(difference));
-            }
-            Assert.That(worst, Is.LessThan(1e-9 * largest));
+            double[] gradient = Gradient(pair);
+            EnergySlopes.AssertGradient(gradient, gradient.Length, (i, s) => pair.Bending.Value(Moved(pair, i, s)));
         }
 
-        [TestCase(0.05, 2)]
-        [TestCase(0.6, 2)]
-        [TestCase(0.6, 0)]
-        [TestCase(0.6, -1)]
-        [TestCase(0.6, Three)]
-        [TestCase(0.6, Three + 1)]
-        [TestCase(0.6, Three + 2)]
-        [TestCase(0.6, Three + 3)]
+        [TestCaseSource(nameof(Shapes))]
         public void Blocks_AreTheDifferencesOfTheEnergy(double angle, int beyond)
         {
             CoaxialPair pair = Pair(angle, beyond);
-            double[,] exact = Assembled(pair, new EnergyTerm[] { pair.Bending }, 0.0);
-            int count = exact.GetLength(0);
-            double largest = 0.0;
-            double worst = 0.0;
-            for (int i = 0; i < count; i++)
-            {
-                for (int k = 0; k <= i; k++)
-                {
-                    double difference = Difference(s => Difference(t =>
-                        pair.Bending.Value(Moved(pair, i, s, k, t))));
-                    worst = Math.Max(worst, Math.Abs(difference - exact[i, k]));
-                    largest = Math.Max(largest, Math.Abs(difference));
-                }
-            }
-            Assert.That(worst, Is.LessThan(1e-8 * largest));
+            double[,] second = Assembled(pair, new EnergyTerm[] { pair.Bending }, 0.0);
+            EnergySlopes.AssertBlocks(second, second.GetLength(0),
+                (i, s, k, t) => pair.Bending.Value(Moved(pair, i, s, k, t)));
         }
 
         [TestCase(2)]
@@ -93,12 +61,12 @@ namespace Guidewire.Core.Tests
                 }
             }
             double[] expected = DenseMatrix.Solve(DenseMatrix.Cholesky(h), right);
-            AssertEqual(Long(pair, y), expected);
+            DenseMatrix.AssertEqual(Long(pair, y), expected);
 
             // The same by the factorisation that is kept.
             system.Gradient(pair.Terms.All, pair.Shape, gradient, y);
             system.Solve(y);
-            AssertEqual(Long(pair, y), expected);
+            DenseMatrix.AssertEqual(Long(pair, y), expected);
         }
 
         [Test]
@@ -159,8 +127,7 @@ namespace Guidewire.Core.Tests
         private static double[] Gradient(CoaxialPair pair)
         {
             var gradient = new RodVector[pair.Terms.VectorCount];
-            var measured = default(GradientMeasures);
-            pair.Bending.AddGradient(pair.Shape, gradient, 0, pair.Shape.ElementCount + 1, ref measured);
+            pair.Bending.AddGradient(pair.Shape, gradient);
             return Long(pair, gradient);
         }
 
@@ -281,24 +248,6 @@ namespace Guidewire.Core.Tests
             var to = new RodShape(n, pair.Shape.InnerCount);
             RodStep.ApplyStraight(pair.Shape, direction, 1.0, to);
             return to;
-        }
-
-        private static double Difference(Func<double, double> f)
-        {
-            return (8.0 * (f(Step) - f(-Step)) - (f(2.0 * Step) - f(-2.0 * Step))) / (12.0 * Step);
-        }
-
-        private static void AssertEqual(double[] found, double[] expected)
-        {
-            double largest = 0.0;
-            foreach (double value in expected)
-            {
-                largest = Math.Max(largest, Math.Abs(value));
-            }
-            for (int i = 0; i < expected.Length; i++)
-            {
-                Assert.That(found[i], Is.EqualTo(expected[i]).Within(1e-9 * largest), "component " + i);
-            }
         }
     }
 }

@@ -44,14 +44,7 @@ namespace Guidewire.Core.Tests
             int leastBuilt)
         {
             SimulationParameters parameters = Moving(Integrator.ImplicitEuler, wire, catheter);
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 700.0) },
-                    new[] { 6.0, 6.0 }, true, true)
-                {
-                    FrictionCoefficient = 0.1,
-                },
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-10.0, 700.0, 6.0, friction: 0.1);
             parameters.Drive.HubForceLimit = limit;
             parameters.Scene.Catheters[0].Drive.HubForceLimit = limit;
             parameters.Scene.Catheters[0].LumenFriction = 0.1;

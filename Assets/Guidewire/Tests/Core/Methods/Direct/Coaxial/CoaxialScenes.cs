@@ -27,11 +27,7 @@ namespace Guidewire.Core.Tests
                     RestCurvature = new Vector3d(30.0, 0.0, 0.0) },
             };
             var catheter = new Catheter { Length = 250.0, Elements = 25, Start = 100.0 };
-            catheter.Material.WireRadius = 0.83e-3;
-            catheter.Material.InnerRadius = 0.6e-3;
-            catheter.Material.YoungsModulus = 4e9;
-            catheter.Material.ShearModulus = 1.5e9;
-            catheter.Material.Density = 1200.0;
+            SetTube(catheter, 0.83e-3, 0.6e-3, 4e9, 1.5e9);
             catheter.Material.Sections = new[]
             {
                 new WireSection { From = 210.0, To = 250.0, YoungsModulus = 2e9,
@@ -47,11 +43,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = Pair(integrator);
             var outer = new Catheter { Length = 160.0, Elements = 16, Start = 130.0 };
-            outer.Material.WireRadius = 1.35e-3;
-            outer.Material.InnerRadius = 1.0e-3;
-            outer.Material.YoungsModulus = 1e9;
-            outer.Material.ShearModulus = 0.4e9;
-            outer.Material.Density = 1200.0;
+            SetTube(outer, 1.35e-3, 1.0e-3, 1e9, 0.4e9);
             outer.Material.Sections = new[]
             {
                 new WireSection { From = 123.0, To = 160.0, YoungsModulus = 0.6e9,
@@ -59,6 +51,16 @@ namespace Guidewire.Core.Tests
             };
             parameters.Scene.Catheters = new[] { outer, parameters.Scene.Catheters[0] };
             return parameters;
+        }
+
+        /// <summary>Sets the radii, m, and the moduli, Pa, of a catheter of 1200 kg/m^3.</summary>
+        public static void SetTube(Catheter catheter, double radius, double innerRadius, double young, double shear)
+        {
+            catheter.Material.WireRadius = radius;
+            catheter.Material.InnerRadius = innerRadius;
+            catheter.Material.YoungsModulus = young;
+            catheter.Material.ShearModulus = shear;
+            catheter.Material.Density = 1200.0;
         }
 
         /// <summary>Work of both hubs, J, in one cycle, forth and back and turned, slowly: trapezoids of forces and
@@ -70,17 +72,17 @@ namespace Guidewire.Core.Tests
             double l = 0.01;
             int steps = (int)Math.Round(3.2 / perStep);
             double dt = 40.0 * perStep;
-            double way = steps * perStep * l;
+            double top = steps * perStep * l;
             parameters.Material.MassDamping = 0.0;
             parameters.Method.TimeStep = dt;
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.MaxSimulationSteps = 10 + 4 * steps;
             double[] times = { 0.0, 10.0 * dt, (10 + steps) * dt, (10 + 2 * steps) * dt, (10 + 3 * steps) * dt,
                 (10 + 4 * steps) * dt };
-            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, way, way, 0.6 * way, 0.0 }),
+            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 0.0, top, top, 0.6 * top, 0.0 }),
                 new TimeTable(times, new[] { 0.0, 0.0, 0.5, 0.5, 0.0, 0.0 }));
             parameters.Scene.Catheters[0].Drive.Table = new DriveTable(
-                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * way, 0.6 * way, 0.0 }),
+                new TimeTable(times, new[] { 0.0, 0.0, 0.0, 0.6 * top, 0.6 * top, 0.0 }),
                 new TimeTable(times, new[] { 0.0, 0.0, 0.0, -0.4, -0.4, 0.0 }));
             Simulation run = Simulation.Create(parameters);
             double work = 0.0;
@@ -102,22 +104,6 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
             return work;
-        }
-
-        /// <summary>Bytes that 20 steps of a run leave after 20 others.</summary>
-        public static long Garbage(SimulationParameters parameters)
-        {
-            Simulation run = Simulation.Create(parameters);
-            void Steps()
-            {
-                for (int k = 0; k < 20; k++)
-                {
-                    run.Step();
-                }
-            }
-
-            Steps();
-            return Tests.Garbage.LeftBy(Steps);
         }
     }
 }

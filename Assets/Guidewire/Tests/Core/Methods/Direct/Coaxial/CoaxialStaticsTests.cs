@@ -57,13 +57,7 @@ namespace Guidewire.Core.Tests
         public void Stability_EndsAtHalfPi_InSecondOrder()
         {
             // The straight twist theta = pi is stable up to L sqrt(c) = pi/2.
-            double coarse = Threshold(5, 0.0) / (0.5 * Math.PI) - 1.0;
-            double middle = Threshold(10, 0.0) / (0.5 * Math.PI) - 1.0;
-            double fine = Threshold(20, 0.0) / (0.5 * Math.PI) - 1.0;
-            TestContext.WriteLine("errors {0:G4} {1:G4} {2:G4}", coarse, middle, fine);
-            Assert.That(Math.Abs(middle), Is.LessThan(2.5e-3));
-            Assert.That(Math.Log(coarse / middle, 2.0), Is.GreaterThan(1.9));
-            Assert.That(Math.Log(middle / fine, 2.0), Is.GreaterThan(1.9));
+            CoaxialPair.AssertSecondOrder(n => Threshold(n, 0.0) / (0.5 * Math.PI) - 1.0);
         }
 
         [TestCase(0.5)]
@@ -73,16 +67,8 @@ namespace Guidewire.Core.Tests
             // sqrt(c) L_t tan(sqrt(c) L) = 1 with L_t of both; here the inner one alone has a straight length.
             double found = Threshold(10, lead);
             double effective = lead * InnerPart(0.6);
-            double low = 1e-3;
-            double high = 0.5 * Math.PI - 1e-9;
-            for (int k = 0; k < 60; k++)
-            {
-                double middle = 0.5 * (low + high);
-                bool isBelow = middle * effective * Math.Tan(middle) < 1.0;
-                low = isBelow ? middle : low;
-                high = isBelow ? high : middle;
-            }
-            Assert.That(found, Is.EqualTo(low).Within(2.5e-3 * low));
+            double exact = Bisection.Limit(1e-3, 0.5 * Math.PI - 1e-9, root => root * effective * Math.Tan(root) < 1.0);
+            Assert.That(found, Is.EqualTo(exact).Within(2.5e-3 * exact));
         }
 
         // Of the relative twist, that of the inner one where both have the same torque: (1/C_i)/(1/C_o + 1/C_i).
@@ -94,18 +80,9 @@ namespace Guidewire.Core.Tests
         // sqrt(c) at which the twist of pi becomes unstable.
         private static double Threshold(int n, double lead)
         {
-            double low = 0.2;
-            double high = 2.0;
-            for (int k = 0; k < 30; k++)
-            {
-                double root = 0.5 * (low + high);
-                double curvature = Math.Sqrt(root * root / Coupling(0.6, 0.3, 1.0));
-                CoaxialPair pair = Pair(n, 0.6, 0.3, curvature, lead);
-                bool isStable = pair.IsStable(Math.PI);
-                low = isStable ? root : low;
-                high = isStable ? high : root;
-            }
-            return low;
+            double perCurvature = Math.Sqrt(Coupling(0.6, 0.3, 1.0));
+            return Bisection.Limit(0.2, 2.0,
+                root => Pair(n, 0.6, 0.3, root / perCurvature, lead).IsStable(Math.PI), 30);
         }
 
         // Angles at which the branch from 0 ends, as the differential equation has them.
@@ -187,12 +164,9 @@ namespace Guidewire.Core.Tests
         // theta'(0) of theta'' = c sin theta with theta(0) = turn, theta'(1) = 0: by shooting from the tip.
         private static double HubSlope(double c, double turn)
         {
-            double low = 0.0;
-            double high = turn;
             double slope = 0.0;
-            for (int k = 0; k < 60; k++)
+            Bisection.Limit(0.0, turn, tip =>
             {
-                double tip = 0.5 * (low + high);
                 double theta = tip;
                 slope = 0.0;
                 const int steps = 2000;
@@ -204,9 +178,8 @@ namespace Guidewire.Core.Tests
                     theta += h * v;
                     slope = v + 0.5 * h * c * Math.Sin(theta);
                 }
-                low = theta < turn ? tip : low;
-                high = theta < turn ? high : tip;
-            }
+                return theta < turn;
+            });
             return slope;
         }
     }

@@ -20,15 +20,15 @@ namespace Guidewire.Core.Tests
             double grows = Math.Exp(coefficient * Math.PI / 180.0 * degrees);
             Simulation run = Start(coefficient, degrees, out Steering hub, out _);
             hub.Push = -0.05;
-            Step(run, 12);
+            Wires.GoOn(run, 12);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load * grows).Within(Tolerance * Load * grows), "drawn");
             double drawn = run.Coaxial()!.WireForce;
             double both = run.Coaxial()!.Force + drawn;
             hub.Push = 0.0;
-            Step(run, 12);
+            Wires.GoOn(run, 12);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(drawn).Within(Tolerance * Load), "at rest");
             hub.Push = 0.05;
-            Step(run, 12);
+            Wires.GoOn(run, 12);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load / grows).Within(Tolerance * Load), "let out");
             // What friction takes from one hub it gives the other.
             Assert.That(run.Coaxial()!.Force + run.Coaxial()!.WireForce, Is.EqualTo(both).Within(Tolerance * Load));
@@ -45,8 +45,8 @@ namespace Guidewire.Core.Tests
             Simulation free = StartSlipping(0.0, degrees, limit, out Steering freeHub);
             hub.Push = -0.05;
             freeHub.Push = -0.05;
-            Step(run, 12);
-            Step(free, 12);
+            Wires.GoOn(run, 12);
+            Wires.GoOn(free, 12);
             double grown = Load * Math.Exp(coefficient * Math.PI / 180.0 * degrees);
             Assert.That(limit, Is.LessThan(grown), "what it would be");
             Assert.That(run.Coaxial()!.WireForce, Is.InRange(-limit, -0.979 * limit));
@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
         public void HubBeyondItsLimit_IsSaidToBe_WhereItFallsShortOfNothing()
         {
             Simulation run = StartSlipping(0.0, 90.0, 0.5 * Load, out Steering hub, 0.0);
-            Step(run, 3);
+            Wires.GoOn(run, 3);
             run.End(Outcome.Interrupted, "asked");
             Assert.That(run.Coaxial()!.WireShortfall, Is.Zero);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load).Within(Tolerance * Load));
@@ -76,7 +76,7 @@ namespace Guidewire.Core.Tests
         {
             Simulation run = Start(0.0, 90.0, out Steering hub, out _);
             hub.Push = -0.05;
-            Step(run, 12);
+            Wires.GoOn(run, 12);
             Assert.That(run.Coaxial()!.FrictionForce, Is.Zero);
             Assert.That(run.Coaxial()!.WireForce, Is.EqualTo(-Load).Within(Tolerance * Load));
             Assert.That(run.Coaxial()!.OverlapAngle, Is.EqualTo(0.5 * Math.PI).Within(Tolerance));
@@ -99,7 +99,7 @@ namespace Guidewire.Core.Tests
             var friction = new LumenFriction(mu, 1e-6);
             friction.Slide(1e-3);
             Assert.That(friction.Force(force, angle, end), Is.EqualTo(t + mu * end - force).Within(1e-5));
-            // Drawn back, all signs are reversed; in between after half of the way.
+            // Drawn back, all signs are reversed; in between after half of the distance.
             friction.Slide(-1e-3);
             Assert.That(friction.Force(-force, angle, end), Is.EqualTo(-(t + mu * end - force)).Within(1e-5));
             friction.Slide(1e-6);
@@ -147,15 +147,6 @@ namespace Guidewire.Core.Tests
                 -Vector3d.UnitX) };
             parameters.Drive.HubForceLimit = limit;
             return run.Continue(parameters);
-        }
-
-        private static void Step(Simulation run, int steps)
-        {
-            for (int k = 0; k < steps && run.Outcome == Outcome.Running; k++)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
         }
     }
 }

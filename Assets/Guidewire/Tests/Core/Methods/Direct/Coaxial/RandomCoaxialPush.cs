@@ -162,13 +162,8 @@ namespace Guidewire.Core.Tests
                 Start = lead,
                 Drive = { Steering = new Steering() },
             };
-            MaterialParameters material = catheter.Material;
-            material.WireRadius = 1e-3 * _catheterRadius;
-            material.InnerRadius = 0.5e-3 * (_catheterRadius + _wireRadius);
-            material.YoungsModulus = Math.Pow(10.0, random.Number(8.5, 10.0));
-            material.ShearModulus = 0.38 * material.YoungsModulus;
-            material.Density = 1200.0;
-            material.Sections = new[] { Tip(random, length, 20.0) };
+            SetTube(catheter, _catheterRadius, _wireRadius, random.Number(8.5, 10.0));
+            catheter.Material.Sections = new[] { Tip(random, length, 20.0) };
             parameters.Scene.Catheters = new[] { catheter };
             return parameters;
         }
@@ -189,14 +184,16 @@ namespace Guidewire.Core.Tests
                 FrictionCoefficient = random.Index(3) == 0 ? random.Number(0.0, 0.3) : double.NaN,
                 Drive = { Steering = new Steering() },
             };
-            MaterialParameters material = outer.Material;
-            material.WireRadius = 1e-3 * _outerRadius;
-            material.InnerRadius = 0.5e-3 * (_outerRadius + _catheterRadius);
-            material.YoungsModulus = Math.Pow(10.0, random.Number(8.0, 9.5));
-            material.ShearModulus = 0.38 * material.YoungsModulus;
-            material.Density = 1200.0;
-            material.Sections = new[] { Tip(random, outer.Length, 15.0) };
+            SetTube(outer, _outerRadius, _catheterRadius, random.Number(8.0, 9.5));
+            outer.Material.Sections = new[] { Tip(random, outer.Length, 15.0) };
             _parameters.Scene.Catheters = new[] { outer, inner };
+        }
+
+        // Radii in mm of it and of what is inside; E = 10^power Pa.
+        private static void SetTube(Catheter catheter, double radius, double inside, double power)
+        {
+            double young = Math.Pow(10.0, power);
+            CoaxialScenes.SetTube(catheter, 1e-3 * radius, 0.5e-3 * (radius + inside), young, 0.38 * young);
         }
 
         // In one of four both or one of the hubs slip; in one of three the catheter has friction of its own.

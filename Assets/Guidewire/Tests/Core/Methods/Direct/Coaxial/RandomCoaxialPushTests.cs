@@ -8,7 +8,6 @@ namespace Guidewire.Core.Tests
     /// ever outside, and each run ends as asked or says why not.</summary>
     /// <remarks>The environment variable GUIDEWIRE_COAXIAL_PUSHES = FIRST:COUNT asks for other pushes than the first
     /// 100.</remarks>
-    [TestFixture]
     internal sealed class RandomCoaxialPushTests
     {
         // The wire is drawn in by as much a step as is left of its first element beyond the catheter's tip: a

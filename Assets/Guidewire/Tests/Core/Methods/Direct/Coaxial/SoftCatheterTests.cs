@@ -29,10 +29,7 @@ namespace Guidewire.Core.Tests
             double worst = 0.0;
             for (int k = 0; k < Steps; k++)
             {
-                for (int i = 0; i <= Elements; i++)
-                {
-                    worst = Math.Max(worst, (alone[k][i] - soft[k][i]).Length / Length);
-                }
+                worst = Math.Max(worst, Wires.Distance(alone[k], soft[k]) / Length);
             }
             TestContext.WriteLine("{0:G3} of L", worst);
             Assert.That(worst, Is.LessThan(1e-6));
@@ -99,12 +96,10 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Catheters = catheterElements == 0 ? Array.Empty<Catheter>() : new[] { catheter };
             Simulation run = Simulation.Create(parameters);
             var found = new List<Vector3d[]>();
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 found.Add((Vector3d[])run.State.Positions.Clone());
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             return found;
         }
     }

@@ -274,8 +274,7 @@ namespace Guidewire.Core.Tests
             Vector3d x = shape.X[i];
             shape.X[i] = x + step * Vector3d.UnitX;
             var gradient = new RodVector[N + 2];
-            var measured = default(GradientMeasures);
-            energy.AddGradient(shape, gradient, 0, N + 1, ref measured);
+            energy.AddGradient(shape, gradient);
             shape.X[i] = x;
             return -new Vector3d(gradient[i].X1, gradient[i].X2, gradient[i].X3);
         }

@@ -17,8 +17,7 @@ namespace Guidewire.Core.Tests
         {
             FrictionEnergy friction = Create(elasticSlip, out RodShape shape);
             var gradient = new RodVector[N + 2];
-            var measured = default(GradientMeasures);
-            friction.AddGradient(shape, gradient, 0, N + 1, ref measured);
+            friction.AddGradient(shape, gradient);
             double largest = 0.0;
             double worst = 0.0;
             for (int i = 0; i < 6 * N + 3; i++)
@@ -42,13 +41,12 @@ namespace Guidewire.Core.Tests
             double[,] exact = DenseMatrix.From(blocks, N + 1);
             double largest = 0.0;
             double worst = 0.0;
-            var measured = default(GradientMeasures);
             for (int k = 0; k < 6 * N + 3; k++)
             {
                 var above = new RodVector[N + 2];
                 var below = new RodVector[N + 2];
-                friction.AddGradient(Moved(shape, k, Step), above, 0, N + 1, ref measured);
-                friction.AddGradient(Moved(shape, k, -Step), below, 0, N + 1, ref measured);
+                friction.AddGradient(Moved(shape, k, Step), above);
+                friction.AddGradient(Moved(shape, k, -Step), below);
                 for (int i = k; i < 6 * N + 3; i++)
                 {
                     double difference = (Entry(above, i) - Entry(below, i)) / (2.0 * Step);
@@ -67,14 +65,12 @@ namespace Guidewire.Core.Tests
             // f.u = change of F^2/(2k) + heat + k |change of d|^2/2, the last of which is an implicit step's own.
             FrictionEnergy friction = Create(elasticSlip, out RodShape shape);
             var random = new RandomGeometry(41);
-            var measured = default(GradientMeasures);
-            double stored = 0.0;
             double most = 0.0;
             for (int k = 0; k < 300; k++)
             {
                 friction.EndStep(shape);
                 double heat = friction.Anchors.Dissipated;
-                stored = friction.Anchors.StoredEnergy;
+                double stored = friction.Anchors.StoredEnergy;
                 RodShape before = Rods.Copy(shape);
                 // One node or element after the other goes elsewhere, farther and less far from the walls.
                 int i = random.Index(N);
@@ -82,7 +78,7 @@ namespace Guidewire.Core.Tests
                 shape.Q[i] = shape.Q[i] * RotationVector.Exp(0.1 * random.Point());
                 friction.Lag(shape);
                 var gradient = new RodVector[N + 2];
-                friction.AddGradient(shape, gradient, 0, N + 1, ref measured);
+                friction.AddGradient(shape, gradient);
                 double work = 0.0;
                 for (int j = 0; j <= N; j++)
                 {
@@ -133,10 +129,7 @@ namespace Guidewire.Core.Tests
                 new SupportSpring(scene.Rod, 0.0));
             RodDynamics motion = DirectSetup.DynamicsOf(parameters, scene,
                 new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>()));
-            for (int k = 0; k < 5; k++)
-            {
-                Assert.That(motion.Step(1e-3), Is.Null);
-            }
+            Rods.Step(motion, 1e-3, 5);
             double stored = walls.Friction!.Anchors.StoredEnergy;
             var start = new StepStart(motion.SerializeStep);
             start.Save();
@@ -179,16 +172,9 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = OnAnIncline(mu, slope);
             double angle = Math.Atan(slope);
             Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < 200; k++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 200);
             double speed = run.State.Velocities[5].Z;
-            while (run.Outcome == Outcome.Running)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Wires.Finish(run);
             double gain = run.State.Velocities[5].Z - speed;
             double excess = 9810.0 * (Math.Sin(angle) - mu * Math.Cos(angle));
             if (excess > 0.0)
@@ -238,11 +224,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = WallScenes.Wire(30, 1e-3 * radius);
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            var knots = new[] { new Vector3d(0.0, 0.59, -50.0), new Vector3d(0.0, 0.59, 400.0) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true) { FrictionCoefficient = mu },
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 400.0, 1.0, height: 0.59, friction: mu);
             // Node 0 is held where the wall just begins to push.
             parameters.Contact.ContactDistance = 1e-5;
             parameters.Method.TimeStep = 2e-3;
@@ -253,13 +235,11 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             double sum = 0.0;
             double carried = 0.0;   // W, what the clamp leaves of the weight to the wall
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 sum += run.StepCount > 250 ? run.Report()!.ProximalForce!.Value.Z / 250.0 : 0.0;
                 carried += run.StepCount > 250 ? run.Contacts!.Total.Y / 250.0 : 0.0;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
             double beta = Math.Atan(turning);
             Assert.That(carried, Is.EqualTo(weight).Within(0.1 * weight));
@@ -330,16 +310,14 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             double sum = 0.0;
             int count = 0;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 if (run.StepCount > 100)
                 {
                     sum -= run.Report()!.ProximalForce!.Value.Z;
                     count++;
                 }
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             return sum / count;
         }

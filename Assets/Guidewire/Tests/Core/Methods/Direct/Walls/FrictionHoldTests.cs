@@ -25,16 +25,13 @@ namespace Guidewire.Core.Tests
         public void RopeOverADrum_DoesNotMove_BelowItsLimit(double mu, double load)
         {
             Simulation run = OverDrum(mu, load, out _);
-            Go(run, 100);
+            Wires.GoOn(run, 100);
             var before = (Vector3d[])run.State.Positions.Clone();
             double farthest = 0.0;
             for (int k = 0; k < 500; k++)
             {
                 run.Step();
-                for (int i = 0; i < before.Length; i++)
-                {
-                    farthest = Math.Max(farthest, Vector3d.Distance(run.State.Positions[i], before[i]));
-                }
+                farthest = Math.Max(farthest, Wires.Distance(run.State.Positions, before));
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
             Assert.That(farthest, Is.LessThan(1e-3), "mm, from 2 s to 12 s");
@@ -79,10 +76,10 @@ namespace Guidewire.Core.Tests
         public void TurnedInABend_TheTorqueIsThatOfTheLimit_AtAnySpeed(double speed)
         {
             Simulation run = InBend(0.1, out Steering hand);
-            Go(run, 25);
+            Wires.GoOn(run, 25);
             // What is wound up before all of it slips, and the elastic slip, are less than 0.4 rad.
             hand.Turn = speed * Step;
-            Go(run, 50 + (int)(0.4 / hand.Turn));
+            Wires.GoOn(run, 50 + (int)(0.4 / hand.Turn));
             for (int k = 0; k < 20; k++)
             {
                 run.Step();
@@ -100,14 +97,14 @@ namespace Guidewire.Core.Tests
                 Rods.OnlyInFull("ten times the coefficient of friction");
             }
             Simulation run = InBend(mu, out Steering hand);
-            Go(run, 25);
+            Wires.GoOn(run, 25);
             hand.Turn = 4.0 * Math.PI / 200.0;
-            Go(run, 200);
+            Wires.GoOn(run, 200);
             hand.Turn = 0.0;
-            Go(run, 10);
+            Wires.GoOn(run, 10);
             double torque = run.Hub()!.Torque;
             Assert.That(torque, Is.GreaterThan(0.95 * Limit(run, mu, 0.2e-3)));
-            Go(run, (int)(60.0 / Step));
+            Wires.GoOn(run, (int)(60.0 / Step));
             Assert.That(run.Hub()!.Torque / torque, Is.EqualTo(1.0).Within(1e-3));
         }
 
@@ -142,7 +139,7 @@ namespace Guidewire.Core.Tests
             var hand = new Steering();
             parameters.Drive.Steering = hand;
             Simulation run = Simulation.Create(parameters);
-            Go(run, 40);
+            Wires.GoOn(run, 40);
             hand.Push = ring;
             hand.Turn = turning * hand.Push / radius;
             double fraction = Math.Sin(Math.Atan(turning));
@@ -177,11 +174,8 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(whole.Hub()!.Torque, Is.GreaterThan(0.9 * Limit(whole, 0.2, 0.2e-3)));
             Assert.That(part.Hub()!.Torque, Is.EqualTo(whole.Hub()!.Torque));
-            for (int i = 0; i < whole.State.SphereCount; i++)
-            {
-                Assert.That(part.State.Positions[i], Is.EqualTo(whole.State.Positions[i]));
-                Assert.That(part.State.Velocities[i], Is.EqualTo(whole.State.Velocities[i]));
-            }
+            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
+            Assert.That(part.State.Velocities, Is.EqualTo(whole.State.Velocities));
             Assert.That(part.Report()!.Extremes!.FrictionWork, Is.EqualTo(whole.Report()!.Extremes!.FrictionWork));
         }
 
@@ -190,20 +184,20 @@ namespace Guidewire.Core.Tests
         {
             Simulation run = InBend(0.2, out Steering hand);
             SimulationParameters parameters = _last!;
-            Go(run, 25);
+            Wires.GoOn(run, 25);
             hand.Turn = 0.1;
-            Go(run, 30);
+            Wires.GoOn(run, 30);
             hand.Turn = 0.0;
-            Go(run, 10);
+            Wires.GoOn(run, 10);
             double torque = run.Hub()!.Torque;
             Assert.That(torque, Is.GreaterThan(1e-6));
             parameters.Scene.Walls[0].FrictionCoefficient = 0.0;
             run = run.Continue(parameters);
-            Go(run, 100);
+            Wires.GoOn(run, 100);
             Assert.That(Math.Abs(run.Hub()!.Torque), Is.LessThan(1e-3 * torque));
             parameters.Scene.Walls[0].FrictionCoefficient = 0.2;
             run = run.Continue(parameters);
-            Go(run, 20);
+            Wires.GoOn(run, 20);
             Assert.That(Math.Abs(run.Hub()!.Torque), Is.LessThan(1e-3 * torque));
         }
 
@@ -255,12 +249,12 @@ namespace Guidewire.Core.Tests
             var hand = new Steering { Push = 0.5 };
             parameters.Drive.Steering = hand;
             Simulation run = Simulation.Create(parameters);
-            Go(run, 140);
+            Wires.GoOn(run, 140);
             hand.Push = 0.0;
             hand.Turn = 0.05;
-            Go(run, 60);
+            Wires.GoOn(run, 60);
             hand.Turn = 1e-3;
-            Go(run, 20);
+            Wires.GoOn(run, 20);
             double torque = run.Hub()!.Torque;
             Assert.That(torque, Is.GreaterThan(0.9 * Limit(run, 0.2, 0.2e-3)));
             for (int k = 0; k < 350; k++)
@@ -270,17 +264,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static void Go(Simulation run, int steps)
-        {
-            for (int k = 0; k < steps; k++)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
-        }
-
-        // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a share of the limit at node
-        // 0; with share 0 node 0 is drawn.
+        // A rope of 0.6 mm over half a drum of 100 mm, pulled with T1 at its end and with a fraction of the limit at
+        // node 0; with fraction 0 node 0 is drawn.
         private static Simulation OverDrum(double mu, double fraction, out double limit)
         {
             const int n = 70;

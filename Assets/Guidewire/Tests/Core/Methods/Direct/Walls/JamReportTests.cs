@@ -6,10 +6,9 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What is said of a wire between walls whose step has no solution.</summary>
-    [TestFixture]
     internal sealed class JamReportTests
     {
-        /// <summary>A hub that goes on where the walls bar its way: its force and the contact that bears most of it,
+        /// <summary>A hub that goes on where the walls block it: its force and the contact that bears most of it,
         /// on the wire and in the vessel, are named, and what lets it give way.</summary>
         [Test]
         public void Jam_NamesForcePlaceAndLimit()

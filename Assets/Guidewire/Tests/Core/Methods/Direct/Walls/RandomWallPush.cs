@@ -53,8 +53,8 @@ namespace Guidewire.Core.Tests
         /// <summary>Of the wire, units.</summary>
         public double Radius => _radius;
 
-        /// <summary>Whether an obstacle stands across the straight way of the wire, so that none of its elements passes
-        /// as it comes.</summary>
+        /// <summary>Whether an obstacle stands across the straight path of the wire, so that none of its elements
+        /// passes as it comes.</summary>
         public bool IsBlocked => Array.Exists(_parameters.Scene.Walls, wall => wall is ConvexObstacle obstacle
             && DistanceFromAxis(obstacle) < _radius);
 

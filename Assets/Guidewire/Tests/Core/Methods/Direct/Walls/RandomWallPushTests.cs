@@ -1,4 +1,3 @@
-using System;
 using System.Collections.Generic;
 using NUnit.Framework;
 
@@ -8,7 +7,6 @@ namespace Guidewire.Core.Tests
     /// and each run ends as asked or says why not.</summary>
     /// <remarks>The environment variable GUIDEWIRE_WALL_PUSHES = FIRST:COUNT asks for other pushes than the first
     /// 80.</remarks>
-    [TestFixture]
     internal sealed class RandomWallPushTests
     {
         [Test]

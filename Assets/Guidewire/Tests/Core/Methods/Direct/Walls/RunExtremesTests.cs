@@ -9,7 +9,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void WireThatLiesInATube_IsPushedByItsWeightPerLengthAndDiameter()
         {
-            Simulation run = Run(Level(0.0), 400);
+            Simulation run = Wires.GoOn(Simulation.Create(Level(0.0)), 400);
             double weight = 6450.0 * Math.PI * 0.16e-6 * 9.81;   // N/m
             ContactRecord contacts = run.Contacts!;
             Vector3d sum = Vector3d.Zero;
@@ -34,11 +34,11 @@ namespace Guidewire.Core.Tests
             // Pushed along a level tube at 20 mm/s: friction takes what the hub gives, less what the drag does.
             SimulationParameters parameters = Level(0.3);
             parameters.Scene.ProximalEnd = ProximalEnd.Clamped;
-            parameters.Scene.Walls = new ContactShape[] { Tube(0.59, 0.3) };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 400.0, 1.0, height: 0.59, friction: 0.3);
             parameters.Contact.ContactDistance = 1e-5;
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = 0.1;
-            Simulation run = Run(parameters, 200);
+            Simulation run = Wires.GoOn(Simulation.Create(parameters), 200);
             double before = run.Report()!.Extremes!.FrictionWork;
             double push = run.Contacts!.Reaction.Z;
             double drag = 40.0 * 6450.0 * Math.PI * 0.16e-6 * 0.3 * 0.02;
@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
             parameters.Material.Sections = Array.Empty<WireSection>();
             parameters.Scene.Gravity = new Vector3d(0.0, 0.0, 9.81);
             parameters.Scene.InitialState = InitialState.Equilibrium;
-            Simulation run = Run(parameters, 1);
+            Simulation run = Wires.GoOn(Simulation.Create(parameters), 1);
             double wire = 6450.0 * Math.PI * 0.445e-3 * 0.445e-3;    // kg/m
             double section = Math.PI * (0.83e-3 * 0.83e-3 - 0.6e-3 * 0.6e-3);
             // Below the middle of the first element; the catheter's axis has all of the axial force.
@@ -113,10 +113,7 @@ namespace Guidewire.Core.Tests
         public void Extremes_GoOnWithTheRun()
         {
             Simulation run = Simulation.Create(WallScenes.Arch(30, 0.01, 100.0, 60.0));
-            for (int k = 0; k < 50; k++)
-            {
-                run.Step();
-            }
+            Wires.Step(run, 50);
             Simulation next = Simulation.Restore(WallScenes.Arch(30, 0.01, 100.0, 60.0), run.Save());
             Assert.That(next.Report()!.Extremes!.WallPressure, Is.EqualTo(run.Report()!.Extremes!.WallPressure));
             Assert.That(next.Contacts!.ElementForces, Is.EqualTo(run.Contacts!.ElementForces));
@@ -129,32 +126,12 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            parameters.Scene.Walls = new ContactShape[] { Tube(0.0, friction) };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 400.0, 1.0, friction: friction);
             parameters.Method.TimeStep = 5e-3;
             parameters.Material.MassDamping = 40.0;    // 1/s
             parameters.Method.SolverTolerance = 1e-9;
             parameters.Method.MaxSimulationSteps = 1000;
             return parameters;
-        }
-
-        private static TubeShape Tube(double height, double friction)
-        {
-            return new TubeShape(new[] { new Vector3d(0.0, height, -50.0), new Vector3d(0.0, height, 400.0) },
-                new[] { 1.0, 1.0 }, true, true)
-            {
-                FrictionCoefficient = friction,
-            };
-        }
-
-        private static Simulation Run(SimulationParameters parameters, int steps)
-        {
-            Simulation run = Simulation.Create(parameters);
-            for (int k = 0; k < steps; k++)
-            {
-                run.Step();
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
-            return run;
         }
     }
 }

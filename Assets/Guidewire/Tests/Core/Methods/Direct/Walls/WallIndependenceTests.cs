@@ -1,4 +1,3 @@
-using System;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -7,7 +6,7 @@ namespace Guidewire.Core.Tests
     /// whatever the numbers of the method are.</summary>
     public sealed class WallIndependenceTests
     {
-        private const double Way = 150.0;    // mm
+        private const double Insertion = 150.0;    // mm
         private const double Gap = 0.05;     // mm
 
         [Test]
@@ -63,11 +62,10 @@ namespace Guidewire.Core.Tests
 
         private static Vector3d Tip(int n, double timeStep, double gap, ContactShape? vessel = null)
         {
-            SimulationParameters parameters = WallScenes.Arch(n, timeStep, 50.0, Way);
+            SimulationParameters parameters = WallScenes.Arch(n, timeStep, 50.0, Insertion);
             parameters.Scene.Walls = vessel == null ? parameters.Scene.Walls : new[] { vessel };
             parameters.Contact.ContactDistance = 1e-3 * gap;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             return run.State.Positions[n];
         }
     }

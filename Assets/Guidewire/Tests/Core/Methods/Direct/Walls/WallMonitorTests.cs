@@ -23,19 +23,19 @@ namespace Guidewire.Core.Tests
             [Values(0.0, 0.13, 0.2618, 2.0)] double side, [Values(1.1, 3.0, 60.0)] double aside)
         {
             // At angle 0 z = 5.0 and 8.2 lie in an edge along the tube, at 0.13 in the middle of a side.
-            Vector3d[] to = Straight(0.0);
+            Vector3d[] to = Straight();
             to[node] += aside * Across(side);
-            AssertCounted(Inner, Straight(0.0), to);
-            AssertCounted(Both, Straight(0.0), to);
+            AssertCounted(Inner, Straight(), to);
+            AssertCounted(Both, Straight(), to);
         }
 
         [Test]
         public void NodeThatLeavesThroughAVertex_IsCounted([Values(0.0, 1.0, -2.0)] double along)
         {
             // A corner of the mesh is at z = 8 and angle 0; node 8 starts at z = 8.2.
-            Vector3d[] from = Straight(0.0);
+            Vector3d[] from = Straight();
             from[8] = new Vector3d(0.0, 0.0, 8.0 - along);
-            Vector3d[] to = Straight(0.0);
+            Vector3d[] to = Straight();
             to[8] = new Vector3d(2.0, 0.0, 8.0 + along);
             AssertCounted(Inner, from, to);
         }
@@ -44,12 +44,12 @@ namespace Guidewire.Core.Tests
         public void SegmentMovedOut_IsCounted_AndTheWholeWireToo([Values(0.0, 0.07, 2.0)] double side,
             [Values(2, 7, N + 1)] int nodes, [Values(1.05, 40.0)] double aside)
         {
-            Vector3d[] to = Straight(0.0);
+            Vector3d[] to = Straight();
             for (int i = 4; i < Math.Min(4 + nodes, N + 1); i++)
             {
                 to[i] += aside * Across(side);
             }
-            AssertCounted(Inner, Straight(0.0), to);
+            AssertCounted(Inner, Straight(), to);
         }
 
         [Test]
@@ -66,8 +66,8 @@ namespace Guidewire.Core.Tests
         public void WireThatStaysInside_IsNotCounted([Values(0.0, 0.9)] double aside)
         {
             Vector3d[] to = Straight(aside * Across(1.0));
-            AssertCounted(Both, Straight(0.0), to);
-            Assert.That(Count(Both, Straight(0.0), to), Is.Zero);
+            AssertCounted(Both, Straight(), to);
+            Assert.That(Count(Both, Straight(), to), Is.Zero);
         }
 
         private static void AssertCounted(double[] radii, Vector3d[] from, Vector3d[] to)
@@ -114,12 +114,7 @@ namespace Guidewire.Core.Tests
             return shape;
         }
 
-        private static Vector3d[] Straight(double aside)
-        {
-            return Straight(aside * Vector3d.UnitX);
-        }
-
-        private static Vector3d[] Straight(Vector3d aside)
+        private static Vector3d[] Straight(Vector3d aside = default)
         {
             var x = new Vector3d[N + 1];
             for (int i = 0; i <= N; i++)

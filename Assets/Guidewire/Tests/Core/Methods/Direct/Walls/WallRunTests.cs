@@ -35,10 +35,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = WallScenes.OverPlane(n, radius);
             parameters.Contact.ContactDistance = 1e-5;
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new PlaneShape(new Vector3d(0.0, height, 0.0), Vector3d.UnitY),
-            };
+            parameters.Scene.Walls = WallScenes.Floor(height);
             Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
             Assert.That(run.Contacts!.Total.Y, Is.EqualTo(force).Within(0.01 * force));
@@ -63,9 +60,8 @@ namespace Guidewire.Core.Tests
             double worstAtEnd = 0.0;
             double meanOff = 0.0;
             Vector3d before = Vector3d.Zero;
-            while (run.Outcome == Outcome.Running)
+            Wires.Finish(run, () =>
             {
-                run.Step();
                 Vector3d momentum = WallScenes.Momentum(run.State);
                 // Of what is asked of a node at rest at the start, one step is no motion by implicit stages alone.
                 if (run.StepCount > 1)
@@ -79,8 +75,7 @@ namespace Guidewire.Core.Tests
                     worst = Math.Max(worst, Vector3d.Distance(change, given));
                 }
                 before = momentum;
-            }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            });
             Assert.That(run.Report()!.HalvedSteps, Is.EqualTo(0.0));
             Assert.That(peak, Is.GreaterThan(0.1));
             Assert.That(worst, Is.LessThan(1e-6 * peak));
@@ -97,17 +92,12 @@ namespace Guidewire.Core.Tests
             // 12 mm against the end of a tube that lets it bend nowhere.
             SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
             parameters.Scene.GuidewireOffset = 0.0;
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 300.0) },
-                    new[] { 0.5, 0.5 }, true, false),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 300.0, 0.5, openEnd: false);
             parameters.Drive.Kind = Drive.Push;
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 12;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double change = (run.State.Positions[30].Z - run.State.Positions[0].Z) / 300.0 - 1.0;
             Assert.That(change, Is.LessThan(-0.02));
             Assert.That(run.Warnings, Does.Contain(string.Format(System.Globalization.CultureInfo.InvariantCulture,
@@ -122,17 +112,12 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.ProximalEnd = ProximalEnd.Free;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            var knots = new[] { new Vector3d(0.0, 0.0, -10.0), new Vector3d(0.0, 0.0, 310.0) };
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new TubeShape(knots, new[] { 1.0, 1.0 }, true, true),
-            };
+            parameters.Scene.Walls = WallScenes.Tube(-10.0, 310.0, 1.0);
             parameters.Method.TimeStep = 5e-3;
             parameters.Material.MassDamping = 40.0;    // 1/s
             parameters.Method.SolverTolerance = 1e-9;
             parameters.Method.MaxSimulationSteps = 400;
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
             Assert.That(run.Contacts!.Total.Y, Is.EqualTo(weight).Within(1e-6 * weight));
             Assert.That(Math.Abs(run.Contacts.Total.X), Is.LessThan(1e-6 * weight));
@@ -146,8 +131,7 @@ namespace Guidewire.Core.Tests
         [TestCase(1000.0, 0.01)]
         public void Push_IntoAnArch_StaysInside(double speed, double timeStep)
         {
-            Simulation run = Wires.Run(WallScenes.Arch(60, timeStep, speed, 150.0));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Arch(60, timeStep, speed, 150.0));
             Assert.That(run.Contacts!.Passages, Is.EqualTo(0));
             Assert.That(run.Contacts.MaxPenetration, Is.EqualTo(0.0));
             Assert.That(run.Contacts.DriveAsked, Is.EqualTo(150.0).Within(1e-9));
@@ -161,8 +145,7 @@ namespace Guidewire.Core.Tests
         public void ElementsBetweenNodes_KeepOffTheInnerWall()
         {
             // 12 elements of 25 mm: their chords would cut 3 mm into the inner side of the bend.
-            Simulation run = Wires.Run(WallScenes.Arch(24, 0.01, 50.0, 100.0));
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(WallScenes.Arch(24, 0.01, 50.0, 100.0));
             Assert.That(run.Contacts!.MaxPenetration, Is.EqualTo(0.0));
             Assert.That(run.State.Positions[24].Y, Is.GreaterThan(50.0));
         }
@@ -173,22 +156,7 @@ namespace Guidewire.Core.Tests
         {
             SimulationParameters parameters = WallScenes.Arch(30, 0.01, 50.0, 100.0);
             parameters.Drive.TwistPerStep = 0.02;
-            Simulation whole = Simulation.Create(parameters);
-            Simulation part = Simulation.Create(parameters);
-            for (int k = 0; k < 150; k++)
-            {
-                whole.Step();
-                if (k == 100)
-                {
-                    part = part.Continue(parameters);
-                }
-                part.Step();
-            }
-            for (int i = 0; i <= 30; i++)
-            {
-                Assert.That(part.State.Positions[i], Is.EqualTo(whole.State.Positions[i]));
-                Assert.That(part.State.Velocities[i], Is.EqualTo(whole.State.Velocities[i]));
-            }
+            Simulation whole = Wires.RunInParts(parameters, 150, 100, 125, out Simulation part);
             Assert.That(part.Contacts!.DriveAsked, Is.EqualTo(whole.Contacts!.DriveAsked));
         }
 
@@ -204,26 +172,16 @@ namespace Guidewire.Core.Tests
                 parameters.Method.DeltaThreshold = 0.0;
             }
             parameters.Scene.GuidewireOffset = 0.0;
-            var knots = new[] { new Vector3d(0.0, 0.0, -50.0), new Vector3d(0.0, 0.0, 305.0) };
-            parameters.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 2.0 }, true, true) };
+            parameters.Scene.Walls = WallScenes.Tube(-50.0, 305.0, 2.0);
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 60;
-            Simulation whole = Simulation.Create(parameters);
-            Simulation part = Simulation.Create(parameters);
-            for (int k = 0; k < 50; k++)
-            {
-                whole.Step();
-                part = k == 30 ? part.Continue(parameters)
-                    : k == 40 ? Simulation.Restore(parameters, part.Save()) : part;
-                part.Step();
-            }
+            Simulation whole = Wires.RunInParts(parameters, 50, 30, 40, out _);
             Assert.That(whole.State.Positions[30].Z, Is.GreaterThan(320.0), whole.Reason);
-            Assert.That(part.State.Positions, Is.EqualTo(whole.State.Positions));
             // Between walls that it is across it does not go on.
             SimulationParameters across = parameters.Copy();
-            knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };
+            var knots = new[] { new Vector3d(0.0, 1.9, -50.0), new Vector3d(0.0, 1.9, 305.0) };
             across.Scene.Walls = new ContactShape[] { new TubeShape(knots, new[] { 2.0, 1.0 }, true, true) };
             Assert.Throws<ArgumentException>(() => whole.Continue(across));
         }
@@ -342,8 +300,7 @@ namespace Guidewire.Core.Tests
                     new Vector3d(0.0, 0.0, 22.0), new Vector3d(0.0, 0.0, 32.0), new Vector3d(0.0, 40.0, 200.0),
                 },
                 new[] { 3.0, 3.0, 0.48, 0.48, 3.0, 3.0 }, true, true) };
-            Simulation run = Wires.Run(parameters);
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Simulation run = Wires.Finish(parameters);
             parameters.Contact.ContactDistance = 1e-4;
             run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);

@@ -55,10 +55,27 @@ namespace Guidewire.Core.Tests
             return new MeshShape(mesh.Build(places[0], places[places.Count - 1]));
         }
 
+        /// <summary>A horizontal plane at this height, units, under the wire.</summary>
+        public static ContactShape[] Floor(double height)
+        {
+            return new ContactShape[] { new PlaneShape(new Vector3d(0.0, height, 0.0), Vector3d.UnitY) };
+        }
+
+        /// <summary>A straight tube along z, all in units.</summary>
+        /// <param name="height">Of its axis, along y.</param>
+        public static ContactShape[] Tube(double from, double to, double radius, bool openStart = true,
+            bool openEnd = true, double height = 0.0, double friction = 0.0)
+        {
+            var knots = new[] { new Vector3d(0.0, height, from), new Vector3d(0.0, height, to) };
+            var tube = new TubeShape(knots, new[] { radius, radius }, openStart, openEnd);
+            tube.FrictionCoefficient = friction;
+            return new ContactShape[] { tube };
+        }
+
         /// <summary>A nitinol wire, r = 0.4 mm and 300 mm long, that is pushed from the sheath into the arch.</summary>
         /// <param name="speed">mm/s.</param>
-        /// <param name="way">mm.</param>
-        public static SimulationParameters Arch(int n, double timeStep, double speed, double way)
+        /// <param name="insertion">mm.</param>
+        public static SimulationParameters Arch(int n, double timeStep, double speed, double insertion)
         {
             var parameters = Wire(n, 0.4e-3);
             parameters.Scene.GuidewireOffset = -300.0;
@@ -66,7 +83,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.Kind = Drive.Displace;
             parameters.Drive.DisplacementPerStep = speed * timeStep;
             parameters.Method.TimeStep = timeStep;
-            parameters.Method.MaxSimulationSteps = (int)Math.Round(way / (speed * timeStep));
+            parameters.Method.MaxSimulationSteps = (int)Math.Round(insertion / (speed * timeStep));
             return parameters;
         }
 
@@ -76,10 +93,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = Wire(n, radius);
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
-            parameters.Scene.Walls = new ContactShape[]
-            {
-                new PlaneShape(new Vector3d(0.0, -20.0, 0.0), Vector3d.UnitY),
-            };
+            parameters.Scene.Walls = Floor(-20.0);
             parameters.Method.TimeStep = 5e-3;
             parameters.Material.MassDamping = 10.0;    // 1/s
             parameters.Method.DeltaThreshold = 1e-6;
@@ -116,7 +130,7 @@ namespace Guidewire.Core.Tests
 
         /// <summary>The same scene for xpbd with one sweep a substep; a soft wire's substeps are long.</summary>
         /// <param name="young">E, Pa.</param>
-        /// <param name="share">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
+        /// <param name="fraction">Of the time, l sqrt(rho/E), that sound takes along an element.</param>
         public static SimulationParameters Compliant(SimulationParameters scene, double young, double fraction = 0.4)
         {
             SimulationParameters parameters = Soft(scene, young);
