@@ -117,7 +117,8 @@ namespace Guidewire.Core.Tests
             foreach (double limit in new[] { 3e-4, 4e-4, 2e-3, 2.1e-3 })
             {
                 Simulation run = Simulation.Create(Weak(limit, 0.01));
-                Wires.Run(run, () => Assert.That(Math.Abs(run.Hub()!.Force), Is.LessThanOrEqualTo(limit * (1.0 + 1e-9))));
+                Wires.Run(run, () =>
+                    Assert.That(Math.Abs(run.Hub()!.Force), Is.LessThanOrEqualTo(limit * (1.0 + 1e-9))));
                 if (run.Outcome == Outcome.Failed)
                 {
                     failed++;
