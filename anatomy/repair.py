@@ -198,11 +198,11 @@ class _Work:
         rims = find_rims(part, Edges.of(part))
         # Where the walls cross, the border between them may have gone from one to the other.
         if any(np.linalg.norm(points - rim.centre, axis=1).min(initial=np.inf) < 2.0 * rim.radius for rim in rims):
-            raise AnatomyError(f"the walls of a double wall cross each other, {_listed(self._stretches(points))}: which "
-                               "one is the lumen's is not certain there")
+            raise AnatomyError(f"the walls of a double wall cross each other, {_listed(self._stretches(points))}: "
+                               "which one is the lumen's is not certain there")
         for place, crossings in self._stretches(between):
-            self._note("crossings of the two walls of a double wall, of which the inner one is kept as it is", crossings,
-                       0.0, place)
+            self._note("crossings of the two walls of a double wall, of which the inner one is kept as it is",
+                       crossings, 0.0, place)
         ends = [rim for rim in sort_rims(part, rims) if not rim.is_hole]
         deepest = [((part.vertices[rim.vertices] - rim.centre) @ rim.normal).max() for rim in ends]
         for rim, depth in zip(ends, deepest):
