@@ -148,7 +148,16 @@ def find_rims(mesh: Mesh, edges: Edges) -> list[Rim]:
 def find_bodies(mesh: Mesh) -> np.ndarray:
     """(t,): the body of each triangle, 0 the one with the most triangles; triangles at one vertex are of one body."""
     a, b, c = mesh.triangles.T
-    labels = _labels(len(mesh.vertices), np.r_[a, b], np.r_[b, c])[a]
+    return _ranked(_labels(len(mesh.vertices), np.r_[a, b], np.r_[b, c])[a])
+
+
+def find_sheets(mesh: Mesh) -> np.ndarray:
+    """(t,): as bodies, but only triangles on the two sides of an edge of two are of one sheet."""
+    return _ranked(_labels(len(mesh.triangles), *Edges.of(mesh).pairs().T))
+
+
+def _ranked(labels: np.ndarray) -> np.ndarray:
+    """(t,): numbers from 0 instead of labels, 0 for the most frequent one."""
     _, inverse, counts = np.unique(labels, return_inverse=True, return_counts=True)
     rank = np.empty(len(counts), dtype=int)
     rank[np.argsort(-counts, kind="stable")] = np.arange(len(counts))

@@ -7,23 +7,29 @@ distance comes last, and only where crossings or edges of more than two triangle
 from __future__ import annotations
 
 from dataclasses import dataclass
+from itertools import permutations
 
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.spatial import cKDTree
 
 from anatomy.distance_grid import cut_open, remesh
 from anatomy.double_wall import inner_wall
 from anatomy.inspection import (facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
                                 without_fins, without_slivers)
 from anatomy.intersections import relaxed, self_intersections
-from anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, signed_volume
+from anatomy.medial_graph import WallDistance
+from anatomy.mesh import (AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, find_sheets,
+                          signed_volume)
 from anatomy.surfaces import distances
 
 _FACING = 0.3
 _ROUNDS = 3
 _MOST_MOVED = 0.25  # of the typical radius, by a lid
 _STRAY = 0.05  # of the largest body's box: a body up to that is a remnant
+_NESTED = 0.5  # of the largest sheet's box: a wall of a nested pair is at least so large
+_WITHIN = 0.6  # of the vertices of the inner wall of a nested pair that crosses or touches lie within the outer one
 
 
 @dataclass(frozen=True)
@@ -77,6 +83,7 @@ def repair(mesh: Mesh) -> Repaired:
     work = _Work(mesh)
     work.weld()
     work.drop_slivers()
+    work.keep_inner_sheet()
     work.drop_bodies()
     work.keep_inner_wall()
     work.cut_crowded()
@@ -96,6 +103,7 @@ class _Work:
         self.mesh = mesh
         self.changes: list[Change] = []
         self._removed: Mesh | None = None  # the wall where triangles were taken out
+        self._ends: list[tuple[Rim, np.ndarray]] = []  # before that: the rims, and their vertices' places
 
     def _note(self, name: str, count: int, moved: float = 0.0, place: np.ndarray | None = None) -> None:
         if count:
@@ -115,6 +123,41 @@ class _Work:
         self.mesh, places = without_slivers(self.mesh)
         self._note("triangles without area, or duplicates removed", len(places), 0.0,
                    places[0] if len(places) else None)
+
+    def keep_inner_sheet(self) -> None:
+        """Of two nested walls that cross, or that share vertices where they touch, the inner one. Sheets are joined at
+        edges of two triangles only."""
+        sheets = find_sheets(self.mesh)
+        extents = [np.ptp(self.mesh.part(sheets == k).vertices, axis=0).max() for k in range(sheets.max() + 1)]
+        large = [k for k, extent in enumerate(extents) if extent > _NESTED * max(extents)]
+        if len(large) < 2:
+            return
+        points, pairs = self_intersections(self.mesh)
+        for outer, inner in permutations(large, 2):
+            crossing = (np.sort(sheets[pairs], axis=1) == sorted((outer, inner))).all(axis=1)
+            is_shared = np.isin(self.mesh.triangles[sheets == inner], self.mesh.triangles[sheets == outer])
+            shared = np.unique(self.mesh.triangles[sheets == inner][is_shared])
+            if not (crossing.any() or len(shared)):
+                continue
+            if _fraction_within(self.mesh.part(sheets == inner), self.mesh.part(sheets == outer)) < _WITHIN:
+                continue
+            at = np.concatenate([points[crossing], self.mesh.vertices[shared]])
+            for place, count in self._stretches(at):
+                self._note("crossings and common vertices of two nested walls, of which the inner one is kept as it is",
+                           count, 0.0, place)
+            self.mesh = self.mesh.part(sheets != outer)
+            return
+
+    def _stretches(self, points: np.ndarray) -> list[tuple[np.ndarray, int]]:
+        """Points (k, 3) near each other in one stretch of the wall: middle and number of each, the longest first."""
+        if not len(points):
+            return []
+        reach = 2.0 * float(np.quantile(self.mesh.edge_lengths(), 0.9))
+        pairs = cKDTree(points).query_pairs(reach, output_type="ndarray")
+        graph = coo_matrix((np.ones(len(pairs)), pairs.T), shape=(len(points), len(points)))
+        labels = connected_components(graph, directed=False)[1]
+        found = [(points[labels == k].mean(axis=0), int((labels == k).sum())) for k in range(labels.max() + 1)]
+        return sorted(found, key=lambda stretch: -stretch[1])
 
     def drop_bodies(self) -> None:
         bodies = find_bodies(self.mesh)
@@ -149,7 +192,18 @@ class _Work:
             return
         part, thickness = inner_wall(self.mesh)
         count = len(self.mesh.triangles) - len(part.triangles)
-        ends = [rim for rim in sort_rims(part, find_rims(part, Edges.of(part))) if not rim.is_hole]
+        points, pairs = self_intersections(self.mesh)
+        is_inner = np.isin(_keys(self.mesh), _keys(part))
+        between = points[is_inner[pairs[:, 0]] != is_inner[pairs[:, 1]]]
+        rims = find_rims(part, Edges.of(part))
+        # Where the walls cross, the border between them may have gone from one to the other.
+        if any(np.linalg.norm(points - rim.centre, axis=1).min(initial=np.inf) < 2.0 * rim.radius for rim in rims):
+            raise AnatomyError(f"the walls of a double wall cross each other, {_listed(self._stretches(points))}: "
+                               "which one is the lumen's is not certain there")
+        for place, crossings in self._stretches(between):
+            self._note("crossings of the two walls of a double wall, of which the inner one is kept as it is",
+                       crossings, 0.0, place)
+        ends = [rim for rim in sort_rims(part, rims) if not rim.is_hole]
         deepest = [((part.vertices[rim.vertices] - rim.centre) @ rim.normal).max() for rim in ends]
         for rim, depth in zip(ends, deepest):
             inside = max(depth, 0.0) + thickness
@@ -201,6 +255,8 @@ class _Work:
         place = self.mesh.corners[bad][0].mean(axis=0)
         self._note(name, int(bad.sum()), 0.0, place)
         before = self.mesh
+        if self._removed is None:
+            self._ends = [(rim, before.vertices[rim.vertices]) for rim in find_rims(before, Edges.of(before))]
         work = before.part(~bad)
         # A vertex between two fans would leave rims that touch: the smaller fan goes as well.
         for _ in range(20):
@@ -217,7 +273,8 @@ class _Work:
         if not rims:
             return
         typical = typical_radius(self.mesh)
-        holes = [rim for rim in rims if rim.is_hole or (self._removed is not None and rim.radius < 0.25 * typical)]
+        holes = [rim for rim in rims if rim.is_hole or (self._removed is not None and (
+            rim.radius < 0.25 * typical or not self._is_end(rim)))]
         if holes:
             depth = max(_bulge(self.mesh, rim) for rim in holes)
             filled, _ = without_slivers(close_rims(self.mesh, holes))
@@ -226,6 +283,13 @@ class _Work:
                 depth = float(distances(np.concatenate([gone.vertices, gone.corners.mean(axis=1)]), filled).max())
             self._note("holes in the side filled", len(holes), depth, holes[0].centre)
             self.mesh = filled
+
+    def _is_end(self, rim: Rim) -> bool:
+        """Whether a rim was there before triangles were taken out, at least in part, or lies where one was."""
+        places = self.mesh.vertices[rim.vertices]
+        return any(np.isin(_rows(places), _rows(known)).any() or
+                   np.linalg.norm(rim.centre - before.centre) < max(rim.radius, before.radius)
+                   for before, known in self._ends)
 
     def remesh_if_needed(self) -> None:
         edges = Edges.of(self.mesh)
@@ -256,14 +320,29 @@ class _Work:
 
 def _keys(mesh: Mesh) -> np.ndarray:
     """(t,): a number of each triangle's middle, the same for the same middle."""
-    middles = np.ascontiguousarray(mesh.corners.mean(axis=1) + 0.0)
-    return middles.view(np.dtype((np.void, 24))).ravel()
+    return _rows(mesh.corners.mean(axis=1))
+
+
+def _rows(points: np.ndarray) -> np.ndarray:
+    """(k,): a number of each point (k, 3), the same for the same place."""
+    return np.ascontiguousarray(points + 0.0).view(np.dtype((np.void, 24))).ravel()
 
 
 def _bulge(mesh: Mesh, rim: Rim) -> float:
     """How far the wall may have been from a flat lid over a hole: that of a sphere, at most its radius."""
     off = np.abs((mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max()
     return float(min(max(off, 0.1 * rim.radius), max(rim.radius, off)))
+
+
+def _fraction_within(inner: Mesh, outer: Mesh) -> float:
+    """Of sampled vertices of a surface, those within another one, its rims closed."""
+    rims = find_rims(outer, Edges.of(outer))
+    points = inner.vertices[:: max(1, len(inner.vertices) // 300)]
+    return float(WallDistance(close_rims(outer, rims) if rims else outer).inside(points).mean())
+
+
+def _listed(stretches: list[tuple[np.ndarray, int]]) -> str:
+    return "; ".join(f"{count} times around {np.round(place, 4).tolist()}" for place, count in stretches)
 
 
 def _inner_body(mesh: Mesh, bodies: np.ndarray) -> int:

@@ -23,6 +23,7 @@ from collections.abc import Callable
 
 import numpy as np
 from scipy.interpolate import CubicSpline
+from scipy.spatial import cKDTree
 
 from anatomy.centreline import resample
 from anatomy.mesh import Mesh
@@ -61,7 +62,7 @@ def make(kind: str, number: int, seed: int, stenosis: float | None, aneurysm: fl
             tubes[tube] = _changed(tubes[tube], place, factor)
             at = tubes[tube].points[int(place * (len(tubes[tube].points) - 1))]
             notes.append(f"{name} of {factor:g} diameters at {np.round(at, 1).tolist()}")
-    carina = _CARINA * max(float(tube.radii.max()) for tube in tubes[1:]) if len(tubes) > 1 else 1.0
+    carina = _carina(tubes)
     notes.insert(0, f"{kind}{f' of type {number}' if kind == 'arch' else ''}, seed {seed}: {len(tubes)} tubes, edges "
                     f"between them rounded with {carina:.2g} mm")
     return mesh_of_tubes(tubes, carina), "mm", notes
@@ -70,7 +71,29 @@ def make(kind: str, number: int, seed: int, stenosis: float | None, aneurysm: fl
 def tubes_of(kind: str, number: int, seed: int) -> tuple[list[Tube], tuple[tuple[int, float], tuple[int, float]]]:
     """The tubes of an anatomy, mm, and where a stenosis and an aneurysm are: index of a tube, fraction of its length.
     """
-    return _KINDS[kind](np.random.default_rng([seed, number]), number)
+    rng = np.random.default_rng([seed, number])
+    while True:
+        tubes, places = _KINDS[kind](rng, number)
+        if _are_apart(tubes):
+            return tubes, places
+
+
+def _carina(tubes: list[Tube]) -> float:
+    """Radius of curvature of the edges between tubes, mm."""
+    return _CARINA * max(float(tube.radii.max()) for tube in tubes[1:])
+
+
+def _are_apart(tubes: list[Tube]) -> bool:
+    """Whether walls that have parted stay farther apart than a carina is thick: the ball that rounds an edge does not
+    fit between nearer ones, and their lumens would be joined there."""
+    least = 2.0 * _carina(tubes)
+    for k, tube in enumerate(tubes):
+        for other in tubes[:k]:
+            away, nearest = cKDTree(other.points).query(tube.points)
+            is_apart = away - other.radii[nearest] - tube.radii > least
+            if is_apart.any() and not is_apart[is_apart.argmax():].all():
+                return False
+    return True
 
 
 def tube_mesh(points: np.ndarray, radii: np.ndarray) -> Mesh:

@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
+import re
+
 import numpy as np
 import pytest
 
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
 from anatomy.double_wall import _least_border, inner_wall  # noqa: E402
-from anatomy.tests.solids import SLANT, double_walled, tube  # noqa: E402
+from anatomy.inspection import inspect  # noqa: E402
+from anatomy.mesh import AnatomyError, Edges, Mesh, close_rims, find_rims  # noqa: E402
+from anatomy.repair import repair  # noqa: E402
+from anatomy.surfaces import distances  # noqa: E402
+from anatomy.tests.solids import SLANT, double_walled, frame, joined, tube  # noqa: E402
 
 
 @pytest.mark.parametrize("seed", range(3))
@@ -32,3 +38,73 @@ def test_the_inner_wall_has_the_lumens_radius_and_the_thickness_is_the_walls() -
     radii = np.linalg.norm(part.vertices - (part.vertices @ SLANT)[:, None] * SLANT, axis=1)
     assert np.allclose(radii[middle], 3.0) and np.ptp(part.vertices @ SLANT) > 35.0
     assert thickness == pytest.approx(1.0, rel=0.02)
+
+
+def bulged(mesh: Mesh, size: float, *places: float) -> Mesh:
+    """The mesh displaced sideways by a size at places along its axis, smoothly over 5 mm."""
+    along = mesh.vertices @ SLANT
+    bump = sum(np.exp(-((along - place) / 5.0)**2) for place in places)
+    return Mesh(mesh.vertices + size * bump[:, None] * frame(SLANT)[0], mesh.triangles)
+
+
+def part_bulged(mesh: Mesh, count: int, size: float, *places: float) -> Mesh:
+    """A double wall, the vertices of its inner wall, from `count` on, displaced."""
+    moved = bulged(mesh, size, *places).vertices
+    return Mesh(np.concatenate([mesh.vertices[:count], moved[count:]]), mesh.triangles)
+
+
+def closed(mesh: Mesh) -> Mesh:
+    return close_rims(mesh, find_rims(mesh, Edges.of(mesh)))
+
+
+def inner_and_outer(kind: str, size: float, *places: float) -> tuple[Mesh, Mesh]:
+    """A double wall of radii 3 and 4 whose inner wall is displaced, and that inner wall alone."""
+    fine, inner = tube(4.0, sides=36, rings=60), bulged(tube(3.0, sides=36, rings=60), size, *places)
+    if kind == "open":
+        return joined(fine, inner), inner
+    short = tube(3.0, 36.0, sides=36, rings=54)
+    inner = closed(bulged(Mesh(short.vertices + 2.0 * SLANT, short.triangles), size, *places))
+    return joined(closed(fine), inner), inner
+
+
+@pytest.mark.parametrize("kind", ["open", "closed"])
+@pytest.mark.parametrize("places", [(20.0,), (10.0, 30.0)])
+def test_of_two_nested_walls_that_cross_the_inner_one_is_kept_and_every_stretch_named(kind: str, places) -> None:
+    both, inner = inner_and_outer(kind, 1.7, *places)
+    crossings = inspect(both).crossings
+    repaired = repair(both)
+    assert distances(repaired.mesh.vertices, inner).max() < 1e-9
+    assert distances(inner.vertices, repaired.mesh).max() < 1e-9
+    named = [change for change in repaired.changes if "nested walls" in change.name]
+    assert sum(change.count for change in named) == len(crossings) > 100
+    for place in places:
+        assert min(abs(change.place @ SLANT - place) for change in named) < 3.0
+
+
+def test_of_two_nested_walls_that_touch_the_inner_one_is_kept() -> None:
+    inner = tube(3.0)
+    inner = Mesh(inner.vertices + 1.0 * frame(SLANT)[0], inner.triangles)  # 4 - 3: they touch along a line
+    repaired = repair(joined(tube(4.0), inner))
+    assert distances(repaired.mesh.vertices, inner).max() < 1e-6 and len(repaired.rims) == 2
+    assert sum(change.count for change in repaired.changes if "nested walls" in change.name) > 10
+
+
+@pytest.mark.parametrize("size", [1.7, 9.0])
+def test_of_a_phantom_whose_walls_cross_the_lumen_is_kept_and_the_crossings_named(size: float) -> None:
+    bent = part_bulged(double_walled(), len(tube(rings=16).vertices), size, 20.0)
+    inner = bulged(tube(rings=16), size, 20.0)
+    repaired = repair(bent)
+    assert len(repaired.rims) == 2 and distances(repaired.mesh.vertices, inner).max() < 1e-9
+    # Nothing is missing but one thickness of the wall, 1, at each end.
+    assert distances(inner.vertices, repaired.mesh).max() < 1.1
+    assert sum(change.count for change in repaired.changes if "double wall" in change.name) == len(
+        inspect(bent).crossings) > 20
+
+
+def test_a_phantom_whose_walls_cross_at_its_ends_too_is_refused_with_every_stretch() -> None:
+    phantom, count = double_walled(), len(tube(rings=16).vertices)
+    aside = phantom.vertices + np.where(np.arange(2 * count) < count, 0.0, 1.3)[:, None] * frame(SLANT)[0]
+    with pytest.raises(AnatomyError, match=r"cross each other, \d+ times around \[") as error:
+        repair(Mesh(aside, phantom.triangles))
+    numbers = [int(number) for number in re.findall(r"(\d+) times", str(error.value))]
+    assert sum(numbers) == len(inspect(Mesh(aside, phantom.triangles)).crossings) and "\n" not in str(error.value)

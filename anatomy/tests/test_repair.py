@@ -177,6 +177,22 @@ def test_crossing_tubes_are_joined_by_a_remesh() -> None:
     assert distances((20.0 * SLANT)[None], repaired.mesh)[0] > 2.0
 
 
+def test_a_gash_where_crossing_triangles_were_is_no_end() -> None:
+    """A tube of radius 3 bent by 60 degrees about an axis 2 mm from its own: it crosses itself inside the bend."""
+    mesh = tube(axis=np.array([0.0, 0.0, 1.0]), sides=36, rings=60)
+    x, y, z = mesh.vertices.T
+    bend = 2.0  # mm, radius of the axis
+    past = z - 20.0
+    angle = np.clip(past / bend, 0.0, np.pi / 3.0)
+    beyond = past - bend * angle
+    turned = np.stack([bend - (bend - x) * np.cos(angle) + beyond * np.sin(angle), y,
+                       (bend - x) * np.sin(angle) + beyond * np.cos(angle)], axis=1)
+    kinked = Mesh(turned, mesh.triangles)
+    assert len(inspect(kinked).crossings) > 10
+    repaired = repair(kinked)
+    assert [rim.radius for rim in repaired.rims] == pytest.approx([3.0] * 2, rel=0.02) and is_vessel(repaired.mesh)
+
+
 def test_a_rim_that_touches_itself_is_cut_back_to_where_it_does_not() -> None:
     mesh = tube()
     on_rim = (mesh.triangles < 24).sum(axis=1)

@@ -14,7 +14,7 @@ from anatomy.centreline import find_centreline  # noqa: E402
 from anatomy.inspection import inspect  # noqa: E402
 from anatomy.medial_graph import WallDistance  # noqa: E402
 from anatomy.mesh import AnatomyError, Edges, close_rims, find_rims  # noqa: E402
-from anatomy.shapes import _spline, make, tube_mesh, tubes_of  # noqa: E402
+from anatomy.shapes import _carina, _spline, make, tube_mesh, tubes_of  # noqa: E402
 from anatomy.tests.solids import SLANT, frame, tube  # noqa: E402
 from anatomy.tubes import Tube, mesh_of_tubes  # noqa: E402
 
@@ -54,9 +54,27 @@ def test_points_inside_a_closed_wall_are_told_from_points_beside_it() -> None:
 
 
 @pytest.mark.skipif(os.environ.get("GUIDEWIRE_ALL") != "1", reason="the fork's centreline is tested in either case")
-def test_the_centreline_of_a_made_siphon_lies_on_its_axes() -> None:
-    mesh, _, _ = make("siphon", 2, 7, None, None)
-    _check_line(tubes_of("siphon", 2, 7)[0], find_centreline(mesh, find_rims(mesh, Edges.of(mesh))))
+@pytest.mark.parametrize("kind, number, seed", [
+    ("arch", 1, 1), ("arch", 2, 7), ("arch", 3, 1), ("iliac", 1, 1), ("coronary", 1, 1),
+    *[("siphon", 1, seed) for seed in (1, 2, 3)],
+])
+def test_the_centreline_of_a_made_vessel_lies_on_its_axes(kind: str, number: int, seed: int) -> None:
+    mesh, _, _ = make(kind, number, seed, None, None)
+    _check_line(tubes_of(kind, number, seed)[0], find_centreline(mesh, find_rims(mesh, Edges.of(mesh))))
+
+
+@pytest.mark.parametrize("kind, number", [("arch", 1), ("arch", 2), ("arch", 3), ("iliac", 1), ("siphon", 1),
+                                          ("coronary", 1)])
+def test_branches_that_have_parted_are_not_joined_again(kind: str, number: int) -> None:
+    """A ball of the edges' radius that touches two walls joins their lumens, so nearer walls are drawn anew."""
+    for seed in range(1, 31):
+        tubes, _ = tubes_of(kind, number, seed)
+        for k, tube in enumerate(tubes):
+            for other in tubes[:k]:
+                away = np.linalg.norm(tube.points[:, None] - other.points, axis=2) - other.radii
+                gap = away.min(axis=1) - tube.radii
+                parted = np.flatnonzero(gap > 2.5 * _carina(tubes))
+                assert not len(parted) or gap[parted[0]:].min() > 1.9 * _carina(tubes), (seed, k)
 
 
 def _check_line(tubes: list[Tube], line) -> None:
