@@ -245,6 +245,9 @@ def _compile(command: list[str], lock: int, name: str) -> None:
 
     Where we are killed and it goes on, a shell that waits for it goes on holding the lock, as its standard input. The
     compiler itself must not: it leaves servers behind, which would hold it for minutes.
+
+    A compiler that starts anew for each project is machine code made on the run, above all its analysers. Counting how
+    often what is called where, to compile it better once more, costs a process of some seconds more than it gains.
     """
     log = _log()
     log.parent.mkdir(parents=True, exist_ok=True)
@@ -253,7 +256,8 @@ def _compile(command: list[str], lock: int, name: str) -> None:
         command = ["sh", "-c", '"$@" </dev/null; exit $?', "sh", *command]
     with log.open("wb") as output:
         code = subprocess.run(
-            command, cwd=HEADLESS, stdin=lock, stdout=output, stderr=subprocess.STDOUT, check=False
+            command, cwd=HEADLESS, env={"DOTNET_TieredPGO": "0", **os.environ}, stdin=lock, stdout=output,
+            stderr=subprocess.STDOUT, check=False,
         ).returncode
     if code != 0:
         errors = [line.strip() for line in log.read_text("utf-8", "replace").splitlines() if "error" in line]

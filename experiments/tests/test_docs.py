@@ -107,6 +107,7 @@ def test_every_parameter_file_that_a_page_shows_can_be_run(page, live, tmp_path)
         run(live, tmp_path / str(k), content, maxSimulationSteps=0)
 
 
+@pytest.mark.long("scripts of the README and of the tutorial run; what is imported here has tests of its own")
 def test_every_python_that_the_page_of_python_shows_runs(live, tmp_path):
     page = (ROOT / "docs" / "python.md").read_text(encoding="utf-8")
     (tmp_path / "params").symlink_to(ROOT / "params")

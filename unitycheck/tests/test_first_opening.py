@@ -4,9 +4,7 @@ from __future__ import annotations
 
 import hashlib
 import os
-import shutil
 from collections.abc import Sequence
-from pathlib import Path
 
 import pytest
 
@@ -15,10 +13,8 @@ from unitycheck.project import Project
 from unitycheck.tests import firstopening
 from unitycheck.tests.breakages import GUIDEWIRE, HUD, LOOP, ODD, RUNTIME, Change, behaviour, both, insert, replace
 from unitycheck.tests.breakages import write
-from unitycheck.tests.test_mutations import ROOT, repository  # noqa: F401
+from unitycheck.tests.test_mutations import repository  # noqa: F401
 
-PARTS = ("Assets", "Packages", "ProjectSettings", "params", "docs")
-SINGLE = (".gitattributes", "unitycheck/known_guids.txt", "README.md", "experiments/unity_runner.py")
 TUBE = f"{GUIDEWIRE}/Tests/Unity/TubeMeshTests.cs"
 
 
@@ -42,17 +38,9 @@ def script(body: str) -> Change:
     return with_meta(f"{RUNTIME}/{name}.cs", behaviour(body, name), "MonoImporter")
 
 
-def test_a_copy_that_unity_has_opened_passes(tmp_path: Path) -> None:
-    for name in PARTS:
-        shutil.copytree(ROOT / name, tmp_path / name)
-    for name in SINGLE:
-        (tmp_path / name).parent.mkdir(parents=True, exist_ok=True)
-        shutil.copy(ROOT / name, tmp_path / name)
-    for path, data in firstopening.files(Project(tmp_path)).items():
-        (tmp_path / path).write_bytes(data)
-    project = Project(tmp_path)
-    project.only = frozenset()    # its sources are the repository's
-    assert [str(violation) for violation in checks.run(project)] == []
+def test_what_unity_has_opened_passes(repository: Project) -> None:  # noqa: F811
+    opened = repository.with_changes(firstopening.files(repository), ())
+    assert [str(violation) for violation in checks.run(opened)] == []
 
 
 def test_all_class_numbers_are_there() -> None:

@@ -61,6 +61,10 @@ namespace Guidewire.Core.Tests
         [TestCase(1135)]
         public void PushesThatOnceWentWrong_Finish(int seed)
         {
+            if (seed == 39 || seed == 1135)
+            {
+                Rods.OnlyInFull("1603 and 1754, which take a third of the time");
+            }
             var push = new RandomWallPush(seed);
             Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Finished), push.ToString());
             Assert.That(push.Contacts.Passages, Is.EqualTo(0), push.ToString());
