@@ -97,6 +97,12 @@ def build_part(part: str, tell: Callable[[str], None]) -> None:
     _bring_up_to_date(program, sdks, HEADLESS / f"{part}.slnf", PARTS[part], tell)
 
 
+def end_compiler() -> None:
+    """End the compiler process that `build_part` leaves for further builds, if there is one."""
+    program, _ = dotnet()
+    subprocess.run([program, "build-server", "shutdown", "--vbcscompiler"], capture_output=True, check=False)
+
+
 def build_native(tell: Callable[[str], None]) -> Path:
     """Build the native library if need be, with the C compiler's linker; `tell` and errors as of `build`."""
     if shutil.which("gcc") is None and shutil.which("clang") is None:
@@ -147,7 +153,9 @@ def _bring_up_to_date(
         for project in projects:
             _stamp_path(project).unlink(missing_ok=True)
         tell(f"building {target.stem}")
+        # One compiler process for many projects: its analysers are compiled once.
         command = [program, verb, "-c", "Release", "--nologo", str(target),
+                   *(["-p:UseSharedCompilation=true"] if target.suffix == ".slnf" else []),
                    *(["--no-incremental"] if anew and verb == "build" else [])]
         _compile(command, lock, target.stem)
         finished = time.time()

@@ -17,7 +17,7 @@ from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.building import HEADLESS, PARTS, dotnet
+from experiments.building import HEADLESS, PARTS, dotnet, end_compiler
 from experiments.prepare import ROOT
 from experiments.process import Process, file_name
 
@@ -94,7 +94,10 @@ def run_tests(full: bool) -> int:
     program, _ = dotnet()
     builds = {part: [sys.executable, "-m", "experiments.building", part] for part in PARTS}
     places = (os.cpu_count() or 1) + 1    # one more than processors: a fifth of their time suites wait
-    total = run_suites(builds, suites(program, full), environment, _SUITE_SECONDS[full], places)
+    try:
+        total = run_suites(builds, suites(program, full), environment, _SUITE_SECONDS[full], places)
+    finally:
+        end_compiler()
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 
