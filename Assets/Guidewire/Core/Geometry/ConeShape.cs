@@ -129,14 +129,14 @@ namespace Guidewire.Core
 
         /// <summary>Where the segment is nearest, as at an edge. Its weight fades where that is not defined: along a
         /// generator of the cone, whose direction d has 1 - (d.axis)^2 = k^2.</summary>
-        internal override double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             int hint = -1;
             Vector3d u = b - a;
             if (!Nearest(a, b, range, ref hint, out SurfaceContact nearest) || u == Vector3d.Zero)
             {
-                return range;
+                return;
             }
             double weight = 1.0;
             Vector3d slope = ConvexEdge.Fade(u, _axis, _slope * _slope, ref weight);
@@ -144,7 +144,6 @@ namespace Guidewire.Core
             Foot foot = At(Vector3d.Lerp(a, b, nearest.Position));
             edgeContacts.Add(nearest.Position > 0.0 && nearest.Position < 1.0 && foot.IsOnSide && weight > 0.0
                 ? ConvexEdge.Sliding(contact, u, Generator(foot), foot.FromAxis) : contact);
-            return range;
         }
 
         /// <summary>The circles of the wall for pictures: centre, and radius across the axis, from one end to the

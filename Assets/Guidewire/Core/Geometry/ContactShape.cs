@@ -167,9 +167,9 @@ namespace Guidewire.Core
         /// parts of segment a b may meet while nothing of it moves farther than <paramref name="skin"/>, units; such
         /// queries are then faster. Some shapes have none. A surface has features of points (a = b) and others of the
         /// interiors of segments.</summary>
-        /// <returns>Distance in units; beyond <paramref name="range"/> a lower bound of it, or infinite. It may be too
-        /// small, and up to a tenth too large where the wall's edges are uneven; of a surface and a segment it is that
-        /// of the segment's interior and counts only where it is less than those of its ends.</returns>
+        /// <returns>Distance in units, infinite beyond <paramref name="range"/>. It may be too small, and up to a tenth
+        /// too large where the wall's edges are uneven; of a surface and a segment it is that of the segment's interior
+        /// and counts only where it is less than those of its ends.</returns>
         internal virtual double FindFeatures(in Vector3d a, in Vector3d b, double range, double skin, ref int hint,
             StructList<WallFeature> features)
         {
@@ -209,12 +209,9 @@ namespace Guidewire.Core
         /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b: where the wall is convex
         /// towards the free side, so that the interior of a segment can meet it before its ends do. None where the wall
         /// has no convex edge. The features near the segment, where they are known, speed it up.</summary>
-        /// <returns>A distance, units, than which the interior of the segment is not nearer or else not nearer than its
-        /// ends, where there are no edge contacts.</returns>
-        internal virtual double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+        internal virtual void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            return range;
         }
 
         /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all positions

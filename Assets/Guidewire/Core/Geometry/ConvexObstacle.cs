@@ -171,7 +171,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The edges of the hull: over a face a segment is nearest with an end.</summary>
-        internal override double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             _edges ??= HullEdges.Find(_points, _flatness);
@@ -180,7 +180,6 @@ namespace Guidewire.Core
                 ConvexEdge.Add(a, b, _points[edge.Start], _points[edge.End], _radius,
                     ConvexEdge.Weight(edge.Angle), range, edgeContacts);
             }
-            return range;
         }
     }
 }

@@ -7,12 +7,9 @@ namespace Guidewire.Core
     /// units.</summary>
     internal struct Neighbour
     {
-        private const double LeftOfSkin = 0.5;   // by which a wall that is not near stays beyond what counts
-
         private Vector3d _a;
         private Vector3d _b;
-        private double _skin;        // of the features; below 0: no query was made
-        private double _reach;       // of the result: the skin, or more far from the wall
+        private double _skin;        // below 0: no query was made
         private double _clearance;
         private int _from;
         private int _to;
@@ -36,30 +33,20 @@ namespace Guidewire.Core
             _from = from;
         }
 
-        /// <summary>Ends the query: features up to an index of the list belong to it.</summary>
-        /// <param name="distance">Of the wall at least; infinite where no more is known than that it is beyond the
-        /// range.</param>
-        /// <param name="range">What counts, and the skin.</param>
-        /// <param name="to">The index.</param>
+        /// <summary>Ends the query: the wall is at a distance, if that is within the range; features up to an index of
+        /// the list belong to it.</summary>
         public void End(double distance, double range, int to)
         {
             IsNear = distance <= range;
-            _clearance = distance < double.PositiveInfinity ? distance : range;
-            _reach = Math.Max(_skin, _clearance - range + LeftOfSkin * _skin);
+            _clearance = Math.Min(distance, range);
             _to = to;
         }
 
-        /// <summary>Whether the features are valid between a and b.</summary>
+        /// <summary>Whether the result is valid between a and b.</summary>
         public readonly bool Covers(in Vector3d a, in Vector3d b)
         {
-            return _skin >= 0.0 && IsWithin(_skin, a, b);
-        }
-
-        /// <summary>Whether the features are valid between a and b, or a wall that was not near still is
-        /// not.</summary>
-        public readonly bool IsValid(in Vector3d a, in Vector3d b)
-        {
-            return _skin >= 0.0 && IsWithin(_reach, a, b);
+            return _skin >= 0.0 && (a - _a).LengthSquared <= _skin * _skin
+                && (b - _b).LengthSquared <= _skin * _skin;
         }
 
         /// <summary>Lower bound of the distance between the wall and segment a b; minus infinity where no query was
@@ -109,11 +96,6 @@ namespace Guidewire.Core
         public readonly FeatureRange FeaturesAtB(StructList<WallFeature> features, in Vector3d b)
         {
             return Features(features, _a, b);
-        }
-
-        private readonly bool IsWithin(double motion, in Vector3d a, in Vector3d b)
-        {
-            return (a - _a).LengthSquared <= motion * motion && (b - _b).LengthSquared <= motion * motion;
         }
 
         private readonly double Moved(in Vector3d a, in Vector3d b)

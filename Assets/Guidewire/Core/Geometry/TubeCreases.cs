@@ -64,44 +64,38 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the creases that segment a b crosses within <paramref name="range"/> of the wall.</summary>
-        /// <returns>A distance, units, than which all other creases that it crosses are not nearer.</returns>
-        public double Find(in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
+        public void Find(in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
             double size = Vector3d.Distance(a, b);
-            double beyond = double.PositiveInfinity;
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                Find(k, a, b, size, range, edgeContacts, ref beyond);
+                Find(k, a, b, size, range, edgeContacts);
             }
-            return beyond;
         }
 
         /// <summary>The same between pieces that are next to each other in a range.</summary>
-        /// <returns>A distance, units, than which all other creases that it crosses are not nearer.</returns>
-        public double Find(in Vector3d a, in Vector3d b, double range, FeatureRange pieces,
+        public void Find(in Vector3d a, in Vector3d b, double range, FeatureRange pieces,
             StructList<EdgeContact> edgeContacts)
         {
             double size = Vector3d.Distance(a, b);
-            double beyond = double.PositiveInfinity;
             for (int i = pieces.From + 1; i < pieces.To; i++)
             {
                 if (pieces[i] == pieces[i - 1] + 1)
                 {
-                    Find(pieces[i], a, b, size, range, edgeContacts, ref beyond);
+                    Find(pieces[i], a, b, size, range, edgeContacts);
                 }
             }
-            return beyond;
         }
 
         // In the direction of the tube, or against it where the wire has turned back.
         private void Find(int k, in Vector3d a, in Vector3d b, double size, double range,
-            StructList<EdgeContact> edgeContacts, ref double beyond)
+            StructList<EdgeContact> edgeContacts)
         {
-            if (MayCross(k, a, b, size) && Find(k, a, b, range, ref beyond, out EdgeContact contact))
+            if (MayCross(k, a, b, size) && Find(k, a, b, range, out EdgeContact contact))
             {
                 edgeContacts.Add(contact);
             }
-            else if (MayCross(k, b, a, size) && Find(k, b, a, range, ref beyond, out contact))
+            else if (MayCross(k, b, a, size) && Find(k, b, a, range, out contact))
             {
                 edgeContacts.Add(contact.Reversed());
             }
@@ -109,33 +103,16 @@ namespace Guidewire.Core
 
         private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
         {
-            // Also in the ball of the knot or on the axis, where there is no crease, the distance may be least.
-            double least = double.PositiveInfinity;
-            if (MayCross(k, a, b, size))
-            {
-                Cross(k, a, b, out Crossing along);
-                least = along.Distance;
-            }
-            if (MayCross(k, b, a, size))
-            {
-                Cross(k, b, a, out Crossing back);
-                least = Math.Min(least, back.Distance);
-            }
-            return least;
+            return (MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing))
+                || (MayCross(k, b, a, size) && Cross(k, b, a, out crossing)) ? crossing.Distance
+                : double.PositiveInfinity;
         }
 
-        private bool Find(int k, in Vector3d a, in Vector3d b, double range, ref double beyond,
-            out EdgeContact contact)
+        private bool Find(int k, in Vector3d a, in Vector3d b, double range, out EdgeContact contact)
         {
             contact = default;
-            if (IsFar(k, a, b, range, ref beyond))
+            if (IsFar(k, a, b, range) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
             {
-                return false;
-            }
-            if (!Cross(k, a, b, out Crossing c) || c.Distance > range)
-            {
-                // Without a crease, too: in the ball of the knot or on the axis the distance may be least.
-                beyond = Math.Min(beyond, c.Distance);
                 return false;
             }
             Vector3d u = b - a;
@@ -220,7 +197,7 @@ namespace Guidewire.Core
 
         // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there
         // is no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.
-        private bool IsFar(int k, in Vector3d a, in Vector3d b, double range, ref double beyond)
+        private bool IsFar(int k, in Vector3d a, in Vector3d b, double range)
         {
             double atA = _planes.Past(k, a);
             double atB = _planes.Past(k, b);
@@ -230,13 +207,8 @@ namespace Guidewire.Core
             }
             double slack = Vector3d.Distance(a, b) * _slack[k] / (atB - atA);
             Vector3d x = Vector3d.Lerp(a, b, atA / (atA - atB));
-            double least = _pieces[k - 1].Distance(x) - slack;
-            if (!(least > range || (_pieces[k - 1].IsPast(x, slack) && _pieces[k].IsBefore(x, slack))))
-            {
-                return false;
-            }
-            beyond = Math.Min(beyond, least);
-            return true;
+            return _pieces[k - 1].Distance(x) > range + slack
+                || (_pieces[k - 1].IsPast(x, slack) && _pieces[k].IsBefore(x, slack));
         }
 
         // Near the crossing: in the plane that halves the bend.

@@ -198,14 +198,14 @@ namespace Guidewire.Core
 
         /// <summary>The creases at its knots; see <see cref="TubeCreases"/>. Where the segment crosses from one leg of
         /// the tube to another the contact has no weight: the wire stops there without a force.</summary>
-        internal override double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             int from = edgeContacts.Count;
-            double beyond = FindCreases(a, b, range, features, edgeContacts);
+            FindCreases(a, b, range, features, edgeContacts);
             if (!Overlaps.Has(features))
             {
-                return beyond;
+                return;
             }
             // A crease in the lumen of another leg is none.
             int left = from;
@@ -228,14 +228,19 @@ namespace Guidewire.Core
                 edgeContacts.Add(new EdgeContact(s, distance, Vector3d.Normalize(centre - x), 0.0, Vector3d.Zero,
                     Vector3d.Zero));
             }
-            return range;
         }
 
-        private double FindCreases(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+        private void FindCreases(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
-            return features.IsKnown ? EdgeContacts.Find(a, b, range, features, edgeContacts)
-                : EdgeContacts.Find(a, b, range, edgeContacts);
+            if (features.IsKnown)
+            {
+                EdgeContacts.Find(a, b, range, features, edgeContacts);
+            }
+            else
+            {
+                EdgeContacts.Find(a, b, range, edgeContacts);
+            }
         }
 
         private int Deepest(in Vector3d x, FeatureRange features, out double distance)

@@ -53,7 +53,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the triangles that may be within a range of a point, nearest first.</summary>
-        /// <returns>The distance of the nearest; infinite beyond the range.</returns>
+        /// <returns>The distance of the nearest; infinite where there is none.</returns>
         public double FindTriangles(in Vector3d x, double range, StructList<WallFeature> triangles)
         {
             int from = triangles.Count;
@@ -76,7 +76,7 @@ namespace Guidewire.Core
                     x, _mesh.Corners[i], _mesh.Corners[i + 1], _mesh.Corners[i + 2], out _, out _);
                 nearest = Math.Min(nearest, Math.Sqrt(squared));
             }
-            return nearest <= range ? nearest : double.PositiveInfinity;
+            return nearest;
         }
 
         /// <summary>Adds the edge contacts within a range of segment a b, nearest first.</summary>

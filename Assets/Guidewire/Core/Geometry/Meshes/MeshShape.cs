@@ -98,11 +98,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshEdges"/>.</summary>
-        internal override double FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
+        internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {
             EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
-            return range;
         }
 
         /// <summary>A point against the triangles, a segment against the convex edges.</summary>

@@ -45,51 +45,6 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Min(found, left), Is.GreaterThan(100));
         }
 
-        /// <summary>On the axis of a stenosis is no crease, but the distance is least at its narrow end.</summary>
-        [Test]
-        public void DistanceOfASegment_OnTheAxisOfAStenosis_IsItsRadius()
-        {
-            const double narrow = 0.48;
-            var knots = new Vector3d[] { Vector3d.Zero, 10.0 * Vector3d.UnitZ, 12.0 * Vector3d.UnitZ,
-                22.0 * Vector3d.UnitZ };
-            var tube = new TubeShape(knots, new[] { 3.0, narrow, narrow, 3.0 }, true, true);
-            var features = new StructList<WallFeature>(8);
-            int hint = -1;
-            Vector3d a = 5.0 * Vector3d.UnitZ;
-            Vector3d b = 17.0 * Vector3d.UnitZ;
-            double found = tube.FindFeatures(a, b, 10.0, 1.0, ref hint, features);
-            double beyond = tube.FindEdgeContacts(a, b, 0.1, default, new StructList<EdgeContact>(8));
-            Assert.That(found, Is.EqualTo(narrow).Within(1e-9));
-            Assert.That(beyond, Is.LessThanOrEqualTo(narrow + 1e-9).And.GreaterThan(0.1));
-        }
-
-        /// <summary>A segment without a crease in a range is as far from the wall as is returned, or as its ends.
-        /// </summary>
-        [TestCase(0.0)]
-        [TestCase(0.3)]
-        public void EdgeContacts_WhereThereAreNone_ReturnALowerBoundOfTheDistance(double widening)
-        {
-            var random = new RandomGeometry(35);
-            var edges = new StructList<EdgeContact>(8);
-            int nearer = 0;
-            for (int i = 0; i < RandomGeometry.Cases(20_000); i++)
-            {
-                TubeShape tube = Tube(random, widening);
-                Segment(random, tube, out Vector3d a, out Vector3d b);
-                edges.Clear();
-                double beyond = tube.FindEdgeContacts(a, b, random.Number(0.0, 0.3), default, edges);
-                double atEnds = Math.Min(tube.LeastDistance(a, a), tube.LeastDistance(b, b));
-                if (edges.Count > 0 || !(atEnds > 0.0))
-                {
-                    continue;
-                }
-                double least = tube.LeastDistance(a, b);
-                nearer += least < atEnds - 1e-6 ? 1 : 0;
-                Assert.That(Math.Min(beyond, atEnds), Is.LessThanOrEqualTo(least + 1e-9), "case " + i);
-            }
-            Assert.That(nearer, Is.GreaterThan(RandomGeometry.Cases(200)));
-        }
-
         /// <summary>A wire that has turned back in the tube meets its creases as one that runs along it.</summary>
         [Test]
         public void EdgeContacts_OfASegmentThatRunsBack_AreThoseOfOneThatRunsAlongTheTube()

@@ -227,11 +227,10 @@ namespace Guidewire.Core
             {
                 double gap = 0.0;
                 double radius = 0.0;
-                if (j < _elementRadius.Length && IsTested(w, j, fraction, out gap, out double most))
+                if (j < _elementRadius.Length && IsTested(w, j, fraction, out gap))
                 {
                     radius = _units * _elementRadius[j];
-                    fraction = _near.InteriorMayBeInRange(w, j, _x, most)
-                        ? MaxStepOf(w, j, fraction, radius, ref gap) : fraction;
+                    fraction = MaxStepOf(w, j, fraction, radius, ref gap);
                 }
                 if (_walls[w].IsSurface && (gap != 0.0 || gapBefore != 0.0))
                 {
@@ -245,16 +244,16 @@ namespace Guidewire.Core
             return fraction;
         }
 
-        // Whether the wall may limit this fraction of the motion of element j, the least gap between them that is
-        // known, and within which distance it may do so, units.
-        private bool IsTested(int w, int j, double fraction, out double gap, out double most)
+        // Whether the wall may limit this fraction of the motion of element j, and the least gap between them that is
+        // known, units.
+        private bool IsTested(int w, int j, double fraction, out double gap)
         {
             int n = _elementRadius.Length;
             double motion = fraction * Math.Sqrt(
                 Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
-            most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
+            double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
             bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
@@ -284,9 +283,7 @@ namespace Guidewire.Core
         {
             double distance = _units * (_nodeRadius[i] + _nodeGap[w * _x.Length + i]);
             double clearance = radius + Left(gap);
-            double motion = fraction * Vector3d.Distance(_x[i], _to[i]);
-            if (motion <= QuickFraction * (distance - clearance)
-                || !_near.NodeMayBeInRange(w, i, _x[i], motion + clearance))
+            if (fraction * Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
             {
                 return fraction;
             }
@@ -414,13 +411,8 @@ namespace Guidewire.Core
             double radius = _elementRadius[j];
             _edgeContacts.Clear();
             ref double nearest = ref _edgeGap[w * _elementRadius.Length + j];
-            double distance = _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
+            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
-            if (_edgeContacts.Count == 0)
-            {
-                _near.SetDistanceOfInterior(w, j, _x, distance);
-                return;
-            }
             for (int k = 0; k < _edgeContacts.Count; k++)
             {
                 ref EdgeContact edge = ref _edgeContacts[k];

@@ -3,8 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Neighbour list (Verlet list): the walls near each node and element of a wire, valid while it moves no
-    /// farther than the skin from where the query was made or, far from the walls, until it may come near one, and the
-    /// walls' features there. Lengths in units.</summary>
+    /// farther than the skin from where the query was made, and the walls' features there. Lengths in units.</summary>
     /// <remarks>A node or element that has moved farther than the skin is queried again, alone: its features are added
     /// at the end of the list, which is rebuilt when it has grown too long. The query before the last one stays valid,
     /// too: a stage goes from the shape where it begins to a predicted one and back.</remarks>
@@ -18,7 +17,6 @@ namespace Guidewire.Core
         private readonly double _skin;
         private readonly Neighbour[] _element;    // by wall and element
         private readonly Neighbour[] _node;       // by wall and node: features of points, or where last asked for
-        private readonly Neighbour[] _tested;     // by wall and element: where it last had no edge contact
         private readonly Neighbour[] _elementBefore;    // the queries before the last ones
         private readonly Neighbour[] _nodeBefore;
         private readonly int[] _hint;             // by wall and element
@@ -39,7 +37,6 @@ namespace Guidewire.Core
             _skin = skin;
             _element = new Neighbour[walls.Length * n];
             _node = new Neighbour[walls.Length * (n + 1)];
-            _tested = new Neighbour[_element.Length];
             _elementBefore = new Neighbour[_element.Length];
             _nodeBefore = new Neighbour[_node.Length];
             _caches = Array.ConvertAll(walls, wall => wall.FeatureCacheFor(skin));
@@ -47,7 +44,6 @@ namespace Guidewire.Core
             _hint = new int[walls.Length * n];
             Array.Fill(_hint, -1);
             Forget(_element);
-            Forget(_tested);
             Forget(_elementBefore);
             Forget(_node);
             Forget(_nodeBefore);
@@ -124,16 +120,9 @@ namespace Guidewire.Core
         public bool MayBeInRange(int w, int j, Vector3d[] x, double range)
         {
             int n = _range.Length;
-            return InteriorMayBeInRange(w, j, x, range)
+            return _element[w * n + j].MayBeInRange(x[j], x[j + 1], range)
                 || (_caches[w] != null && (_node[w * (n + 1) + j].FirstMayBeInRange(x[j], range)
                     || _node[w * (n + 1) + j + 1].FirstMayBeInRange(x[j + 1], range)));
-        }
-
-        /// <summary>The same for element j without its ends where the wall has features of points.</summary>
-        public bool InteriorMayBeInRange(int w, int j, Vector3d[] x, double range)
-        {
-            int k = w * _range.Length + j;
-            return _element[k].MayBeInRange(x[j], x[j + 1], range) && _tested[k].MayBeInRange(x[j], x[j + 1], range);
         }
 
         /// <summary>The same for node i, by what is known of it or of an element beside it.</summary>
@@ -165,24 +154,6 @@ namespace Guidewire.Core
                 ref Neighbour node = ref _node[w * (_range.Length + 1) + i];
                 node.Begin(x, x, 0.0, 0);
                 node.End(SureOfNode * distance, distance, 0);
-            }
-        }
-
-        /// <summary>Takes note that the interior of element j is not nearer to wall w than this, units, or else not
-        /// nearer than its ends.</summary>
-        public void SetDistanceOfInterior(int w, int j, Vector3d[] x, double distance)
-        {
-            if (_caches[w] == null)
-            {
-                int i = w * (_range.Length + 1) + j;
-                double least = Math.Min(SureOfNode * distance,
-                    Math.Min(_node[i].Clearance(x[j], x[j]), _node[i + 1].Clearance(x[j + 1], x[j + 1])));
-                if (least > _range[j])
-                {
-                    ref Neighbour tested = ref _tested[w * _range.Length + j];
-                    tested.Begin(x[j], x[j + 1], 0.0, 0);
-                    tested.End(least, least, 0);
-                }
             }
         }
 
@@ -282,12 +253,12 @@ namespace Guidewire.Core
         // again.
         private static bool IsCovered(ref Neighbour last, ref Neighbour before, in Vector3d a, in Vector3d b)
         {
-            if (last.IsValid(a, b))
+            if (last.Covers(a, b))
             {
                 return true;
             }
             (last, before) = (before, last);
-            return last.IsValid(a, b);
+            return last.Covers(a, b);
         }
 
         private static void Forget(Neighbour[] neighbours)
