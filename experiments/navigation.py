@@ -33,7 +33,7 @@ _ASIDE = 2.0  # of a branch's radii that a tip is in it, from which on the branc
 _STALLED = (20.0, 80.0)  # mm pushed without progress, from which on an attempt has failed; drawn for each
 _BACK = (4.0, 250.0)  # mm behind the farthest place, where an attempt begins
 _ALIKE = 8.0  # mm of the path within which snapshots are as good a start
-_IN_VAIN = 60  # attempts without progress, after which the search gives up
+_IN_VAIN = 120  # attempts without progress, after which the search gives up
 _SPIN = 0.15  # rad a mm at most, while the wire is pushed
 _SEED = 28
 
@@ -162,7 +162,7 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
     Parameters
     ----------
     scene : ``scene.json`` of ``guidewire.py anatomy``.
-    most_attempts : after which the search gives up, as it does after 60 in a row that come no farther.
+    most_attempts : after which the search gives up, as it does after 120 in a row that come no farther.
     tell : hears one line for each attempt.
     tip : in place of the scene's own.
 
