@@ -57,22 +57,10 @@ namespace Guidewire.Core
 
         /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
         /// and factorises; with it goes the right-hand side -gradient.</summary>
+        /// <param name="onlyPositive">Ends at the first eigenvalue that is not: gradient and y are incomplete.</param>
         /// <returns>The number of eigenvalues that are not positive: 0 when the energy is convex here.</returns>
-        public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
-        {
-            return Factorise(terms, shape, gradient, y, shift, false);
-        }
-
-        /// <summary>The same, given up where an eigenvalue is not positive: gradient and right-hand side are then of no
-        /// use.</summary>
-        /// <returns>Whether all are positive.</returns>
-        public bool TryFactorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift)
-        {
-            return Factorise(terms, shape, gradient, y, shift, true) == 0;
-        }
-
-        private int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift,
-            bool onlyPositive)
+        public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift,
+            bool onlyPositive = false)
         {
             int last = _count - 1;
             y[0] = default;
@@ -83,11 +71,7 @@ namespace Guidewire.Core
             int from = 0;
             while (from < _count && !(onlyPositive && negative > 0))
             {
-                int to = from + Piece;
-                if (to >= last)
-                {
-                    to = _count;
-                }
+                int to = from + Piece < last ? from + Piece : _count;
                 Array.Clear(_block, from + 1, to - from);
                 Array.Clear(gradient, from + 1, to - from);
                 Array.Clear(y, from + 1, to - from);

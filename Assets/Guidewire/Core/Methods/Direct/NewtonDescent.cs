@@ -58,11 +58,11 @@ namespace Guidewire.Core
             return System.Factorise(_terms, shape, Gradient, Direction, shift);
         }
 
-        /// <summary>The same, given up where an eigenvalue is negative: the gradient is then of no use.</summary>
+        /// <summary>The same, ended where the first negative one is found: the gradient is then incomplete.</summary>
         /// <returns>Whether all are positive.</returns>
         public bool TryFactorise(RodShape shape, double shift)
         {
-            return System.TryFactorise(_terms, shape, Gradient, Direction, shift);
+            return System.Factorise(_terms, shape, Gradient, Direction, shift, onlyPositive: true) == 0;
         }
 
         /// <summary>Raises the multiple until no eigenvalue is negative, and sets the direction.</summary>

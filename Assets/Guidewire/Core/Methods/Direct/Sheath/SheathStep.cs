@@ -134,14 +134,15 @@ namespace Guidewire.Core
             double[] station = _setup.Stations;
             double move = Math.Max(0.0, _drive.NextMove(_dynamics.Time));
             double exit = _window.ExitFrom(_drive.Hub.PositionAt(_dynamics.Time)) - move;
-            while (first > 0 && Math.Max(station[first + 1] - exit, _window.Outside(_shape.X[first + 1]) + move) > 0.0)
+            // How far a node will be beyond the exit at most.
+            double Beyond(int i) => Math.Max(station[i] - exit, _window.Outside(_shape.X[i]) + move);
+            while (first > 0 && Beyond(first + 1) > 0.0)
             {
                 first--;
                 Enter(first);
             }
             int last = _shape.ElementCount - LeastElements;
-            while (first < last && Math.Max(station[first + 2] - exit, _window.Outside(_shape.X[first + 2]) + move)
-                < -Late * _whole.Rod.Length[first + 1])
+            while (first < last && Beyond(first + 2) < -Late * _whole.Rod.Length[first + 1])
             {
                 first++;
             }

@@ -14,17 +14,10 @@ namespace Guidewire.Core.Tests
         public void HubGoesAsFarAsItIsAsked_WhereAStepIsTakenAgain()
         {
             // In one step of 10 ms the hub goes 10 mm on and turns by half a turn.
-            SimulationParameters parameters = WallScenes.Wire(100, Radius);
-            parameters.Scene.GuidewireLength = 300.0;
-            parameters.Scene.GuidewireOffset = -295.0;
-            parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = WallScenes.Tube(-700.0, 600.0, 4.0);
-            parameters.Drive.Kind = Drive.Displace;
+            SimulationParameters parameters = Straight(100, -700.0);
             parameters.Drive.Table = new DriveTable(
                 new TimeTable(new[] { 0.0, 0.1, 0.11, 0.2 }, new[] { 0.0, 0.0, 0.01, 0.01 }),
                 new TimeTable(new[] { 0.0, 0.1, 0.11, 0.2 }, new[] { 0.0, 0.3, 3.5, 3.5 }));
-            parameters.Material.MassDamping = 20.0;
-            parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 20;
             Simulation run = Wires.Finish(parameters);
             Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.01).Within(1e-12));

@@ -38,6 +38,21 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
+        /// <summary>A straight wire of 300 mm in steps of 10 ms, its tip 5 mm out of a sheath that ends at z = 0, in a
+        /// tube from here (mm) to z = 600 mm.</summary>
+        public static SimulationParameters Straight(int n, double tubeStart)
+        {
+            SimulationParameters parameters = WallScenes.Wire(n, Radius);
+            parameters.Scene.GuidewireLength = 300.0;
+            parameters.Scene.GuidewireOffset = -295.0;
+            parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
+            parameters.Scene.Walls = WallScenes.Tube(tubeStart, 600.0, 4.0);
+            parameters.Drive.Kind = Drive.Displace;
+            parameters.Material.MassDamping = 20.0;
+            parameters.Method.TimeStep = 0.01;
+            return parameters;
+        }
+
         /// <summary>Straight along z, then a bend of 70 degrees; in front, where asked for, a tight tube of this
         /// radius, mm.</summary>
         public static TubeShape Vessel(double tight)

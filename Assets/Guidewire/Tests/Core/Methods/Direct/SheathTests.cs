@@ -188,17 +188,10 @@ namespace Guidewire.Core.Tests
         public void StretchedWire_IsSimulatedAsFarAsItIsOut()
         {
             // A follower force of EA/5 draws 60 of 300 mm out of a sheath whose hub stands still.
-            SimulationParameters parameters = WallScenes.Wire(60, Radius);
-            parameters.Scene.GuidewireLength = 300.0;
-            parameters.Scene.GuidewireOffset = -295.0;
-            parameters.Scene.Sheath = new Sheath { Exit = Vector3d.Zero };
-            parameters.Scene.Walls = WallScenes.Tube(-12.0, 600.0, 4.0);
-            parameters.Drive.Kind = Drive.Displace;
+            SimulationParameters parameters = Straight(60, -12.0);
             double stiffness = parameters.Material.YoungsModulus * Math.PI * Radius * Radius;
             parameters.Scene.TipFollowerForce = new Vector3d(0.0, 0.0, 0.2 * stiffness);
             parameters.Scene.TipFollowerForceTable = new TimeTable(new[] { 0.0, 0.2 }, new[] { 0.0, 1.0 });
-            parameters.Material.MassDamping = 20.0;
-            parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 40;
             Simulation run = Wires.Finish(parameters);
             Vector3d[] x = run.State.Positions;
