@@ -238,6 +238,7 @@ def test_a_build_killed_with_all_its_processes_leaves_no_lock_and_is_made_anew(s
     for number in processes_of(shop):
         os.kill(number, signal.SIGKILL)
     process.communicate(timeout=PATIENCE)
+    shop.wait_for(lambda: not processes_of(shop))    # the lock goes with the last of them, which is nobody's child
     (shop.bench / "hold").unlink()
     assert shop.journal()[-1] != "done"
     shop.build()
