@@ -135,6 +135,7 @@ class _Builder:
 
     def build(self) -> Centreline:
         chains = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
+        chains = self._inside(chains)
         kept = self._apart(chains)
         chains = [chains[k] for k in kept]
         self._targets, self._rims = [self._targets[k] for k in kept], [self._rims[k] for k in kept]
@@ -166,16 +167,25 @@ class _Builder:
         return Centreline(np.array(self._points), radii, np.array(self._parents),
                           np.array(self._branches), tuple(ends))
 
+    def _inside(self, chains: list[list[int]]) -> list[list[int]]:
+        """Paths to blind ends without what is outside: through a thin or coarse wall the graph may go on there."""
+        is_blind = [rim is None and target != self._start for rim, target in zip(self._rims, self._targets)]
+        nodes = sorted({node for chain, blind in zip(chains, is_blind) if blind for node in chain})
+        outside = set(np.array(nodes)[~self._wall.inside(self._graph.centres[nodes])].tolist()) if nodes else set()
+        kept = []
+        for chain, blind in zip(chains, is_blind):
+            count = len(chain)
+            while blind and count > 1 and chain[count - 1] in outside:
+                count -= 1
+            kept.append(chain[:count])
+        return kept
+
     def _apart(self, chains: list[list[int]]) -> list[int]:
         """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before."""
         graph, kept = self._graph, []
         typical = float(np.median(graph.radii[np.concatenate(chains)]))
-        # Through a thin wall the graph may go on outside: such a branch is none.
-        is_inside = self._wall.inside(graph.centres[[chain[-1] for chain in chains]])
         for k, chain in enumerate(chains):
             others = [node for j in kept for node in chains[j]]
-            if self._rims[k] is None and self._targets[k] != self._start and not is_inside[k]:
-                continue
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]

@@ -44,6 +44,23 @@ def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:
     _check_line(FORK, line)
 
 
+@pytest.mark.parametrize("from_z, ends", [(18.0, 3), (-1.0, 2)])
+def test_a_blind_branch_ends_where_its_path_leaves_the_lumen(fork, monkeypatch: pytest.MonkeyPatch, from_z: float,
+                                                             ends: int) -> None:
+    """Through a coarse wall a path may go on outside. In the shorter arm that is so here from a height on: at its tip,
+    or all along it."""
+    rims = find_rims(fork, Edges.of(fork))
+    open_ends = sorted(rims, key=lambda rim: rim.centre[0])[1:]
+    closed = close_rims(fork, [rim for rim in rims if rim not in open_ends])
+    monkeypatch.setattr(WallDistance, "inside",
+                        lambda wall, points: (points[:, 0] > -1.0) | (points[:, 2] < from_z))
+    line = find_centreline(closed, find_rims(closed, Edges.of(closed)))
+    assert len(line.ends) == ends
+    if ends == 3:
+        (tip,) = (end for end in line.ends if not end.is_open)
+        assert np.linalg.norm(tip.centre - FORK[2].points[-1]) < 2.0 * FORK[2].radii[-1]
+
+
 def test_points_inside_a_closed_wall_are_told_from_points_beside_it() -> None:
     wall = tube(3.0, 40.0)
     closed = WallDistance(close_rims(wall, find_rims(wall, Edges.of(wall))))
