@@ -21,6 +21,7 @@ _SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
 _DENSITY = 40.0  # of them on the square of a narrow radius
 _STEP = 0.25  # between points of the centreline, of the radius
 _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
+_AT_RIM = 3.0  # radii of a rim
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
 _ROUNDS = 3
 
@@ -135,8 +136,10 @@ class _Builder:
 
     def build(self) -> Centreline:
         chains = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
-        chains = self._inside(chains)
-        kept = self._apart(chains)
+        inner = self._inside(chains)
+        is_cut = [len(chain) < len(whole) for chain, whole in zip(inner, chains)]
+        chains = inner
+        kept = self._apart(chains, is_cut)
         chains = [chains[k] for k in kept]
         self._targets, self._rims = [self._targets[k] for k in kept], [self._rims[k] for k in kept]
         if self._rims[self._targets.index(self._start)] is None:
@@ -180,11 +183,18 @@ class _Builder:
             kept.append(chain[:count])
         return kept
 
-    def _apart(self, chains: list[list[int]]) -> list[int]:
+    def _is_at_rim(self, chain: list[int]) -> bool:
+        """Whether a path ends near a rim: beyond one that is not plane the wall of one side goes on."""
+        tip = self._graph.centres[chain[-1]]
+        return any(np.linalg.norm(tip - rim.centre) < _AT_RIM * rim.radius for rim in self._rims if rim is not None)
+
+    def _apart(self, chains: list[list[int]], is_cut: list[bool]) -> list[int]:
         """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before."""
         graph, kept = self._graph, []
         typical = float(np.median(graph.radii[np.concatenate(chains)]))
         for k, chain in enumerate(chains):
+            if is_cut[k] and self._is_at_rim(chain):
+                continue
             others = [node for j in kept for node in chains[j]]
             if self._rims[k] is None and self._targets[k] != self._start and others:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, maximum_flow
+from scipy.sparse.csgraph import breadth_first_order, dijkstra, maximum_flow
 
 from anatomy.inspection import cast_rays
 from anatomy.mesh import Edges, Mesh, find_bodies, signed_volume
@@ -18,6 +18,7 @@ from anatomy.mesh import Edges, Mesh, find_bodies, signed_volume
 _CONE = 14  # rays out of a triangle
 _LIP = 5.0  # median thicknesses of the wall
 _BORDER = 0.3  # cost of a border of one thickness' length, over that of a thickness' square
+_FOLD = 3.0  # thicknesses along the surface: between walls that cross the way around a lip is longer
 _LARGEST = 2**28  # capacity of an edge of the graph; the flow is computed in integers of 32 bits
 
 
@@ -33,6 +34,18 @@ def inner_wall(mesh: Mesh) -> tuple[Mesh, float]:
     areas = np.linalg.norm(mesh.area_vectors(), axis=1)
     part = mesh.part(_least_border(mesh, areas * inward, _BORDER * median))
     return part.part(find_bodies(part) == 0), median
+
+
+def is_fold(mesh: Mesh, pairs: np.ndarray, thickness: float) -> np.ndarray:
+    """(k,): whether the triangles of pairs (k, 2) that cross are so near each other along the surface that it is one
+    wall that is folded there."""
+    one, other = Edges.of(mesh).pairs().T
+    middles = mesh.corners.mean(axis=1)
+    graph = coo_matrix((np.linalg.norm(middles[one] - middles[other], axis=1), (one, other)),
+                       shape=(len(middles), len(middles))).tocsr()
+    from_first = {first: dijkstra(graph, directed=False, indices=first, limit=_FOLD * thickness)
+                  for first in np.unique(pairs[:, 0])}
+    return np.array([np.isfinite(from_first[first][second]) for first, second in pairs], dtype=bool)
 
 
 def _least_border(mesh: Mesh, evidence: np.ndarray, cost: float) -> np.ndarray:

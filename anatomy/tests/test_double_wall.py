@@ -108,3 +108,15 @@ def test_a_phantom_whose_walls_cross_at_its_ends_too_is_refused_with_every_stret
         repair(Mesh(aside, phantom.triangles))
     numbers = [int(number) for number in re.findall(r"(\d+) times", str(error.value))]
     assert sum(numbers) == len(inspect(Mesh(aside, phantom.triangles)).crossings) and "\n" not in str(error.value)
+
+
+def test_a_fold_of_one_wall_near_an_end_of_a_phantom_is_no_crossing_of_the_walls() -> None:
+    """A vertex of the outer wall, one ring from the end, is moved past its neighbour around the tube."""
+    phantom = double_walled(outer=5.0)
+    vertices = phantom.vertices.copy()
+    vertices[24 + 5] += 1.5 * (vertices[24 + 6] - vertices[24 + 5])
+    folded = Mesh(vertices, phantom.triangles)
+    assert len(inspect(folded).crossings) > 0
+    repaired = repair(folded)
+    assert len(repaired.rims) == 2
+    assert distances(repaired.mesh.vertices, tube(rings=16)).max() < 1e-9
