@@ -190,6 +190,9 @@ class _Work:
         """Of a double wall joined at its ends: the side from which fewer rays escape, cut straight at its ends."""
         if facing(self.mesh).mean() <= _FACING:
             return
+        if signed_volume(self.mesh) < 0.0:
+            self.mesh = self.mesh.turned()
+            self._note("normals of a double wall turned out of it", len(self.mesh.triangles))
         part, thickness = inner_wall(self.mesh)
         count = len(self.mesh.triangles) - len(part.triangles)
         points, pairs = self_intersections(self.mesh)

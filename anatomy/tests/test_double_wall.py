@@ -120,3 +120,11 @@ def test_a_fold_of_one_wall_near_an_end_of_a_phantom_is_no_crossing_of_the_walls
     repaired = repair(folded)
     assert len(repaired.rims) == 2
     assert distances(repaired.mesh.vertices, tube(rings=16)).max() < 1e-9
+
+
+def test_the_lumen_of_a_phantom_does_not_depend_on_the_side_that_its_normals_point_to() -> None:
+    phantom = double_walled(outer=5.0)
+    one, other = repair(phantom), repair(phantom.turned())
+    assert np.array_equal(one.mesh.vertices, other.mesh.vertices)
+    assert np.array_equal(one.mesh.triangles, other.mesh.triangles)
+    assert [change.count for change in other.changes if "double wall" in change.name] == [len(phantom.triangles)]
