@@ -66,9 +66,9 @@ def drawn_by(name: str) -> object:
     return draw.args[0] if callable(draw.args[0]) else draw.func
 
 
-# Where campaigns do not run in full, the first of each make.
+# Where campaigns do not run in full, the first of every third make: one engine lays them all out.
 LAID_OUT = list(FIGURES) if os.environ.get("GUIDEWIRE_ALL") else list(
-    {drawn_by(name): name for name in reversed(FIGURES)}.values())
+    {drawn_by(name): name for name in reversed(FIGURES)}.values())[::3]
 
 
 @pytest.mark.parametrize("name", LAID_OUT)
