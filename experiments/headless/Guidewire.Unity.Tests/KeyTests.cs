@@ -30,7 +30,7 @@ namespace Guidewire.Unity.Tests
             return 2.0 * Math.Atan2(q.Z, q.W);
         }
 
-        /// <summary>Keys that do the same one after the other: to open the scene takes longer than its frames.</summary>
+        /// <summary>Keys that do the same in one scene: to open it takes longer than its frames.</summary>
         [TestCase(1, KeyCode.W, KeyCode.UpArrow)]
         [TestCase(-1, KeyCode.S, KeyCode.DownArrow)]
         public void PushAndPull_MoveSphere0AlongTheWire(int sign, params KeyCode[] keys)
@@ -70,7 +70,8 @@ namespace Guidewire.Unity.Tests
                 Stage.Frames(8);
                 Engine.Release(key);
                 double asked = sign * Math.PI * (Stage.Loop.Session!.Simulation.Time - time);
-                Assert.That(Turned() - before, Is.EqualTo(asked).Within(0.05 * Math.Abs(asked)), "180 degrees a second");
+                Assert.That(Turned() - before, Is.EqualTo(asked).Within(0.05 * Math.Abs(asked)),
+                    "180 degrees a second");
             }
         }
 
