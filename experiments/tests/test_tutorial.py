@@ -1,4 +1,4 @@
-"""docs/tutorial.md: what a reader is to save and every command, in the page's order, with runs of a few steps."""
+"""docs/tutorial.md: what a reader is to save and every command, in the page's order."""
 
 import csv
 import re
@@ -17,8 +17,6 @@ from studies.study_file import read_study_file
 from test_view import serving
 
 PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
-SHORTER = {'"maxSimulationSteps": 240': '"maxSimulationSteps": 4', '"numberRodElements": 40': '"numberRodElements": 9',
-           '"numberRodElements": 10': '"numberRodElements": 3'}
 
 
 @pytest.mark.long("each command has tests of its own")
@@ -30,14 +28,13 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
     assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py", "tube.json", "friction.json",
                                          "train.py"]
     for name, text in saved:
-        for whole, short in SHORTER.items():
-            assert name != "wire.json" or whole in text
-            text = text.replace(whole, short)
         (tmp_path / name).write_text(text, encoding="utf-8")
     lines = re.findall(r"^python3 guidewire\.py (.*)$", PAGE, re.MULTILINE)
     said = {}
     for line in lines:
         words = shlex.split(line)
+        if words[:2] == ["python", "train.py"]:
+            words[-1] = "1"    # generation: those of the page take minutes
         if words[0] == "view" and "--html" not in words:
             with serving(tmp_path, *words[1:]) as (address, _):
                 said[line] = address
@@ -46,7 +43,7 @@ def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_pa
             said[line], errors = capfd.readouterr()
             assert code == 0, f"{line}: {errors}"
     assert len(lines) == len(said) == 15
-    assert said["run wire.json --out results/straight"].startswith("finished: all 4 steps are done")
+    assert said["run wire.json --out results/straight"].startswith("finished: all 240 steps are done")
     for name in ("turned.png", "curves.png"):
         with Image.open(tmp_path / "results" / name) as picture:
             assert picture.size[0] > 600
