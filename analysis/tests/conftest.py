@@ -158,7 +158,19 @@ WAVES: dict[str, tuple[str, list[Wave]]] = {
 }
 
 
+class Drawn(dict[str, "tuple[Figure, str]"]):
+    """Figures and their captions by name, each drawn when it is first asked for."""
+
+    def __init__(self, studies: dict[str, Path]) -> None:
+        super().__init__()
+        self._studies = studies
+
+    def __missing__(self, name: str) -> tuple[Figure, str]:
+        self[name] = FIGURES[name].draw(self._studies)
+        return self[name]
+
+
 @pytest.fixture(scope="session")
-def drawn(studies: dict[str, Path]) -> dict[str, tuple[Figure, str]]:
-    """Every figure and its caption, drawn once: for reading only."""
-    return {name: spec.draw(studies) for name, spec in FIGURES.items()}
+def drawn(studies: dict[str, Path]) -> Drawn:
+    """Every figure and its caption, for reading only."""
+    return Drawn(studies)

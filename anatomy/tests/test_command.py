@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 import re
 import shlex
 import subprocess
@@ -17,6 +18,7 @@ pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install 
 from anatomy.tests.solids import tube, write_stl  # noqa: E402
 from experiments.commands import parse, run  # noqa: E402
 from experiments.prepare import ROOT, PreparationError  # noqa: E402
+from experiments.testing import FULL_CAMPAIGNS  # noqa: E402
 
 PAGE = (ROOT / "docs" / "anatomy.md").read_text(encoding="utf-8")
 
@@ -28,7 +30,12 @@ def anatomy(words: str) -> int:
 def test_the_example_of_the_page_gives_a_fork_with_three_ends(tmp_path: Path, monkeypatch) -> None:
     monkeypatch.chdir(tmp_path)
     script = re.search(r"```python\n(.*?)```", PAGE, re.DOTALL)[1]
+    if FULL_CAMPAIGNS not in os.environ:    # half of each branch: fewer points among which the centreline is found
+        for whole, half in (("0, 0, 5]", "0, 0, 14]"), ("11, 0, 60", "5.5, 0, 46"), ("-10, 4, 58", "-5, 2, 45")):
+            assert whole in script
+            script = script.replace(whole, half)
     subprocess.run([sys.executable, "-c", script], check=True)
+    voxels = (tmp_path / "fork.nrrd").read_bytes().split(b"\n\n", 1)[1].count(1)
     line = re.search(r"guidewire.py (anatomy fork.*)", PAGE)[1]
     assert run(parse(shlex.split(line))) == 0
     folder = tmp_path / "results" / "anatomy" / "fork"
@@ -44,7 +51,7 @@ def test_the_example_of_the_page_gives_a_fork_with_three_ends(tmp_path: Path, mo
     assert scene["inlet"] == 1 and scene["target"] == 2
     assert (folder / "picture.png").stat().st_size > 10_000
     report = (folder / "report.md").read_text()
-    assert "6042 voxels" in report and "end 3 'rim 3': open" in report and "closed ends cut open" in report
+    assert f"{voxels} voxels" in report and "end 3 'rim 3': open" in report and "closed ends cut open" in report
 
 
 def test_look_writes_no_vessel(tmp_path: Path) -> None:
@@ -67,9 +74,9 @@ def test_wrong_words_are_one_line_and_nothing_is_written(tmp_path: Path, words: 
 
 
 def test_a_centreline_alone_becomes_a_tube(tmp_path: Path) -> None:
-    z = np.linspace(0.0, 60.0, 13)
+    z = np.linspace(0.0, 30.0, 7)
     rows = [f"{5.0 * np.sin(a / 20.0)},{a},{0.1 * a},{2.0 + 0.01 * a}" for a in z]
     (tmp_path / "a.csv").write_text("x,y,z,radius\n" + "\n".join(rows) + "\n")
     assert anatomy(f"{tmp_path / 'a.csv'} --unit mm --out {tmp_path / 'out'}") == 0
     found = json.loads((tmp_path / "out" / "anatomy.json").read_text())
-    assert [end["radius"] for end in found["ends"]] == pytest.approx([2.6, 2.0], rel=0.02)
+    assert [end["radius"] for end in found["ends"]] == pytest.approx([2.3, 2.0], rel=0.02)

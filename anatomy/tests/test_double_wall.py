@@ -67,8 +67,10 @@ def inner_and_outer(kind: str, size: float, *places: float) -> tuple[Mesh, Mesh]
     return joined(closed(fine), inner), inner
 
 
-@pytest.mark.parametrize("kind", ["open", "closed"])
-@pytest.mark.parametrize("places", [(20.0,), (10.0, 30.0)])
+@pytest.mark.parametrize("kind, places", [
+    ("open", (20.0,)), ("closed", (10.0, 30.0)),
+    *(pytest.param(*both, marks=pytest.mark.long("each kind crosses, and so do walls at one place and at two"))
+      for both in (("open", (10.0, 30.0)), ("closed", (20.0,))))])
 def test_of_two_nested_walls_that_cross_the_inner_one_is_kept_and_every_stretch_named(kind: str, places) -> None:
     both, inner = inner_and_outer(kind, 1.7, *places)
     crossings = inspect(both).crossings
@@ -89,7 +91,7 @@ def test_of_two_nested_walls_that_touch_the_inner_one_is_kept() -> None:
     assert sum(change.count for change in repaired.changes if "nested walls" in change.name) > 10
 
 
-@pytest.mark.parametrize("size", [1.7, 9.0])
+@pytest.mark.parametrize("size", [1.7, pytest.param(9.0, marks=pytest.mark.long("a bulge of the wall's thickness"))])
 def test_of_a_phantom_whose_walls_cross_the_lumen_is_kept_and_the_crossings_named(size: float) -> None:
     bent = part_bulged(double_walled(), len(tube(rings=16).vertices), size, 20.0)
     inner = bulged(tube(rings=16), size, 20.0)

@@ -59,7 +59,7 @@ class Advised:
         self._out, self._command = folder, command
         self.wish = AdviceRequest(self.error)
         check = plan.check_of(self.file, self.wish, plan.by_work, repeats=0)
-        assert sweep([(check, folder)], folder / "runs", Means(command, 2)).failures == []
+        assert sweep([(check, folder)], folder / "runs", Means(command)).failures == []
         self.advice: Advice = replay(check, folder)
         self.runs = read_runs(folder / name)
 
@@ -195,4 +195,4 @@ def test_a_scene_where_nothing_moves_is_reported(tmp_path: Path, runner_command:
     file.write_text(json.dumps({**CANTILEVER, "gravity": [0, 0, 0], "maxSimulationSteps": 8}), encoding="utf-8")
     check = plan.check_of(file, AdviceRequest(0.1), plan.by_work, repeats=0)
     with pytest.raises(LogError, match="nothing moves in the scene"):
-        sweep([(check, tmp_path)], tmp_path / "runs", Means(runner_command, 2))
+        sweep([(check, tmp_path)], tmp_path / "runs", Means(runner_command))

@@ -61,12 +61,16 @@ def write_obj(path, vertices, faces):
     return path
 
 
+# 256 MiB are read before they are too many.
+ONE_READER = pytest.mark.long("every file of a run is read up to the same limit by the same lines")
+
+
 def test_a_folder_as_mesh_is_named_as_one(live, tmp_path):
     (tmp_path / "vessel.obj").mkdir()
     assert_refused(live, tmp_path, mesh("vessel.obj"), "vessel.obj: is a folder, a mesh file is needed")
 
 
-@pytest.mark.parametrize("name", ["/dev/zero", "endless.obj", "endless.stl"])
+@pytest.mark.parametrize("name", ["/dev/zero", "endless.obj", pytest.param("endless.stl", marks=ONE_READER)])
 def test_a_mesh_without_end_is_refused(live, tmp_path, name):
     for link in ("endless.obj", "endless.stl"):
         (tmp_path / link).symlink_to("/dev/zero")
@@ -74,7 +78,7 @@ def test_a_mesh_without_end_is_refused(live, tmp_path, name):
     assert_refused(live, tmp_path, mesh(name), *words)
 
 
-@pytest.mark.parametrize("key", ["parameters", "startFile", "loadTables"])
+@pytest.mark.parametrize("key", [pytest.param("parameters", marks=ONE_READER), "startFile", "loadTables"])
 def test_another_file_without_end_is_refused(runner_command, live, tmp_path, key):
     scene = {"startFile": "/dev/zero"} if key == "startFile" else {
         "solver": "direct", "loadTables": {"gravity": "/dev/zero"}}

@@ -23,7 +23,7 @@ def charted(problem: Problem, count: int, folder: Path, command: list[str]) -> C
         return replace(asked, settings=kept)
 
     check = check_of(replace(problem, ask=ask))
-    assert sweep([(check, folder)], folder / "runs", Means(command, 2)).failures == []
+    assert sweep([(check, folder)], folder / "runs", Means(command)).failures == []
     return replay(check, folder)
 
 

@@ -72,6 +72,7 @@ def test_the_catheter_follows_the_wire_into_the_branch_and_takes_its_shape_there
     assert summary["catheters"][0]["extension"] < -0.04, "the wire is drawn back into the catheter"
 
 
+@pytest.mark.long("another catheter follows its wire into a branch")
 def test_the_microcatheter_follows_its_wire_out_of_the_guide_through_the_siphon(run_scene):
     log, summary = run_scene("microcatheter")
     assert summary["reliable"]

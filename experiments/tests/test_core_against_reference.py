@@ -10,7 +10,7 @@ import reference_step as reference
 from experiments.runner import Request
 from experiments.testing import FULL_CAMPAIGNS
 
-STEPS = 100 if FULL_CAMPAIGNS in os.environ else 12
+STEPS = 100 if FULL_CAMPAIGNS in os.environ else 8
 ELEMENT_LENGTH = 0.5
 MASS = 0.5
 DISPLACEMENT = np.array([0.1, 0.2, 0.2])  # length 0.3

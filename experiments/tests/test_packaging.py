@@ -137,10 +137,10 @@ def test_metadata_says_what_installers_ask_for(project):
     assert all(text.count(" :: ") >= 1 for text in message.get_all("Classifier"))
 
 
-def test_the_command_is_a_function_of_the_package(project):
+def test_the_command_is_a_function_of_the_package(project, sources):
     module, _, function = project["scripts"]["guidewire"].partition(":")
     assert module == "guidewire"
-    names = {node.name for node in ast.parse(contents.sources()["__init__.py"]).body if isinstance(node, ast.FunctionDef)}
+    names = {node.name for node in ast.parse(sources["__init__.py"]).body if isinstance(node, ast.FunctionDef)}
     assert function in names
 
 

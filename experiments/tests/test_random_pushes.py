@@ -67,6 +67,7 @@ def test_a_thin_tip_that_snaps_round_under_a_weak_hub_passes_no_wall_and_goes_to
     assert np.ptp(hub.turn + hub.twist) > 2.0 * np.pi  # of the tip: it snapped round
 
 
+@pytest.mark.long("a pair that buckles there ends so in RandomCoaxialPushTests")
 def test_a_wire_that_buckles_at_the_exit_of_its_sheath_fails_before_it_is_outside(runner_command, tmp_path):
     done = subprocess.run([*runner_command, "-parameters", str(CASES / "jammed_at_the_exit.json"), "-out",
                            str(tmp_path / "run")], capture_output=True, text=True)

@@ -80,6 +80,7 @@ def test_the_orders_visit_every_index_once():
     assert reference.sweep_order(0, True) == []
 
 
+@pytest.mark.long("the run of Core, which follows this reference, passes it there (LongitudinalStudyTests)")
 def test_the_thesis_default_run_passes_its_error_at_2_19_seconds():
     # Table 4.1 with the orientations left out: a longitudinal run never turns an element. Thesis, Figure 4.4: 0.0049.
     n, m, dt, l = 30, 500, 0.01, 10.0

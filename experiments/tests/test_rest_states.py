@@ -19,7 +19,9 @@ from experiments.prepare import ROOT
 from experiments.runner import Request, Runner
 from experiments.tests.chain_energy import ChainEnergy
 
-CASES = 50 if os.environ.get("GUIDEWIRE_ALL") == "1" else 1  # of each kind
+FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
+CASES = 50 if FULL else 1  # of each kind
+MOST_ELEMENTS = 120 if FULL else 25  # the minimiser's time grows with the cube
 MOVE = 1e-6  # of L, or rad: what a minimiser may still move
 BALANCE = 1e-6  # EI/L^2
 DISTURBANCE = 1e-3  # of L, or rad
@@ -43,9 +45,9 @@ def direction(random: np.random.Generator) -> np.ndarray:
 
 
 def draw(seed: int, kind: str) -> Load:
-    """F L^2/EI log-uniform from 0.1 to 100, couples to 4 pi EI/L, 15 to 120 elements."""
+    """F L^2/EI log-uniform from 0.1 to 100, couples to 4 pi EI/L, 15 to MOST_ELEMENTS elements."""
     random = np.random.default_rng([seed, len(kind)])
-    elements = int(random.integers(15, 121))
+    elements = int(random.integers(15, MOST_ELEMENTS + 1))
     size = 10.0 ** random.uniform(-1.0, 2.0) * BASE.bending / BASE.length**2
     couple = random.uniform(-4.0, 4.0) * np.pi * BASE.bending / BASE.length
     towards = direction(random)

@@ -10,6 +10,7 @@ MU, YOUNG = 0.3, 3e8  # Pa; EI/(2 R^2) is 1.9 % of the pull
 SLIDES, LEG = 100, 200  # steps of a leg: all of the rope slides from the first number on, to its end
 
 
+@pytest.mark.long("ropes over a drum that hold and slide, both ways, are tests of Core (FrictionHoldTests)")
 def test_drawn_let_back_and_drawn_again_the_force_goes_round_one_loop():
     case = drum._case(MU, YOUNG, -1.0, n=110)
     parameters = {key: value for key, value in case.overrides.items() if key not in ("logContacts", "logSpheres")}

@@ -40,7 +40,7 @@ def test_several_at_once_have_the_bits_of_each_alone_whatever_the_number_of_work
             return np.array(seen)
 
     expected = np.stack([alone(k) for k in range(2)], axis=1)
-    for workers in (1, 2) if backend == "threads" else (2,):
+    for workers in (1, 2) if FULL and backend == "threads" else (2,):
         with VectorEnvironment(tube, 2, workers, backend) as vector:
             observation, _ = vector.reset(seed=seeds)
             assert vector.observation_space.contains(observation) and vector.num_envs == 2
@@ -123,8 +123,9 @@ def test_the_demonstration_recorded_by_keys_reaches_its_target_to_the_same_bits(
         assert own.replay(drive).success
 
 
+@pytest.mark.long("4 s; learning, and an episode of turn and retry, have tests of their own")
 def test_what_was_learned_reaches_the_target_sooner_and_with_less_force_than_turn_and_retry():
-    seeds = range(1_000_000, 1_000_006 if FULL else 1_000_002)    # not among those of the training
+    seeds = range(1_000_000, 1_000_006)    # not among those of the training
     learned = json.loads((DATA / "learned.json").read_text())
     task = replace(find_task("artery"), frictions=(0.05,))    # one vessel to be read
     mine = score(task, np.array(learned["parameters"]), list(seeds))
@@ -148,7 +149,7 @@ def test_evolution_learns_the_same_from_the_same_seed(tube, tmp_path):
 
 @pytest.mark.parametrize("task", ["tube", *(all_tasks() if FULL else [])])
 def test_random_episodes_end_as_they_say_without_a_number_that_is_none(tube, task):
-    count = 1000 if FULL else 4
+    count = 1000 if FULL else 2
 
     def bits():
         with Environment(tube if task == "tube" else task) as own:
@@ -175,6 +176,7 @@ def test_memory_stays_level_over_ten_thousand_resets(tube):
         assert resident() - before < 20.0
 
 
+@pytest.mark.long("2 s; evolution learns the same from the same seed by the same calls")
 def test_the_tutorials_thirty_lines_train_on_a_mesh_with_its_scene(tmp_path, monkeypatch, capsys):
     page = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
     (script,) = re.findall(r"as `train.py`:\n\n```python\n(.*?)^```$", page, re.M | re.S)
@@ -187,7 +189,7 @@ def test_the_tutorials_thirty_lines_train_on_a_mesh_with_its_scene(tmp_path, mon
                           "shearModulus": 2.3e9, "restCurvature": [-26.18, 0.0, 0.0]}]}
     scene.pop("guidewireOffset")
     (tmp_path / "scene.json").write_text(json.dumps(scene))
-    monkeypatch.setattr("sys.argv", ["train.py", str(tmp_path / "scene.json"), "1" if FULL else "0"])
+    monkeypatch.setattr("sys.argv", ["train.py", str(tmp_path / "scene.json"), "1"])
     exec(compile(script, "train.py", "exec"), {"__name__": "__main__"})
     said = capsys.readouterr().out.splitlines()
-    assert len(said) == (4 if FULL else 3) and all(" N" in line and "after" in line for line in said[-3:])
+    assert len(said) == 4 and all(" N" in line and "after" in line for line in said[-3:])

@@ -26,7 +26,7 @@ def made(runner_command, tmp_path_factory):
     folder = tmp_path_factory.mktemp("thesis")
     studies = [dataclasses.replace(STUDIES[name], grid=Grid((Axis(key_of(name), tuple(values)),)))
                for name, values in TAU.items()]
-    assert sweep([(study, folder) for study in studies], folder / "runs", Means(runner_command, 2)).failures == []
+    assert sweep([(study, folder) for study in studies], folder / "runs", Means(runner_command)).failures == []
     return folder
 
 

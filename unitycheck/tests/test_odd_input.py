@@ -24,7 +24,7 @@ JSON_FILES = (ASMDEF, ASMREF, MANIFEST, LOCK)
 YAML_FILES = (SCENE, MATERIAL, TAGS, "ProjectSettings/EditorBuildSettings.asset",
               "ProjectSettings/ProjectSettings.asset",
               "ProjectSettings/EditorSettings.asset")
-EXAMPLES = 60 if os.environ.get("GUIDEWIRE_ALL") == "1" else 20
+EXAMPLES = 60 if os.environ.get("GUIDEWIRE_ALL") == "1" else 10
 
 values = st.recursive(
     st.none() | st.booleans() | st.integers() | st.floats() | st.text(max_size=8)

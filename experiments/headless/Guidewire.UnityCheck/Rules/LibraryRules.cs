@@ -4,6 +4,8 @@ namespace Guidewire.UnityCheck.Rules
     /// editor's interface in a player, and what the profile of editor-only assemblies lacks.</summary>
     internal static class LibraryRules
     {
+        private const string NUnit = "nunit.framework";
+
         /// <summary>What 3.6 added to 3.5 and is still there: by the difference of the two libraries.</summary>
         private static readonly HashSet<string> NewerThanUnitys = new HashSet<string>
         {
@@ -14,27 +16,14 @@ namespace Guidewire.UnityCheck.Rules
         private static readonly HashSet<string> OnlyUnitys = new HashSet<string>
             { "System.Math.Clamp", "System.Array.Fill" };
 
+        // By the compiler's id of a member of .NET Standard.
+        private static readonly Dictionary<string, bool> Missing = new Dictionary<string, bool>();
+
         public static void Check(Source source)
         {
-            foreach (SimpleNameSyntax name in source.Root.DescendantNodes().OfType<SimpleNameSyntax>())
+            if (source.Assembly.IsEditorOnly || source.Assembly.Libraries.Contains(NUnit + ".dll"))
             {
-                ISymbol? symbol = source.Model.GetSymbolInfo(name).Symbol;
-                if (symbol == null)
-                {
-                    continue;
-                }
-                string assembly = symbol.ContainingAssembly?.Name ?? "";
-                if (assembly == "nunit.framework" && symbol.ContainingType != null
-                    && NewerThanUnitys.Contains(symbol.ContainingType.Name + "." + symbol.Name))
-                {
-                    source.Report(name, "nunit", symbol.ContainingType.Name + "." + symbol.Name
-                        + " came after NUnit 3.5");
-                }
-                if (source.Assembly.IsEditorOnly && assembly == "netstandard" && IsMissing(symbol))
-                {
-                    source.Report(name, "api-editor", symbol.ToDisplayString()
-                        + " is not in .NET Framework, for which Unity may compile an editor-only assembly");
-                }
+                CheckSymbols(source);
             }
             if (source.Assembly.IsEditorOnly)
             {
@@ -46,6 +35,30 @@ namespace Guidewire.UnityCheck.Rules
             else if (source.Assembly.HasEngine)
             {
                 CheckPlayer(source);
+            }
+        }
+
+        private static void CheckSymbols(Source source)
+        {
+            foreach (SimpleNameSyntax name in source.Root.DescendantNodes().OfType<SimpleNameSyntax>())
+            {
+                ISymbol? symbol = source.Model.GetSymbolInfo(name).Symbol;
+                if (symbol == null)
+                {
+                    continue;
+                }
+                string assembly = symbol.ContainingAssembly?.Name ?? "";
+                if (assembly == NUnit && symbol.ContainingType != null
+                    && NewerThanUnitys.Contains(symbol.ContainingType.Name + "." + symbol.Name))
+                {
+                    source.Report(name, "nunit", symbol.ContainingType.Name + "." + symbol.Name
+                        + " came after NUnit 3.5");
+                }
+                if (source.Assembly.IsEditorOnly && assembly == "netstandard" && IsMissing(symbol))
+                {
+                    source.Report(name, "api-editor", symbol.ToDisplayString()
+                        + " is not in .NET Framework, for which Unity may compile an editor-only assembly");
+                }
             }
         }
 
@@ -63,9 +76,17 @@ namespace Guidewire.UnityCheck.Rules
             }
             // Names of a tuple's elements are the compiler's alone.
             string? id = definition.ContainingType?.IsTupleType == true ? null : definition.GetDocumentationCommentId();
-            return id != null
-                && !OnlyUnitys.Contains(definition.ContainingType?.ToDisplayString() + "." + definition.Name)
-                && DocumentationCommentId.GetFirstSymbolForDeclarationId(id, Libraries.Framework) == null;
+            if (id == null)
+            {
+                return false;
+            }
+            if (!Missing.TryGetValue(id, out bool isMissing))
+            {
+                isMissing = !OnlyUnitys.Contains(definition.ContainingType?.ToDisplayString() + "." + definition.Name)
+                    && DocumentationCommentId.GetFirstSymbolForDeclarationId(id, Libraries.Framework) == null;
+                Missing[id] = isMissing;
+            }
+            return isMissing;
         }
 
         private static void CheckPlayer(Source source)

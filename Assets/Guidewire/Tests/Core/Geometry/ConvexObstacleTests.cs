@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
             var random = new RandomGeometry(13);
             double worst = 0.0;
             int overlapping = 0;
-            int cases = RandomGeometry.Cases(100_000);
+            int cases = RandomGeometry.Cases(100_000, 25);
             for (int i = 0; i < cases; i++)
             {
                 Vector3d centre = random.Point();

@@ -10,7 +10,6 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>A wire at an end of a vessel: where it starts, where it goes, what the summary says of it.</summary>
-    [Category("Target")]
     public sealed class InletTests : FolderTests
     {
         private const double Radius = 2.0;      // of the tube, mm

@@ -14,14 +14,14 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void RunThatClaimsConvergence_EndsInTheRestShape()
         {
-            Campaign(11, Rods.InFull ? 240 : 6, true, ErrorAtRest);
+            Campaign(11, Rods.InFull ? 240 : 4, true, ErrorAtRest);
         }
 
         [Test]
         [Category("Long")]
         public void RunThatClaimsConvergence_MovesAsImplicitEuler()
         {
-            Campaign(12, Rods.InFull ? 240 : 12, false, ErrorInMotion);
+            Campaign(12, Rods.InFull ? 240 : 8, false, ErrorInMotion);
         }
 
         private static void Campaign(int seed, int count, bool damped,

@@ -25,6 +25,10 @@ namespace Guidewire.Core.Tests
         [TestCase(Solver.Explicit)]
         public void FlatWireThrownFreely_KeepsItsAngularMomentum(Solver solver)
         {
+            if (solver == Solver.Explicit)
+            {
+                Rods.OnlyInFull("direct, whose rotary inertia is the same");
+            }
             // 0.2 s at 60 rad/s about an axis askew, and 200 rad/s about its own.
             const int N = 10;
             SimulationParameters parameters = FlatWire(N, solver, solver == Solver.Direct ? 5e-4 : 1e-4,

@@ -3,7 +3,6 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    [Category("Target")]
     public sealed class DriveTests
     {
         [Test]

@@ -73,6 +73,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void BilateralOrder_ReachesTheSameRestState()
         {
+            Rods.OnlyInFull("ClampedPbdTests, whose wires come to rest in both orders");
             SimulationParameters parameters = Wires.Longitudinal(1500);
             parameters.Method.SweepOrder = SweepOrder.Bilateral;
             Simulation bilateral = Wires.Run(parameters);

@@ -5,7 +5,6 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Coulomb friction of walls: what it takes to push a wire, what a wire at rest holds, how a wire slides
     /// down a slope.</summary>
-    [Category("Target")]
     internal sealed class WallFrictionTests
     {
         private const double Coefficient = 0.3;

@@ -22,6 +22,10 @@ namespace Guidewire.Core.Tests
         [TestCase(30.0)]
         public void HubSlips_WhereFrictionOfTheBentTipTakesMoreThanItsForce(double curvature)
         {
+            if (curvature < 30.0)
+            {
+                Rods.OnlyInFull("a tip that is bent twice as much");
+            }
             double needed = Needed(curvature);
             Simulation free = Push(curvature, 0.0);
             double force = free.Coaxial()!.Force;

@@ -24,6 +24,10 @@ namespace Guidewire.Core.Tests
         [TestCase(81231)]
         public void BothThatBuckleAtTheExitOfTheSheath_EndBeforeTheyAreOutside(int seed)
         {
+            if (seed != 81231)
+            {
+                Rods.OnlyInFull("another pair that buckles");
+            }
             var push = new RandomCoaxialPush(seed, true);
             Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Failed));
             Assert.That(push.Simulation.Reason, Does.Contain("buckles at the exit of its sheath"));
@@ -37,7 +41,7 @@ namespace Guidewire.Core.Tests
         public void NoInstrumentIsEverOutside_AndEveryRunHasAnEnd(bool isSheathed, bool hasOuter)
         {
             (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COAXIAL_PUSHES");
-            runs = runs > 0 ? runs : RandomGeometry.Cases(100, 10);
+            runs = runs > 0 ? runs : RandomGeometry.Cases(100, 14);
             var worst = new List<string>();
             var refused = new List<string>();
             int outside = 0;

@@ -38,10 +38,11 @@ namespace Guidewire.Core.Tests
         public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
             string name)
         {
+            ContactShape wall = TestShapes.Make(name);
             int tried = 0;
             for (int seed = 0; seed < 400 && tried < RandomGeometry.Cases(20, 2); seed++)
             {
-                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                BarrierEnergy energy = Create(wall, seed, out RodShape shape);
                 double value = energy.Value(shape);
                 if (!(value > 0.0) || !(value < 1e3))
                 {
@@ -69,10 +70,11 @@ namespace Guidewire.Core.Tests
         [TestCase("tube")]
         public void Blocks_OfAHollowWall_AreTheDifferencesOfTheGradient(string name)
         {
+            ContactShape wall = TestShapes.Make(name);
             int tried = 0;
             for (int seed = 0; seed < 400 && tried < 10; seed++)
             {
-                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                BarrierEnergy energy = Create(wall, seed, out RodShape shape);
                 double value = energy.Value(shape);
                 if (!(value > 0.0) || !(value < 1e3))
                 {
@@ -198,10 +200,11 @@ namespace Guidewire.Core.Tests
         public void MaximumStep_LeavesEveryGapOpen([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
             string name)
         {
+            ContactShape wall = TestShapes.Make(name);
             int cut = 0;
             for (int seed = 0; seed < 400 && cut < RandomGeometry.Cases(400, 25); seed++)
             {
-                BarrierEnergy energy = Create(name, seed, out RodShape shape);
+                BarrierEnergy energy = Create(wall, seed, out RodShape shape);
                 if (double.IsPositiveInfinity(energy.Value(shape)) || GapOf(energy.Walls[0], shape) <= 0.0)
                 {
                     continue;
@@ -238,7 +241,7 @@ namespace Guidewire.Core.Tests
             return gap;
         }
 
-        private static BarrierEnergy Create(string name, int seed, out RodShape shape)
+        private static BarrierEnergy Create(ContactShape wall, int seed, out RodShape shape)
         {
             var random = new RandomGeometry(seed);
             MaterialRod rod = MaterialRod.Round(N, 1.2, Radius, 1e6, 1e6, 1e3);
@@ -254,7 +257,7 @@ namespace Guidewire.Core.Tests
             {
                 shape.Q[j] = Quaterniond.Identity;
             }
-            return new BarrierEnergy(rod, new[] { TestShapes.Make(name) }, 1.0, new Barrier(Distance, 10.0));
+            return new BarrierEnergy(rod, new[] { wall }, 1.0, new Barrier(Distance, 10.0));
         }
 
         private static double Difference(BarrierEnergy energy, RodShape shape, int i, in Vector3d along)

@@ -189,15 +189,15 @@ namespace Guidewire.Core.Tests
 
         [TestCase(0.1, 90.0)]
         [TestCase(0.3, 90.0)]
-        [TestCase(0.1, 180.0)]
+        [TestCase(0.1, 180.0, Category = "Long")]
         [TestCase(0.05, 90.0, Category = "Long")]
         [TestCase(0.05, 180.0, Category = "Long")]
         [TestCase(0.3, 180.0, Category = "Long")]
         public void PulledThroughABend_TheForceGrowsByTheCapstansLaw(double mu, double degrees)
         {
-            if (mu == 0.05 || mu * degrees > 40.0)
+            if (mu == 0.05 || degrees > 90.0)
             {
-                Rods.OnlyInFull("two coefficients of friction and two angles");
+                Rods.OnlyInFull("two coefficients of friction: the law has but their product with the angle");
             }
             // validation.md: a wire whose rest curvature is the bend's, pulled back against a load at its tip: it lies
             // against the inner wall with the force per length of a limp one.

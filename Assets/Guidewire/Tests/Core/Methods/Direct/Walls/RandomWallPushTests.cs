@@ -14,7 +14,7 @@ namespace Guidewire.Core.Tests
         public void Wire_IsNeverOutside_AndEveryRunHasAnEnd()
         {
             (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_WALL_PUSHES");
-            runs = runs > 0 ? runs : RandomGeometry.Cases(80, 20);
+            runs = runs > 0 ? runs : RandomGeometry.Cases(80, 40);
             var worst = new List<string>();
             var refused = new List<string>();
             var delivered = new List<double>();
