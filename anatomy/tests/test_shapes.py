@@ -44,7 +44,7 @@ def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:
     _check_line(FORK, line)
 
 
-@pytest.mark.parametrize("from_z, ends", [(18.0, 3), (-1.0, 2)])
+@pytest.mark.parametrize("from_z, ends", [(15.0, 3), (-1.0, 2)])
 def test_a_blind_branch_ends_where_its_path_leaves_the_lumen(fork, monkeypatch: pytest.MonkeyPatch, from_z: float,
                                                              ends: int) -> None:
     """Through a coarse wall a path may go on outside. In the shorter arm that is so here from a height on: at its tip,
