@@ -153,8 +153,9 @@ def _bring_up_to_date(
         for project in projects:
             _stamp_path(project).unlink(missing_ok=True)
         tell(f"building {target.stem}")
-        # One compiler process for many projects: its analysers are compiled once.
-        command = [program, verb, "-c", "Release", "--nologo", str(target),
+        # Analysers judge sources and change no program: `test --all` and a developer's own build run them. One compiler
+        # process for many projects is machine code made once.
+        command = [program, verb, "-c", "Release", "--nologo", str(target), "-p:RunAnalyzers=false",
                    *(["-p:UseSharedCompilation=true"] if target.suffix == ".slnf" else []),
                    *(["--no-incremental"] if anew and verb == "build" else [])]
         _compile(command, lock, target.stem)
@@ -254,8 +255,8 @@ def _compile(command: list[str], lock: int, name: str) -> None:
     Where we are killed and it goes on, a shell that waits for it goes on holding the lock, as its standard input. The
     compiler itself must not: it leaves servers behind, which would hold it for minutes.
 
-    A compiler that starts anew for each project is machine code made on the run, above all its analysers. Counting how
-    often what is called where, to compile it better once more, costs a process of some seconds more than it gains.
+    A compiler that starts anew for each project is machine code made on the run. Counting how often what is called
+    where, to compile it better once more, costs a process of some seconds more than it gains.
     """
     log = _log()
     log.parent.mkdir(parents=True, exist_ok=True)
