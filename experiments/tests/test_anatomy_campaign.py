@@ -58,6 +58,7 @@ def test_wires_in_vessels_made_by_code_pass_no_wall(runner_command, tmp_path, ki
     assert not _broken(runs), "\n".join(_broken(runs))
 
 
+@pytest.mark.long("the judge of a campaign that runs in full only")
 def test_a_wire_beside_the_wall_and_a_hub_that_lies_are_claimed(runner_command, artery, tmp_path):
     path = anatomy_campaign.draw(artery, 2, tmp_path)
     runner = Runner(runner_command)

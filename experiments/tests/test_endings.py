@@ -295,6 +295,7 @@ def memory_of(command):
     return used.ru_maxrss * 1024
 
 
+@pytest.mark.long("5 s; rows of a log leave the memory as they are written")
 def test_a_long_run_takes_constant_memory(runner_command, scratch):
     steps, runs = 100_000 if FULL else 40_000, {}
     for count in (1_000, steps):

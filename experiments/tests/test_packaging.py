@@ -70,6 +70,7 @@ def test_what_cannot_be_rewritten_is_refused_with_its_line(line):
         imports.rewrite(f"\n{line}\n", PACKAGES, "a.py")
 
 
+@pytest.mark.long("4 s; an installed package is imported in another test")
 def test_every_import_of_the_package_is_of_a_module_in_it(sources):
     there = {package for package in contents.PACKAGES if f"{package}/__init__.py" in sources}
     assert {"analysis", "anatomy", "experiments", "studies", "viewer"} <= there
