@@ -135,11 +135,9 @@ class _Builder:
         self._branches: list[int] = []
 
     def build(self) -> Centreline:
-        chains = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
-        inner = self._inside(chains)
-        is_cut = [len(chain) < len(whole) for chain, whole in zip(inner, chains)]
-        chains = inner
-        kept = self._apart(chains, is_cut)
+        paths = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
+        chains = self._inside(paths)
+        kept = self._apart(chains, [len(chain) < len(path) for chain, path in zip(chains, paths)])
         chains = [chains[k] for k in kept]
         self._targets, self._rims = [self._targets[k] for k in kept], [self._rims[k] for k in kept]
         if self._rims[self._targets.index(self._start)] is None:
@@ -189,7 +187,8 @@ class _Builder:
         return any(np.linalg.norm(tip - rim.centre) < _AT_RIM * rim.radius for rim in self._rims if rim is not None)
 
     def _apart(self, chains: list[list[int]], is_cut: list[bool]) -> list[int]:
-        """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before."""
+        """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before, nor cut off
+        at the wall near a rim."""
         graph, kept = self._graph, []
         typical = float(np.median(graph.radii[np.concatenate(chains)]))
         for k, chain in enumerate(chains):
