@@ -103,19 +103,9 @@ namespace Guidewire.Core
 
         private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
         {
-            // In the ball of the knot and on the axis there is no crease, but the distance may be least there.
-            double least = double.PositiveInfinity;
-            if (MayCross(k, a, b, size))
-            {
-                Cross(k, a, b, out Crossing along);
-                least = along.Distance;
-            }
-            if (MayCross(k, b, a, size))
-            {
-                Cross(k, b, a, out Crossing back);
-                least = Math.Min(least, back.Distance);
-            }
-            return least;
+            return (MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing))
+                || (MayCross(k, b, a, size) && Cross(k, b, a, out crossing)) ? crossing.Distance
+                : double.PositiveInfinity;
         }
 
         private bool Find(int k, in Vector3d a, in Vector3d b, double range, out EdgeContact contact)

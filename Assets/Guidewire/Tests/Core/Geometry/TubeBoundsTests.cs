@@ -45,20 +45,6 @@ namespace Guidewire.Core.Tests
             Assert.That(Math.Min(found, left), Is.GreaterThan(100));
         }
 
-        /// <summary>On the axis of a stenosis is no crease, but the distance is least at its narrow end.</summary>
-        [Test]
-        public void DistanceOfASegment_OnTheAxisOfAStenosis_IsItsRadius()
-        {
-            const double narrow = 0.48;
-            var knots = new Vector3d[] { Vector3d.Zero, 10.0 * Vector3d.UnitZ, 12.0 * Vector3d.UnitZ,
-                22.0 * Vector3d.UnitZ };
-            var tube = new TubeShape(knots, new[] { 3.0, narrow, narrow, 3.0 }, true, true);
-            int hint = -1;
-            double found = tube.FindFeatures(5.0 * Vector3d.UnitZ, 17.0 * Vector3d.UnitZ, 10.0, 1.0, ref hint,
-                new StructList<WallFeature>(8));
-            Assert.That(found, Is.EqualTo(narrow).Within(1e-9));
-        }
-
         /// <summary>A wire that has turned back in the tube meets its creases as one that runs along it.</summary>
         [Test]
         public void EdgeContacts_OfASegmentThatRunsBack_AreThoseOfOneThatRunsAlongTheTube()
