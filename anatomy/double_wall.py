@@ -36,16 +36,17 @@ def inner_wall(mesh: Mesh) -> tuple[Mesh, float]:
     return part.part(find_bodies(part) == 0), median
 
 
-def is_fold(mesh: Mesh, pairs: np.ndarray, thickness: float) -> np.ndarray:
-    """(k,): whether the triangles of pairs (k, 2) that cross are so near each other along the surface that it is one
-    wall that is folded there."""
+def are_folds(mesh: Mesh, pairs: np.ndarray, thickness: float) -> bool:
+    """Whether the triangles of each of the pairs (k, 2) that cross are so near each other along the surface that it is
+    one wall that is folded there."""
+    if not len(pairs):
+        return True
     one, other = Edges.of(mesh).pairs().T
     middles = mesh.corners.mean(axis=1)
     graph = coo_matrix((np.linalg.norm(middles[one] - middles[other], axis=1), (one, other)),
                        shape=(len(middles), len(middles))).tocsr()
-    from_first = {first: dijkstra(graph, directed=False, indices=first, limit=_FOLD * thickness)
-                  for first in np.unique(pairs[:, 0])}
-    return np.array([np.isfinite(from_first[first][second]) for first, second in pairs], dtype=bool)
+    return all(np.isfinite(dijkstra(graph, directed=False, indices=first, limit=_FOLD * thickness)[
+        pairs[pairs[:, 0] == first, 1]]).all() for first in np.unique(pairs[:, 0]))
 
 
 def _least_border(mesh: Mesh, evidence: np.ndarray, cost: float) -> np.ndarray:

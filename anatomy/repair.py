@@ -15,7 +15,7 @@ from scipy.sparse.csgraph import breadth_first_order, connected_components
 from scipy.spatial import cKDTree
 
 from anatomy.distance_grid import cut_open, remesh
-from anatomy.double_wall import inner_wall, is_fold
+from anatomy.double_wall import are_folds, inner_wall
 from anatomy.inspection import (facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly, weld_length_of,
                                 without_fins, without_slivers)
 from anatomy.intersections import relaxed, self_intersections
@@ -200,9 +200,10 @@ class _Work:
         between = points[is_inner[pairs[:, 0]] != is_inner[pairs[:, 1]]]
         rims = find_rims(part, Edges.of(part))
         # Where the walls cross, the border between them may have gone from one to the other.
-        away = [np.linalg.norm(points - rim.centre, axis=1) / rim.radius for rim in rims]
-        near = pairs[np.min(away, axis=0, initial=np.inf) < 2.0] if len(points) else pairs
-        if not is_fold(self.mesh, near, thickness).all():
+        is_near = np.zeros(len(points), dtype=bool)
+        for rim in rims:
+            is_near |= np.linalg.norm(points - rim.centre, axis=1) < 2.0 * rim.radius
+        if not are_folds(self.mesh, pairs[is_near], thickness):
             raise AnatomyError(f"the walls of a double wall cross each other, {_listed(self._stretches(points))}: "
                                "which one is the lumen's is not certain there")
         for place, crossings in self._stretches(between):
