@@ -7,7 +7,9 @@ namespace Guidewire.Core
     /// <remarks>First each is shortened to nine tenths of what is free. That turns elements, which may then pass
     /// elsewhere; so after <see cref="CutRounds"/> rounds the spheres of those that still would do not move. Each round
     /// leaves at least one more, and an element between two of them does not move. Only what a round changed is tested
-    /// again, so all of them together cost no more than a few swept searches of the whole wire.</remarks>
+    /// again, so all of them together cost no more than a few swept searches of the whole wire. A displacement that is
+    /// not finite is left as it is: no part of it is free, and its wire is lost, which the end of the step says.
+    /// </remarks>
     internal sealed class ShortenedMotion
     {
         private const int CutRounds = 2;
@@ -66,11 +68,11 @@ namespace Guidewire.Core
             Array.Clear(_isCut, 0, _isCut.Length);
             for (int i = 0; i < to.Length; i++)
             {
-                if (_changed[i])
+                if (_changed[i] && to[i].IsFinite)
                 {
                     any |= CutBack(_swept.SphereImpact(from, to, i, out _), part, i, i);
                 }
-                if (i + 1 < to.Length && (_changed[i] || _changed[i + 1]))
+                if (i + 1 < to.Length && (_changed[i] || _changed[i + 1]) && to[i].IsFinite && to[i + 1].IsFinite)
                 {
                     any |= CutBack(_swept.ElementImpact(from, to, i, out _), part, i, i + 1);
                 }

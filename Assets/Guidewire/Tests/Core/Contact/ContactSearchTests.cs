@@ -82,6 +82,33 @@ namespace Guidewire.Core.Tests
             Assert.That(swept.Impacts.Count, Is.Zero);
         }
 
+        [TestCase(double.NaN, false)]
+        [TestCase(double.PositiveInfinity, false)]
+        [TestCase(double.NaN, true)]
+        [TestCase(double.PositiveInfinity, true)]
+        public void ShortenedMotion_OfAWireThatIsLost_Ends_AndIsFreeWhereItIsFinite(double lost, bool isAll)
+        {
+            Vector3d[] knots = { Vector3d.Zero, new(0.0, 0.0, 10.0), new(0.0, 3.0, 20.0) };
+            var tube = new ContactShape[] { new TubeShape(knots, new[] { 1.0, 1.0, 1.0 }, true, true) };
+            var search = new ContactSearch(tube, Elements, Length, Radius, Reach, true);
+            var swept = new SweptSearch(search, Elements + 1);
+            var from = new Vector3d[Elements + 1];
+            var to = new Vector3d[Elements + 1];
+            for (int i = 0; i <= Elements; i++)
+            {
+                from[i] = new Vector3d(0.0, 0.0, 0.5 * Length * i);
+                to[i] = from[i] + 5.0 * Vector3d.UnitY;
+                to[i] = isAll || i == 3 ? new Vector3d(0.0, lost, 0.0) : to[i];
+            }
+            search.Find(from, to);
+            new ShortenedMotion(swept, Elements + 1).Shorten(from, to);
+            for (int i = 0; i <= Elements; i++)
+            {
+                Assert.That(to[i].IsFinite, Is.EqualTo(!isAll && i != 3), "a lost sphere stays lost");
+                Assert.That(!to[i].IsFinite || to[i].Y < 1.0, "sphere " + i);
+            }
+        }
+
         // Free of all walls, near some of them.
         private static Vector3d[] Wire(RandomGeometry random)
         {
