@@ -178,6 +178,8 @@ namespace Guidewire.Core
         private void Build(double time, double shift, DirectStep? old)
         {
             double besides = old == null ? 0.0 : _dynamics.Terms.Walls()!.Spring.Besides;
+            Vector3d held = old == null ? Vector3d.Zero
+                : _dynamics.Terms.Walls()!.Spring.HeldPosition(_dynamics.Shape) + shift * _setup.Axis;
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _drive, shift,
                 _frameTurn);
             _drive = scene.Drive;
@@ -195,6 +197,9 @@ namespace Guidewire.Core
                 var counts = new Snapshot();
                 old.SerializeCounts(counts);
                 _inner.SerializeCounts(counts.ToRead());
+                // An element that leaves may have another force than the springs that take its place.
+                _inner.Contacts.DriveShortfall -= _drive.Gone(
+                    held, _dynamics.Terms.Walls()!.Spring.HeldPosition(_dynamics.Shape)) / scene.Metres;
             }
         }
 
