@@ -302,6 +302,14 @@ class Walls:
             answers.append(~self.mesh.inside(flat))
         return np.array(answers).reshape(-1, *points.shape[:-1])
 
+    def distances(self, points: np.ndarray) -> np.ndarray:
+        """Distances in units of points (..., 3) from each wall, on either side of it, shape (walls, ...)."""
+        flat = points.reshape(-1, 3)
+        answers = [np.abs(wall.distance(flat)) for wall in self.others]
+        if self.mesh:
+            answers.append(self.mesh.distance(flat))
+        return np.array(answers).reshape(-1, *points.shape[:-1])
+
     def crosses(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
         """Whether each segment a b, shapes (p, 3), goes through a wall, shape (p,)."""
         through = self.mesh.crosses(a, b) if self.mesh else np.zeros(len(a), bool)

@@ -13,7 +13,7 @@ from analysis.logs import read_log
 from analysis.surfaces import read_obj
 from experiments.campaigns import material_claims, material_pushes, pushes
 from experiments.campaigns.push_campaign import campaign
-from experiments.campaigns.push_claims import violations
+from experiments.campaigns.push_claims import passage_bounds, violations
 from analysis.wall_search import MeshSearch, Walls, closed_form, crosses_itself
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
@@ -175,6 +175,19 @@ def test_the_check_finds_what_was_made_wrong():
     claims = _broken(scene, {**summary, "maxPenetration": 2.0, "passages": 1}, across)
     assert claims == ["sphere 1 is beyond a wall after step 7", "element 0 crosses a wall after step 7; 2 times in all"]
     assert "calls itself reliable" in _broken(scene, {**trusted, "maxPenetration": 2.0, "passages": 1}, across)[0]
+
+
+def test_a_point_on_a_wall_to_rounding_may_be_on_either_side():
+    entries = {  # of one point: + inside, - beyond, 0 inside and on the wall, x beyond and on it
+        "+-+-": (2, 2), "+0-": (1, 1), "+x-": (1, 1), "-x-": (0, 1), "-0-": (0, 1), "+0+": (0, 1), "+x+": (0, 1),
+        "0x0x": (0, 2), "-": (0, 0), "++--": (1, 1), "-x0-+": (0, 1), "+-x+-": (2, 2),
+    }
+    for text, bounds in entries.items():
+        beyond = np.array([c in "-x" for c in text])[None, :, None]
+        on_wall = np.array([c in "0x" for c in text])[None, :, None]
+        assert passage_bounds(beyond, on_wall) == bounds, text
+    both = [np.concatenate([x, x], axis=2) for x in (beyond, on_wall)]
+    assert passage_bounds(*both) == (4, 4)
 
 
 @pytest.mark.parametrize("solver", ["direct", "xpbd"])
