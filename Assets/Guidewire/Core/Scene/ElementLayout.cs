@@ -159,7 +159,7 @@ namespace Guidewire.Core
             int left = count;
             foreach (Piece piece in rest)
             {
-                piece.Wanted = count * (piece.To - piece.From) / total;
+                piece.Wanted = count * ((piece.To - piece.From) / total);
                 piece.Count = Math.Max(1, (int)piece.Wanted);
                 left -= piece.Count;
             }

@@ -125,6 +125,17 @@ namespace Guidewire.Core.Tests
             Assert.That(tip.Z, Is.EqualTo(L - arc).Within(within));
         }
 
+        [Test]
+        public void Elements_OfTheLongestWireThatANumberHolds_AreAllAlike()
+        {
+            const double Longest = 1.7e308;
+            var parameters = new SimulationParameters();
+            parameters.Scene.GuidewireLength = Longest;
+            parameters.Scene.NumberRodElements = 30;
+            double[] lengths = ElementLayout.Lengths(parameters, 1.0, out _);
+            Assert.That(lengths, Has.Length.EqualTo(30).And.All.EqualTo(Longest / 30));
+        }
+
         /// <summary>A tube with stiffness and mass of its closed form, and the same numbers given directly.</summary>
         [Test]
         public void WireByStiffness_IsTheWireOfThatMaterialAndRadius()
