@@ -196,11 +196,12 @@ def assert_rest_shape(summary: dict, parameters: dict) -> None:
     if (parameters["solver"] != "direct" or parameters["maxSimulationSteps"] > 0 or parameters["wireSections"]
             or parameters["loadTables"] or any(parameters["tipFollowerForce"]) or parameters["catheters"]):
         return
-    # The supports carry the whole wire's weight and the loads at its ends.
+    # The supports carry the whole wire's weight and all loads.
     metres = parameters["metresPerUnit"]
     length = parameters["guidewireLength"] * metres
     mass = parameters["density"] * math.pi * (parameters["wireRadius"]**2 - parameters["innerRadius"]**2) * length
-    loads = [mass * np.array(parameters["gravity"]), length * np.array(parameters["distributedForce"])]
+    loads = [mass * np.array(parameters["gravity"]), length * np.array(parameters["distributedForce"]),
+             *(np.array(load["force"], float) for load in parameters["pointLoads"] or ())]
     if parameters["tipForceReleaseTime"] >= 0.0:
         loads.append(np.array(parameters["tipForce"]))
     if parameters["drive"] == "force":
