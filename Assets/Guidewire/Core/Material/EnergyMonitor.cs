@@ -64,16 +64,16 @@ namespace Guidewire.Core
             _before.CopyFrom(_shape);
             double motion = Motion();
             double putIn = _start + _loadWork + _ends.MostWork;
-            // A NaN fails every comparison, so the condition states the good case.
+            // A NaN fails every comparison, so the conditions state the good case.
+            if (!(motion <= double.MaxValue))
+            {
+                return string.Format(CultureInfo.InvariantCulture,
+                    "the wire has no finite kinetic energy at step {0}", _step);
+            }
             if (motion <= Allowance * Math.Max(_mostPutIn, putIn))
             {
                 _mostPutIn = Math.Max(_mostPutIn, putIn);
                 return null;
-            }
-            if (!(motion <= double.MaxValue))
-            {
-                return string.Format(CultureInfo.InvariantCulture,
-                    "the wire has no finite positions or velocities at step {0}", _step);
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "the wire moves with {0:G3} times the energy that was put into it (step {1})",

@@ -39,7 +39,7 @@ namespace Guidewire.Io
                 ["reason"] = simulation.Reason,
                 ["reliable"] = simulation.IsReliable,
                 ["steps"] = simulation.StepCount,
-                ["inGameTime"] = simulation.Time,
+                ["inGameTime"] = Finite(simulation.Time),
                 ["computationTime"] = 1e-3 * times.Sum,
                 ["setUpTime"] = setUpTime,
                 ["wallTime"] = wallTime,

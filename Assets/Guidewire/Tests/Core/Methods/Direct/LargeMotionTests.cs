@@ -85,5 +85,20 @@ namespace Guidewire.Core.Tests
             velocities[10] = new Vector3d(0.0, double.NaN, 0.0);
             Assert.That(watch.Blowup(), Does.Contain("no finite"));
         }
+
+        /// <summary>The work put into it is infinite too.</summary>
+        [Test]
+        public void PushedSoFastThatNoNumberHoldsItsEnergy_AWireHasDiverged()
+        {
+            Simulation run = Simulation.Create(new SimulationParameters
+            {
+                Material = { YoungsModulus = 1.0, MassDamping = 1.5 },
+                Method = { Solver = Solver.Explicit, MaxSimulationSteps = 60 },
+                Drive = { Displacement = 1e300 },
+            });
+            run.Step();
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Diverged), run.Reason);
+            Assert.That(run.Reason, Does.Contain("no finite kinetic energy at step 1"));
+        }
     }
 }
