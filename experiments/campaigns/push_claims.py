@@ -29,8 +29,7 @@ def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.nda
     positions : (k, n + 1, 3), of all spheres after every step from 0 on, in units.
     """
     has_friction = scene["vessel"].get("frictionCoefficient", 0.0) > 0.0  # friction may hold an element where it is
-    return [*contradictions(summary), *_passages(
-        scene["elementContact"], summary, positions, walls, scene["sphereRadius"]),
+    return [*contradictions(summary), *_passages(scene, summary, positions, walls),
             *([] if has_friction else _frozen(positions)), *drive_claims(scene, summary, positions),
             *penetration_claims(scene, summary, positions, walls)]
 
@@ -63,15 +62,15 @@ def passage_bounds(beyond: np.ndarray, on_wall: np.ndarray) -> tuple[int, int]:
     return bounds[0], bounds[1]
 
 
-def _passages(
-    rule: str, summary: dict[str, Any], positions: np.ndarray, walls: Walls, radius: float
-) -> list[str]:
+def _passages(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, walls: Walls) -> list[str]:
     claims = []
-    samples = walls.beyond(sample_wire(positions))
+    rule = scene["elementContact"]
+    points = sample_wire(positions)
+    samples = walls.beyond(points)
     spheres, n = samples[..., ::SAMPLES], positions.shape[1] - 1
     count = int(np.count_nonzero(~samples[:, :-1] & samples[:, 1:]))
     if summary["passages"] != count:
-        least, most = passage_bounds(samples, walls.distances(sample_wire(positions)) < SAME * radius)
+        least, most = passage_bounds(samples, walls.distances(points) < SAME * scene["sphereRadius"])
         if not least <= summary["passages"] <= most:
             claims.append(f"passages = {summary['passages']}, true are {least} to {most}")
     if summary["reliable"] and samples.any():

@@ -5,7 +5,6 @@ namespace Guidewire.Benchmarks
     internal static class NewtonParts
     {
         private const int Calls = 3000;   // elements that one timed call passes, at least
-        private static readonly TimeSpan WarmUp = TimeSpan.FromSeconds(0.4);
 
         /// <summary>Prints a table of parts against numbers of elements.</summary>
         public static void Print()
@@ -53,15 +52,7 @@ namespace Guidewire.Benchmarks
                     part();
                 }
             }
-            Interleaved Time() => new Interleaved(Repeat, sweep.Step);
-            // Until all of it is compiled: the final compilation begins a tenth of a second after the last new method.
-            var watch = Stopwatch.StartNew();
-            do
-            {
-                Time();
-            }
-            while (watch.Elapsed < WarmUp);
-            Interleaved both = Time();
+            var both = new Interleaved(Repeat, sweep.Step);
             each = both.SecondBest / MotionCost.ElementIterations;
             ratio = both.FirstBest / (calls * elements) / each;
         }

@@ -182,13 +182,13 @@ namespace Guidewire.Benchmarks
                 TimeSpan start = Processor();
                 long begun = Stopwatch.GetTimestamp();
                 iterations = ArchPush.Finish(run);
-                shortest = Math.Min(shortest, MillisecondsSince(begun));
+                shortest = Math.Min(shortest, Stopwatch.GetElapsedTime(begun).TotalMilliseconds);
                 TimeSpan middle = Processor();
                 for (int k = 0; k < SweepsATurn; k++)
                 {
                     begun = Stopwatch.GetTimestamp();
                     sweep.Step();
-                    shortestSweep = Math.Min(shortestSweep, MillisecondsSince(begun));
+                    shortestSweep = Math.Min(shortestSweep, Stopwatch.GetElapsedTime(begun).TotalMilliseconds);
                 }
                 one += middle - start;
                 other += Processor() - middle;
@@ -197,16 +197,11 @@ namespace Guidewire.Benchmarks
             double each = other.TotalMilliseconds / (turns * SweepsATurn * MotionCost.ElementIterations);
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                 "push into an arch, {0}, at {1}: {2:0.0} Newton iterations a step, {3:0.00} us of a processor per"
-                + " simulated ms = {4:0} element-iterations, in turns (of {5:0.0} ns each); the shortest of {6} turns {7:0}"
-                + " (of {8:0.0} ns)", wall, speed, iterations,
+                + " simulated ms = {4:0} element-iterations, in turns (of {5:0.0} ns each); in the shortest of {6}"
+                + " turns {7:0} (of {8:0.0} ns each)", wall, speed, iterations,
                 1e3 * one.TotalMilliseconds / milliseconds, one.TotalMilliseconds / milliseconds / each, 1e6 * each,
                 turns, shortest * turns / milliseconds / shortestSweep * MotionCost.ElementIterations,
                 1e6 * shortestSweep / MotionCost.ElementIterations));
-        }
-
-        private static double MillisecondsSince(long begun)
-        {
-            return 1e3 * (Stopwatch.GetTimestamp() - begun) / Stopwatch.Frequency;
         }
 
         // What else the machine does takes long pushes more turns than short sweeps: the processor's own time counts.
