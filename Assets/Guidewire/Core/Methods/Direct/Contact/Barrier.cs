@@ -12,6 +12,9 @@ namespace Guidewire.Core
         /// <summary>k, N/m: the force at half of g0 is 1.19 k g0.</summary>
         public readonly double Stiffness;
 
+        private const double NearlyForce = 1e-3;   // of a force, the error of the gap that it is at
+        private const int MostTries = 30;
+
         /// <summary>With this distance and stiffness.</summary>
         public Barrier(double distance, double stiffness)
         {
@@ -39,6 +42,45 @@ namespace Guidewire.Core
             slope = -Stiffness * Distance * below * (2.0 * log + ratio);
             curvature = -Stiffness * (2.0 * log + ratio * (4.0 - ratio));
             return -Stiffness * Distance * Distance * below * below * log;
+        }
+
+        /// <summary>Stiffness of the chord from a gap to where the force is so many times as large, as a multiple of b'':
+        /// the mean stiffness on the way. Where that is 0 or less, the way ends where the force does.</summary>
+        public double ChordStiffness(double gap, double ratio)
+        {
+            double x = gap / Distance;
+            double force = ForceAt(x, out double slope);
+            if (!(ratio > 0.0))
+            {
+                return force / (slope * (x - 1.0));
+            }
+            double asked = ratio * force;
+            // Both are below the gap that is looked for: |f| >= 3 (1 - x)^2, and |f| >= 1/x - 1 for x <= 0.6.
+            double end = 1.0 - Math.Sqrt(asked / 3.0);
+            end = asked > 2.0 / 3.0 ? Math.Max(end, 1.0 / (1.0 + asked)) : end;
+            end = ratio < 1.0 ? Math.Max(end, x) : end;
+            double forceAtEnd = ForceAt(end, out double slopeAtEnd);
+            for (int k = 0; k < MostTries && Math.Abs(forceAtEnd - asked) > NearlyForce * asked; k++)
+            {
+                if (!(slopeAtEnd < 0.0))
+                {
+                    break;    // rounded to g0
+                }
+                end -= (forceAtEnd - asked) / slopeAtEnd;
+                forceAtEnd = ForceAt(end, out slopeAtEnd);
+            }
+            double way = end - x;
+            return Math.Abs(way) > NearlyForce * (1.0 - x) * x ? (forceAtEnd - force) / (way * slope) : 1.0;
+        }
+
+        // Of x = g/g0: |b'|/(k g0), convex, and its derivative.
+        private static double ForceAt(double x, out double slope)
+        {
+            double below = x - 1.0;
+            double log = Math.Log(x);
+            double ratio = below / x;
+            slope = 2.0 * log + ratio * (4.0 - ratio);
+            return below * (2.0 * log + ratio);
         }
     }
 }

@@ -83,7 +83,7 @@ namespace Guidewire.Core
             _near = new NeighbourList(walls, range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
-            _sums = new ContactSums(n);
+            _sums = new ContactSums(n, walls.Length, barrier);
             _resultant = new Vector3d[walls.Length];
         }
 
@@ -101,6 +101,9 @@ namespace Guidewire.Core
 
         /// <summary>The nodes as walls meet them.</summary>
         public SheathedNodes Nodes => _nodes;
+
+        /// <summary>Estimates of the contact forces in the shape last evaluated.</summary>
+        public ContactMultipliers Multipliers => _sums.Multipliers;
 
         /// <summary>Whether a wall touches the wire in the shape last evaluated.</summary>
         public bool Touches => _sums.Contacts.Count > 0;
@@ -403,7 +406,7 @@ namespace Guidewire.Core
             }
             _resultant[w] -= gradient;
             Symmetric3 positive = mayBeNegative ? second.PositivePart() : second;
-            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive);
+            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest);
         }
 
         private void AddElement(int w, int j)
@@ -413,6 +416,8 @@ namespace Guidewire.Core
             ref double nearest = ref _edgeGap[w * _elementRadius.Length + j];
             _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
+            int first = _sums.Contacts.Count;
+            double stiffness = 0.0;
             for (int k = 0; k < _edgeContacts.Count; k++)
             {
                 ref EdgeContact edge = ref _edgeContacts[k];
@@ -430,8 +435,10 @@ namespace Guidewire.Core
                     return;
                 }
                 _value += edge.Weight * value;
+                stiffness += edge.Weight * curvature;
                 _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature);
             }
+            _sums.EndElement(w, j, first, stiffness, nearest);
         }
     }
 }

@@ -17,9 +17,10 @@ namespace Guidewire.Core
         private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
         private readonly bool[] _isTouched;       // by node: whether these are not 0
 
-        /// <summary>Of a wire of this many elements that touches nothing.</summary>
-        public ContactSums(int elementCount)
+        /// <summary>Of a wire of this many elements that touches none of so many walls.</summary>
+        public ContactSums(int elementCount, int wallCount, in Barrier barrier)
         {
+            Multipliers = new ContactMultipliers(elementCount, wallCount, barrier);
             int nodes = elementCount + 1;
             _gradient = new Vector3d[nodes];
             _own = new Symmetric3[nodes];
@@ -33,9 +34,13 @@ namespace Guidewire.Core
         /// <summary>Wall by wall and along the wire.</summary>
         public StructList<WallContact> Contacts { get; } = new StructList<WallContact>(64);
 
+        /// <summary>Estimates of their forces.</summary>
+        public ContactMultipliers Multipliers { get; }
+
         /// <summary>Removes all contacts.</summary>
         public void Clear()
         {
+            Multipliers.Clear();
             for (int k = 0; k < Contacts.Count; k++)
             {
                 int j = Contacts[k].Element;
@@ -59,10 +64,12 @@ namespace Guidewire.Core
         /// <param name="gradient">N.</param>
         /// <param name="second">N/m.</param>
         /// <param name="bending">What the second derivative has besides, N/m.</param>
-        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second, in Symmetric3 bending)
+        /// <param name="gap">m.</param>
+        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second, in Symmetric3 bending, double gap)
         {
             bool isLast = i == _coupling.Length;
             Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient, true);
+            Multipliers.AddNode(w, i, -gradient, second, gap);
             _gradient[i] += gradient;
             _own[i] += second;
             _ownBending[i] += bending;
@@ -98,6 +105,30 @@ namespace Guidewire.Core
             return first + second;
         }
 
+        /// <summary>All edge contacts of element j with wall w have been added.</summary>
+        /// <param name="w">Which wall.</param>
+        /// <param name="j">Which element.</param>
+        /// <param name="first">Index of the first of them.</param>
+        /// <param name="stiffness">The sum of their b'', N/m.</param>
+        /// <param name="gap">The least of their gaps, m.</param>
+        public void EndElement(int w, int j, int first, double stiffness, double gap)
+        {
+            Vector3d force = Vector3d.Zero;
+            double moment = 0.0;
+            double sum = 0.0;
+            for (int k = first; k < Contacts.Count; k++)
+            {
+                ref WallContact contact = ref Contacts[k];
+                force += contact.Force * contact.Normal;
+                moment += contact.Force * contact.Position;
+                sum += contact.Force;
+            }
+            if (force != Vector3d.Zero)
+            {
+                Multipliers.AddElement(w, j, moment / sum, force, stiffness, gap);
+            }
+        }
+
         /// <summary>Node i, which begins the first element that touches anything, does not move as walls see it.
         /// </summary>
         public void Hold(int i)
@@ -108,6 +139,7 @@ namespace Guidewire.Core
             _coupling[i] = default;
             _couplingBending[i] = default;
             _couplingTurn[i] = Vector3d.Zero;
+            Multipliers.Hold(i);
         }
 
         /// <summary>Adds the first derivatives of nodes from one (inclusive) to another (exclusive).</summary>
@@ -134,6 +166,7 @@ namespace Guidewire.Core
         public void AddBlocks(RodBlock[] blocks, int from, int to, bool hasBending)
         {
             int end = Math.Min(to, _gradient.Length);
+            bool hasEstimates = Multipliers.HasEstimates;
             for (int i = from; i < end; i++)
             {
                 if (!_isTouched[i])
@@ -142,11 +175,13 @@ namespace Guidewire.Core
                 }
                 ref RodBlock b = ref blocks[i];
                 Symmetric3 a = hasBending ? _own[i] + _ownBending[i] : _own[i];
+                a = hasEstimates ? a + Multipliers.OwnOf(i) : a;
                 b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
                 b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
                 if (i < _coupling.Length)
                 {
                     Symmetric3 d = hasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
+                    d = hasEstimates ? d + Multipliers.CouplingOf(i) : d;
                     Vector3d t = hasBending ? _couplingTurn[i] : Vector3d.Zero;
                     b.D11 += d.A11; b.D12 += d.A21 - t.Z; b.D13 += d.A31 + t.Y;
                     b.D21 += d.A21 + t.Z; b.D22 += d.A22; b.D23 += d.A32 - t.X;

@@ -22,6 +22,7 @@ namespace Guidewire.Core
         private const double Far = 1e5;                  // times what may be unbalanced: not reached in one iteration
         private const double FarFromLoose = 10.0;        // the same where many times the tolerance may be left
         private const int MostStiffened = 4;             // iterations of a stage
+        private const double MostLinear = 1e-2;          // size of a step whose linear model gives forces of walls
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const int MostCuts = 30;
         private const int MaxReusedSteps = 2;                  // steps with one factorisation
@@ -83,6 +84,7 @@ namespace Guidewire.Core
         public string? Solve(RodShape shape, double stageLength, double loads, bool isFar, double tolerances)
         {
             double rounding = _rounding.BeginStage(shape, stageLength);
+            _barrier.Multipliers.Forget();
             double left = double.PositiveInfinity;
             bool hasValues = false;    // of the terms in this shape
             int kept = MaxReusedSteps;       // steps with the last factorisation
@@ -119,6 +121,15 @@ namespace Guidewire.Core
                 Iterations++;
                 double size = _newton.Size(out double relative);
                 double scale = _newton.MaxStep(shape, size, relative, out _);
+                bool isLinear = isPlain && scale == 1.0 && size < MostLinear;
+                if (isLinear)
+                {
+                    _barrier.Multipliers.Estimate(_newton.Direction);
+                }
+                else
+                {
+                    _barrier.Multipliers.Forget();
+                }
                 if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
                 {
                     if (wasFar)
@@ -133,6 +144,10 @@ namespace Guidewire.Core
                 shape.CopyFrom(_newton.Trial);
                 hasValues = !isHidden;
                 kept = isPlain && scale == 1.0 ? 0 : MaxReusedSteps;
+                if (isLinear && scale < 1.0)
+                {
+                    _barrier.Multipliers.Forget();
+                }
                 // A full step that no longer lowers the residual force is at the limit of rounding.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
                 {
