@@ -30,12 +30,14 @@ namespace Guidewire.Core.Tests
             return count() - before;
         }
 
-        /// <summary>Bytes that further steps of a run allocate, after as many as bring it into its usual course.
-        /// </summary>
+        /// <summary>Bytes that further steps of a run allocate, after as many as bring it into its usual course: the
+        /// less of two times so many steps. Once in many runs of all tests 4 kB were counted that no repetition
+        /// showed.</summary>
         public static long LeftBySteps(Simulation run, int before, int steps)
         {
             Wires.Step(run, before);
-            return LeftBy(() => Wires.Step(run, steps));
+            long first = LeftBy(() => Wires.Step(run, steps));
+            return first == 0 ? first : Math.Min(first, LeftBy(() => Wires.Step(run, steps)));
         }
     }
 }
