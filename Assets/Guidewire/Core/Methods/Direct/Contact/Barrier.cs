@@ -44,8 +44,8 @@ namespace Guidewire.Core
             return -Stiffness * Distance * Distance * below * below * log;
         }
 
-        /// <summary>Stiffness of the chord from a gap to where the force is so many times as large, as a multiple of b'':
-        /// the mean stiffness on the way. Where that is 0 or less, the way ends where the force does.</summary>
+        /// <summary>The mean stiffness on the way from a gap to where the force is so many times as large, as a
+        /// multiple of b''. Where that is 0 or less, the way ends where the force does.</summary>
         public double ChordStiffness(double gap, double ratio)
         {
             double x = gap / Distance;

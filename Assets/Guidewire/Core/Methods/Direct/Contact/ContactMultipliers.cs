@@ -2,14 +2,14 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Stiffness of contacts for Newton's method by estimates of their forces, as the multipliers of
-    /// primal-dual interior point methods are (Wright 1997): the slope of the barrier's force between the gap as it is
-    /// and the gap at which the force is the one that the linear model of the last step ended with.</summary>
+    /// <summary>The stiffness of contacts in Newton's method from estimates of their forces, the multipliers of
+    /// primal-dual interior point methods (S. Wright 1997, Primal-Dual Interior-Point Methods): that of the chord from
+    /// the gap as it is to the gap at which the barrier's force is the estimate.</summary>
     /// <remarks>The second derivative of a barrier is true at one gap only. Where a gap came out too small, its force
-    /// is too large, and so is its stiffness: Newton's step then no more than doubles the gap. Where it came out too
-    /// large, the step closes it beyond the wall. The force that the linear model of wire and walls asks for is much
-    /// nearer to that of the solution than the one at the new gap is. Gradients are not changed, so the solution is
-    /// the same.
+    /// is too large and so is its stiffness, and a Newton step no more than doubles the gap; where it came out too
+    /// large, a step would close it altogether. The force with which the linear model of the last step ended is much
+    /// nearer to that of the solution than the force at the new gap is. Gradients are not changed, so neither is the
+    /// solution.
     ///
     /// All contacts of a node with a wall count as one, and so do those of an element: with the sum of their forces,
     /// at the least of their gaps.</remarks>

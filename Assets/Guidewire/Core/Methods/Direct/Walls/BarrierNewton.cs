@@ -11,9 +11,11 @@ namespace Guidewire.Core
     /// its negative pivots change sign where there is friction and the direction is then short, or else a
     /// multiple of the metric is added, kept from one iteration to the next. The former slows down only
     /// what is unstable: a wire whose forces balance in the plane of its bend converges in it as fast as
-    /// ever, though it would go on out of the plane. A stage is solved when no piece of the rod, from its
-    /// start to any node, is unbalanced by more than S, as in <see cref="StageSolver"/>; where the
-    /// energy's own rounding hides the decrease the balance decides alone.</remarks>
+    /// ever, though it would go on out of the plane. After a full step near the solution the forces of its
+    /// linear model set the stiffness of contacts (<see cref="ContactMultipliers"/>). A stage is solved when no
+    /// piece of the rod, from its start to any node, is unbalanced by more than S, as in
+    /// <see cref="StageSolver"/>; where the energy's own rounding hides the decrease the balance decides
+    /// alone.</remarks>
     internal sealed class BarrierNewton
     {
         private const double OfSpring = 10.0;            // EA/l: of the support
