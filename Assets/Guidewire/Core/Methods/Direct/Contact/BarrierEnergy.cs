@@ -207,6 +207,12 @@ namespace Guidewire.Core
             return _near;
         }
 
+        /// <summary>Takes the neighbours of another rod, see <see cref="NeighbourList.TakeOver"/>.</summary>
+        public void TakeNeighbours(BarrierEnergy other, int shift)
+        {
+            _near.TakeOver(other._near, shift);
+        }
+
         /// <summary>Gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
         /// distance.</summary>
         public double NodeGap(int w, int i)

@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private readonly Neighbour[] _elementBefore;    // the queries before the last ones
         private readonly Neighbour[] _nodeBefore;
         private readonly int[] _hint;             // by wall and element
-        private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
+        private StructList<WallFeature> _features = new StructList<WallFeature>(1024);
         private readonly FeatureCache?[] _caches;  // of nodes, by wall
         private readonly int[] _version;          // of the caches when the nodes were queried
         private int _mostFeatures;
@@ -61,6 +61,51 @@ namespace Guidewire.Core
                     isCurrent &= _caches[w] == null || _caches[w]!.Version == _version[w];
                 }
                 return isCurrent;
+            }
+        }
+
+        /// <summary>Takes the queries of another list between the same walls, whose elements are those of this one but
+        /// for some at its start; that list is not to be used any more.</summary>
+        /// <param name="other">No query has been made with this one yet.</param>
+        /// <param name="shift">Index here of what is element 0 there.</param>
+        public void TakeOver(NeighbourList other, int shift)
+        {
+            int n = _range.Length;
+            int m = other._range.Length;
+            if (_skin != other._skin)
+            {
+                return;
+            }
+            _features = other._features;
+            _mostFeatures = other._mostFeatures;
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                if (_caches[w] != other._caches[w])
+                {
+                    continue;
+                }
+                _version[w] = other._version[w];
+                for (int j = Math.Max(shift, 0); j < n; j++)
+                {
+                    int to = w * n + j;
+                    int from = w * m + j - shift;
+                    if (_range[j] == other._range[j - shift])
+                    {
+                        _element[to] = other._element[from];
+                        _elementBefore[to] = other._elementBefore[from];
+                        _hint[to] = other._hint[from];
+                    }
+                }
+                for (int i = Math.Max(shift, 0); i <= n; i++)
+                {
+                    int to = w * (n + 1) + i;
+                    int from = w * (m + 1) + i - shift;
+                    if (RangeOfNode(i) == other.RangeOfNode(i - shift))
+                    {
+                        _node[to] = other._node[from];
+                        _nodeBefore[to] = other._nodeBefore[from];
+                    }
+                }
             }
         }
 
@@ -133,7 +178,7 @@ namespace Guidewire.Core
             {
                 return false;
             }
-            double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
+            double range = RangeOfNode(i);
             return NodeMayBeInRange(w, i, x[i], range) && (_caches[w] != null
                 || ((i == n || _element[w * n + i].FirstMayBeInRange(x[i], range))
                     && (i == 0 || _element[w * n + i - 1].SecondMayBeInRange(x[i], range))));
@@ -243,10 +288,14 @@ namespace Guidewire.Core
                 }
                 if (!IsCovered(ref node, ref before, x[i], x[i]))
                 {
-                    double range = Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, n - 1)]);
-                    cells.Find(x[i], range, ref node);
+                    cells.Find(x[i], RangeOfNode(i), ref node);
                 }
             }
+        }
+
+        private double RangeOfNode(int i)
+        {
+            return Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, _range.Length - 1)]);
         }
 
         // Whether one of two queries is valid between a and b: it is then the last; else the older one is, to be made

@@ -95,10 +95,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>The motion of a window's elements.</summary>
-        public RodDynamics Dynamics(MaterialScene scene, SheathWindow window)
+        /// <param name="before">The contact of the window before, which is not to be used any more, or null.</param>
+        /// <param name="entered">Elements that have entered since, negative where some have left.</param>
+        public RodDynamics Dynamics(MaterialScene scene, SheathWindow window, BarrierEnergy? before, int entered)
         {
             WallTerms walls = DirectSetup.WallTermsOf(_parameters, scene, _barrier,
                 _support.InSeries(window.AxialCompliance));
+            if (before != null)
+            {
+                walls.Barrier.TakeNeighbours(before, entered);
+            }
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             return DirectSetup.DynamicsOf(_parameters, scene, terms);
         }

@@ -53,7 +53,7 @@ namespace Guidewire.Core
             _setup.LimitDrive(_shape);
             _drive = whole.Drive;
             _window = _setup.Window(first);
-            Build(0.0, _setup.Stations[first], null);
+            Build(0.0, _setup.Stations[first], 0, null);
         }
 
         /// <inheritdoc/>
@@ -119,7 +119,7 @@ namespace Guidewire.Core
             if (!snapshot.IsWritten)
             {
                 _window = _setup.Window(first);
-                Build(time, 0.0, null);
+                Build(time, 0.0, 0, null);
             }
             _inner.Serialize(snapshot);
             TakeAnchors();
@@ -158,9 +158,9 @@ namespace Guidewire.Core
                 _shape.Q[j] = _drive.Hub.FrameTurned(TurnInSheath(j, own, torque));
             }
             _frameTurn = first < _window.First ? TurnInSheath(first, own, torque) : TurnOf(first);
-            DirectStep old = _inner;
+            int entered = _window.First - first;
             _window = _setup.Window(first);
-            Build(_dynamics.Time, shift, old);
+            Build(_dynamics.Time, shift, entered, _inner);
         }
 
         // Where a sheathed element enters: on the axis, as long as the axial force leaves it.
@@ -174,8 +174,8 @@ namespace Guidewire.Core
             _spins[j] = new Vector3d(0.0, 0.0, _spins[j + 1].Z);
         }
 
-        // The first node has been shifted along the wire, m.
-        private void Build(double time, double shift, DirectStep? old)
+        // The first node has been shifted along the wire, m, by elements that entered.
+        private void Build(double time, double shift, int entered, DirectStep? old)
         {
             double besides = old == null ? 0.0 : _dynamics.Terms.Walls()!.Spring.Besides;
             Vector3d held = old == null ? Vector3d.Zero
@@ -183,7 +183,8 @@ namespace Guidewire.Core
             MaterialScene scene = _setup.Scene(_window, _shape, _velocities, _spins, _drive, shift,
                 _frameTurn);
             _drive = scene.Drive;
-            _dynamics = _setup.Dynamics(scene, _window);
+            BarrierEnergy? before = old == null ? null : _dynamics.Terms.Walls()!.Barrier;
+            _dynamics = _setup.Dynamics(scene, _window, before, entered);
             _dynamics.GoOn(time, _frameTurn);
             _dynamics.Terms.SetTime(scene.Schedule, time);
             _dynamics.Terms.Walls()!.Spring.Axis = _setup.Axis;
