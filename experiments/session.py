@@ -150,7 +150,8 @@ class Session:
         return base64.b64decode(self._ask("save")["snapshot"])
 
     def restore(self, saved: bytes) -> State:
-        """Go on from what was saved: the same steps then give the same bits."""
+        """Go on from what was saved: the same steps then give the same bits, but for rounding between walls that are
+        meshes and in a sheath that is not along an axis of the scene."""
         return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
 
     def describe(self) -> dict[str, Any]:

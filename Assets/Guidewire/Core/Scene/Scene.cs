@@ -127,12 +127,18 @@ namespace Guidewire.Core
             }
             for (int j = 0; j < Shape.Q.Length; j++)
             {
-                Shape.Q[j] = Quaterniond.Normalize(start.Orientations[j]);
+                Shape.Q[j] = Normalized(start, start.Orientations[j]);
                 Spins[j] = start.AngularVelocities[j];
             }
-            Shape.ProximalFrame = Quaterniond.Normalize(start.ProximalFrame ?? start.Orientations[0]);
-            Shape.DistalFrame = Quaterniond.Normalize(
-                start.DistalFrame ?? start.Orientations[Shape.ElementCount - 1]);
+            Shape.ProximalFrame = Normalized(start, start.ProximalFrame ?? start.Orientations[0]);
+            Shape.DistalFrame = Normalized(
+                start, start.DistalFrame ?? start.Orientations[Shape.ElementCount - 1]);
+        }
+
+        // That of a run is normalised; once more would change its bits, and with them the axis of a sheath.
+        private static Quaterniond Normalized(RodStart start, in Quaterniond q)
+        {
+            return start.IsReached ? q : Quaterniond.Normalize(q);
         }
     }
 }
