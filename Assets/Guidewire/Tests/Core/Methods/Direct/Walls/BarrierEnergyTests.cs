@@ -228,6 +228,65 @@ namespace Guidewire.Core.Tests
             Assert.That(cut, Is.GreaterThanOrEqualTo(5), "too few steps are cut");
         }
 
+        /// <summary>The wire of 6 elements becomes one of 8, or of 4: its neighbours are known already.</summary>
+        [Test]
+        public void NeighboursOfAnotherRod_ChangeNoAnswer(
+            [ValueSource(typeof(TestShapes), nameof(TestShapes.Names))] string name, [Values(-2, 2)] int entered)
+        {
+            ContactShape wall = TestShapes.Make(name);
+            int touching = 0;
+            for (int seed = 0; seed < 4000 && touching < 8; seed++)
+            {
+                BarrierEnergy old = Create(wall, seed, out RodShape shape);
+                if (!(old.Value(shape) < 1e3))
+                {
+                    continue;
+                }
+                var random = new RandomGeometry(seed + 1000);
+                var moved = new RodShape(N + entered);
+                for (int i = moved.ElementCount; i >= 0; i--)
+                {
+                    int before = i - entered;
+                    moved.X[i] = before >= 0 ? shape.X[before] + 0.03 * random.Point()
+                        : 2.0 * moved.X[i + 1] - moved.X[i + 2];
+                }
+                if (IsBehind(wall, moved))
+                {
+                    continue;
+                }
+                BarrierEnergy one = EnergyOf(wall, N + entered);
+                BarrierEnergy other = EnergyOf(wall, N + entered);
+                one.TakeNeighbours(old, entered);
+                double value = other.Value(moved);
+                Assert.That(one.Value(moved), Is.EqualTo(value).Within(1e-12 * value), name + ", seed " + seed);
+                touching += value > 0.0 ? 1 : 0;
+                for (int j = 0; j < moved.ElementCount && value < double.PositiveInfinity; j++)
+                {
+                    Assert.That(one.ClearanceOf(j), Is.LessThanOrEqualTo(DistanceOf(wall, moved, j) + 1e-9));
+                }
+            }
+            Assert.That(touching, Is.GreaterThanOrEqualTo(5), "too few wires touch the wall");
+        }
+
+        private static bool IsBehind(ContactShape wall, RodShape shape)
+        {
+            bool isBehind = false;
+            for (int j = 0; j < shape.ElementCount; j++)
+            {
+                int hint = -1;
+                isBehind |= wall.Nearest(shape.X[j], shape.X[j + 1], double.PositiveInfinity, ref hint,
+                    out SurfaceContact contact) && contact.Distance < Radius;
+            }
+            return isBehind;
+        }
+
+        private static double DistanceOf(ContactShape wall, RodShape shape, int j)
+        {
+            int hint = -1;
+            return wall.Nearest(shape.X[j], shape.X[j + 1], double.PositiveInfinity, ref hint,
+                out SurfaceContact contact) ? Math.Abs(contact.Distance) : double.PositiveInfinity;
+        }
+
         private static double GapOf(ContactShape wall, RodShape shape)
         {
             double gap = double.PositiveInfinity;
@@ -244,7 +303,6 @@ namespace Guidewire.Core.Tests
         private static BarrierEnergy Create(ContactShape wall, int seed, out RodShape shape)
         {
             var random = new RandomGeometry(seed);
-            MaterialRod rod = MaterialRod.Round(N, 1.2, Radius, 1e6, 1e6, 1e3);
             shape = new RodShape(N);
             Vector3d x = random.Point();
             Vector3d step = 0.2 * random.Direction();
@@ -257,6 +315,12 @@ namespace Guidewire.Core.Tests
             {
                 shape.Q[j] = Quaterniond.Identity;
             }
+            return EnergyOf(wall, N);
+        }
+
+        private static BarrierEnergy EnergyOf(ContactShape wall, int elements)
+        {
+            MaterialRod rod = MaterialRod.Round(elements, 0.2 * elements, Radius, 1e6, 1e6, 1e3);
             return new BarrierEnergy(rod, new[] { wall }, 1.0, new Barrier(Distance, 10.0));
         }
 
