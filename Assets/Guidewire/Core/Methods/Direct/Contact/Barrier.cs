@@ -12,8 +12,8 @@ namespace Guidewire.Core
         /// <summary>k, N/m: the force at half of g0 is 1.19 k g0.</summary>
         public readonly double Stiffness;
 
-        private const double NearlyForce = 1e-3;   // of a force, the error of the gap that it is at
-        private const int MostTries = 30;
+        private const double ForceTolerance = 1e-3;    // relative, of where a chord ends
+        private const int MostIterations = 30;
 
         /// <summary>With this distance and stiffness.</summary>
         public Barrier(double distance, double stiffness)
@@ -37,10 +37,9 @@ namespace Guidewire.Core
             }
             double x = gap / Distance;
             double below = x - 1.0;
-            double log = Math.Log(x);
-            double ratio = below / x;
-            slope = -Stiffness * Distance * below * (2.0 * log + ratio);
-            curvature = -Stiffness * (2.0 * log + ratio * (4.0 - ratio));
+            double factor = Factor(x, out double log, out double derivative);
+            slope = -Stiffness * Distance * below * factor;
+            curvature = -Stiffness * derivative;
             return -Stiffness * Distance * Distance * below * below * log;
         }
 
@@ -60,7 +59,7 @@ namespace Guidewire.Core
             end = asked > 2.0 / 3.0 ? Math.Max(end, 1.0 / (1.0 + asked)) : end;
             end = ratio < 1.0 ? Math.Max(end, x) : end;
             double forceAtEnd = ForceAt(end, out double slopeAtEnd);
-            for (int k = 0; k < MostTries && Math.Abs(forceAtEnd - asked) > NearlyForce * asked; k++)
+            for (int k = 0; k < MostIterations && Math.Abs(forceAtEnd - asked) > ForceTolerance * asked; k++)
             {
                 if (!(slopeAtEnd < 0.0))
                 {
@@ -70,17 +69,23 @@ namespace Guidewire.Core
                 forceAtEnd = ForceAt(end, out slopeAtEnd);
             }
             double way = end - x;
-            return Math.Abs(way) > NearlyForce * (1.0 - x) * x ? (forceAtEnd - force) / (way * slope) : 1.0;
+            return Math.Abs(way) > ForceTolerance * (1.0 - x) * x ? (forceAtEnd - force) / (way * slope) : 1.0;
         }
 
-        // Of x = g/g0: |b'|/(k g0), convex, and its derivative.
+        // Of x = g/g0: |b'|/(k g0), a convex function, and its derivative.
         private static double ForceAt(double x, out double slope)
         {
-            double below = x - 1.0;
-            double log = Math.Log(x);
-            double ratio = below / x;
-            slope = 2.0 * log + ratio * (4.0 - ratio);
-            return below * (2.0 * log + ratio);
+            double factor = Factor(x, out _, out slope);
+            return (x - 1.0) * factor;
+        }
+
+        // |b'|/(k g0) over x - 1, with ln x and the derivative of the former.
+        private static double Factor(double x, out double log, out double derivative)
+        {
+            log = Math.Log(x);
+            double ratio = (x - 1.0) / x;
+            derivative = 2.0 * log + ratio * (4.0 - ratio);
+            return 2.0 * log + ratio;
         }
     }
 }

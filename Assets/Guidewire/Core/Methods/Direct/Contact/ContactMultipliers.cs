@@ -53,9 +53,9 @@ namespace Guidewire.Core
         /// <summary>Removes all contacts, but not the estimates.</summary>
         public void Clear()
         {
-            for (int k = 0; k < _contacts.Count; k++)
+            if (HasEstimates)
             {
-                Restore(ref _contacts[k]);
+                Restore();
             }
             _contacts.Clear();
             _held = -1;
@@ -64,11 +64,11 @@ namespace Guidewire.Core
         /// <summary>Removes the estimates: contacts have their second derivatives.</summary>
         public void Forget()
         {
-            for (int k = 0; k < _contacts.Count; k++)
+            if (HasEstimates)
             {
-                Restore(ref _contacts[k]);
+                Restore();
+                ForgetEstimates();
             }
-            ForgetEstimates();
         }
 
         /// <summary>Node i with a wall.</summary>
@@ -81,9 +81,9 @@ namespace Guidewire.Core
         {
             bool isLast = i == _coupling.Length;
             double size = force.Length;
-            Vector3d normal = (1.0 / size) * force;
             if (size > 0.0)    // not too small for its square
             {
+                Vector3d normal = (1.0 / size) * force;
                 Add(w * (_nodes + _coupling.Length) + i, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, size, normal,
                     Vector3d.Dot(normal, stiffness.Times(normal)), gap);
             }
@@ -145,13 +145,18 @@ namespace Guidewire.Core
             });
         }
 
-        private void Restore(ref Contact contact)
+        // Every contact has its second derivative.
+        private void Restore()
         {
-            int j = contact.Element;
-            contact.Stiffness = contact.Tangent;
-            _own[j] = default;
-            _own[j + 1] = default;
-            _coupling[j] = default;
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                ref Contact contact = ref _contacts[k];
+                int j = contact.Element;
+                contact.Stiffness = contact.Tangent;
+                _own[j] = default;
+                _own[j + 1] = default;
+                _coupling[j] = default;
+            }
         }
 
         private void ForgetEstimates()

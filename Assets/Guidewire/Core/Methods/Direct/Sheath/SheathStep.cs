@@ -174,7 +174,7 @@ namespace Guidewire.Core
             _spins[j] = new Vector3d(0.0, 0.0, _spins[j + 1].Z);
         }
 
-        // The first node has been shifted along the wire, m, by elements that entered.
+        // The first node is so far along the wire from that of the window before, m, and so many elements have entered.
         private void Build(double time, double shift, int entered, DirectStep? old)
         {
             double besides = old == null ? 0.0 : _dynamics.Terms.Walls()!.Spring.Besides;

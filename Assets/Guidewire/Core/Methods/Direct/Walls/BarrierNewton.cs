@@ -123,8 +123,7 @@ namespace Guidewire.Core
                 Iterations++;
                 double size = _newton.Size(out double relative);
                 double scale = _newton.MaxStep(shape, size, relative, out _);
-                bool isLinear = isPlain && scale == 1.0 && size < MostLinear;
-                if (isLinear)
+                if (isPlain && scale == 1.0 && size < MostLinear)
                 {
                     _barrier.Multipliers.Estimate(_newton.Direction);
                 }
@@ -132,7 +131,12 @@ namespace Guidewire.Core
                 {
                     _barrier.Multipliers.Forget();
                 }
-                if (!_newton.Search(shape, !hasValues, ref scale, size, out bool isHidden))
+                bool isLower = _newton.Search(shape, !hasValues, ref scale, size, out bool isHidden);
+                if (scale < 1.0)
+                {
+                    _barrier.Multipliers.Forget();
+                }
+                if (!isLower)
                 {
                     if (wasFar)
                     {
@@ -146,10 +150,6 @@ namespace Guidewire.Core
                 shape.CopyFrom(_newton.Trial);
                 hasValues = !isHidden;
                 kept = isPlain && scale == 1.0 ? 0 : MaxReusedSteps;
-                if (isLinear && scale < 1.0)
-                {
-                    _barrier.Multipliers.Forget();
-                }
                 // A full step that no longer lowers the residual force is at the limit of rounding.
                 if (isHidden && scale == 1.0 && left >= 0.5 * before && size <= Tolerance)
                 {
