@@ -39,6 +39,7 @@ RUNS = ("test_validation.py", "test_random_parameters.py", "test_core_against_re
 WAITING = ("test_view.py", "test_view_browser.py", "test_view_vessel.py", "test_endings.py", "test_cluster.py",
            "test_whole_files.py", "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
+_STUCK_SECONDS = 300    # after which a test of Python writes where each of its threads stands
 _POLL_SECONDS = 0.05
 _NICENESS = 15    # suites give way to builds, for which others wait
 
@@ -253,7 +254,8 @@ def _dotnet_suite(program: str, name: str, full: bool) -> Suite:
 def _pytest_suite(name: str, arguments: Sequence[str], needs: str = "Runner", alone: bool = False) -> Suite:
     report = file_name(name) + ".xml"
     command = [
-        sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", f"--junitxml={RESULTS / report}", *arguments,
+        sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", f"faulthandler_timeout={_STUCK_SECONDS}",
+        f"--junitxml={RESULTS / report}", *arguments,
     ]
     return Suite(name, command, report, read_junit, needs, alone)
 

@@ -41,7 +41,8 @@ class Processes:
         return subprocess.Popen(
             [sys.executable, "-m", f"distributed.cli.{program}", "--no-dashboard", "--scheduler-file",
              str(self._folder / "scheduler.json"), *options],
-            cwd=self._folder, stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
+            cwd=self._folder, env=os.environ | {"DASK_DISTRIBUTED__WORKER__PROFILE__ENABLED": "False"},
+            stdout=subprocess.DEVNULL, stderr=subprocess.DEVNULL)
 
     def close(self):
         for process in (*self.workers, self._scheduler):

@@ -5,6 +5,7 @@ import csv
 import json
 import os
 import signal
+import sys
 import threading
 import time
 from dataclasses import dataclass
@@ -46,6 +47,14 @@ def asked_of(folder):
 def results_of(folder):
     with open(folder / "runs.csv", newline="") as file:
         return list(csv.DictReader(file))
+
+
+def test_nobody_samples_where_threads_stand_beside_a_sweep(fake, tmp_path, monkeypatch):
+    taken = []
+    frames = sys._current_frames
+    monkeypatch.setattr(sys, "_current_frames", lambda: taken.append(threading.current_thread().name) or frames())
+    sweep([study_of("longer", Axis("sleep", (0.5, 1.5)))], fake.command, tmp_path)
+    assert taken == []
 
 
 def test_study_json_lists_every_run_with_its_folder(fake, tmp_path):

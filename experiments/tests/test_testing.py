@@ -1,6 +1,7 @@
 """The sum of all tests is what the runners wrote, and a runner that did not run is a failure."""
 
 import os
+import re
 import subprocess
 import sys
 from pathlib import Path
@@ -57,6 +58,14 @@ def test_a_report_of_an_earlier_time_does_not_count(capsys):
 def test_a_suite_that_hangs_is_stopped_and_fails(capsys):
     assert run(running("import time; time.sleep(60)"), seconds=0.5) == Count(0, 1)
     assert "stopped after" in capsys.readouterr().out
+
+
+def test_a_test_that_hangs_is_named_with_the_line_where_it_stands(tmp_path, monkeypatch, capsys):
+    monkeypatch.setattr(testing, "_STUCK_SECONDS", 0.2)
+    file = tmp_path / "test_stuck.py"
+    file.write_text("import time\ndef test_of_a_minute():\n    time.sleep(60)\n")
+    assert run(testing._pytest_suite("stuck", [str(file)], needs=""), seconds=3.0) == Count(0, 1)
+    assert re.search(r'test_stuck.py", line 3 in test_of_a_minute', capsys.readouterr().out)
 
 
 def noting(name, seconds=0.0, text=junit(1), **more):
