@@ -63,6 +63,7 @@ def require_version():
 def require_packages(packages):
     """Return if the running Python has all packages (import names), else hand over to one that has, making it if
     there is none. Raises PreparationError where none can be made."""
+    packages = tuple(dict.fromkeys(packages))  # two groups may have one in common
     missing = [name for name in packages if importlib.util.find_spec(name) is None]
     if not missing:
         return

@@ -322,7 +322,8 @@ namespace Guidewire.Core
         {
             element.Begin(x[j], x[j + 1], _skin, _features.Count);
             double range = _skin + _range[j];
-            double distance = SureOfQuick * Math.Abs(_walls[w].FindFeatures(
+            // Predicted shapes may cross a wall, and then some part of the element is at it.
+            double distance = SureOfQuick * Math.Max(0.0, _walls[w].FindFeatures(
                 x[j], x[j + 1], range / SureOfQuick, _skin, ref _hint[w * _range.Length + j], _features));
             element.End(distance, range, _features.Count);
         }

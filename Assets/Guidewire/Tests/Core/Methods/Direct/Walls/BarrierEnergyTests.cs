@@ -268,6 +268,54 @@ namespace Guidewire.Core.Tests
             Assert.That(touching, Is.GreaterThanOrEqualTo(5), "too few wires touch the wall");
         }
 
+        /// <summary>A predicted shape may go through a wall: what is known from there hides no contact.</summary>
+        [Test]
+        public void ShapeThatCrossesTheWall_ChangesNoAnswer(
+            [ValueSource(typeof(TestShapes), nameof(TestShapes.Names))] string name)
+        {
+            ContactShape wall = TestShapes.Make(name);
+            int touching = 0;
+            int wanted = RandomGeometry.Cases(2000, 100);
+            for (int seed = 0; seed < 40 * wanted && touching < wanted; seed++)
+            {
+                BarrierEnergy fresh = Create(wall, seed, out RodShape shape);
+                var random = new RandomGeometry(seed + 1000);
+                MoveToGap(wall, shape, random.Number(0.0, Distance));
+                double value = fresh.Value(shape);
+                if (!(value > 0.0 && value < double.PositiveInfinity))
+                {
+                    continue;
+                }
+                Vector3d motion = random.Number(0.0, 2.0) * random.Direction();
+                int first = 1 + random.Index(N);
+                var predicted = new RodShape(N);
+                for (int i = 0; i <= N; i++)
+                {
+                    predicted.X[i] = i < first ? shape.X[i] : shape.X[i] + motion;
+                }
+                BarrierEnergy used = EnergyOf(wall, N);
+                touching += double.IsPositiveInfinity(used.Value(predicted)) ? 1 : 0;
+                Assert.That(used.Value(shape), Is.EqualTo(value).Within(1e-12 * value), name + ", seed " + seed);
+            }
+            Assert.That(touching, Is.GreaterThanOrEqualTo(5), "too few predicted shapes cross the wall");
+        }
+
+        // So that its least gap is this, where the wall is flat.
+        private static void MoveToGap(ContactShape wall, RodShape shape, double gap)
+        {
+            SurfaceContact nearest = default;
+            for (int j = 0; j < N; j++)
+            {
+                int hint = -1;
+                wall.Nearest(shape.X[j], shape.X[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                nearest = j == 0 || contact.Distance < nearest.Distance ? contact : nearest;
+            }
+            for (int i = 0; i <= N; i++)
+            {
+                shape.X[i] -= (nearest.Distance - Radius - gap) * nearest.Normal;
+            }
+        }
+
         private static bool IsBehind(ContactShape wall, RodShape shape)
         {
             bool isBehind = false;
