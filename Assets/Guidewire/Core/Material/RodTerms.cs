@@ -158,10 +158,21 @@ namespace Guidewire.Core
         /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
         public double Potential(RodShape shape)
         {
+            return PotentialFrom(0, shape);
+        }
+
+        /// <summary>The same without what the wire stores: of loads and contacts, J.</summary>
+        public double LoadPotential(RodShape shape)
+        {
+            return PotentialFrom(_elastic.Length, shape);
+        }
+
+        private double PotentialFrom(int first, RodShape shape)
+        {
             double sum = 0.0;
-            foreach (EnergyTerm term in All)
+            for (int k = first; k < All.Length; k++)
             {
-                sum += term.HasPotential && term.StoresEnergy ? term.Value(shape) : 0.0;
+                sum += All[k].HasPotential && All[k].StoresEnergy ? All[k].Value(shape) : 0.0;
             }
             return sum + FrictionStored;
         }

@@ -74,10 +74,10 @@ namespace Guidewire.Core
         {
             int n = shape.ElementCount;
             terms.Bending.Measure(shape, Curvature);
+            terms.Bending.Couples(shape, Couple);
             for (int k = 0; k <= n; k++)
             {
                 Curvature[k] = (1.0 / JointLength[k]) * Curvature[k];
-                Couple[k] = terms.Bending.Couple(shape, k);
             }
             for (int j = 0; j < n; j++)
             {
@@ -86,7 +86,7 @@ namespace Guidewire.Core
             }
             KineticEnergy = kineticEnergy;
             ElasticEnergy = terms.ElasticEnergy(shape);
-            PotentialEnergy = terms.Potential(shape) - ElasticEnergy;
+            PotentialEnergy = terms.LoadPotential(shape);
         }
     }
 }

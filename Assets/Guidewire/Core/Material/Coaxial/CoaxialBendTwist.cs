@@ -287,17 +287,17 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override Vector3d Couple(RodShape shape, int k)
+        public override void Couples(RodShape shape, Vector3d[] couples)
         {
-            if (k == _joints.ElementCount)
+            for (int k = 0; k < _joints.ElementCount; k++)
             {
-                return Vector3d.Zero;
+                Evaluate(shape, k, out CoaxialJointState s);
+                RodVector before = default;
+                RodVector after = default;
+                _law.AddGradient(s.Joint, s.Relative, ref before, ref after);
+                couples[k] = Quaterniond.Rotate(shape.Q[k], new Vector3d(after.T1, after.T2, after.T3));
             }
-            Evaluate(shape, k, out CoaxialJointState s);
-            RodVector before = default;
-            RodVector after = default;
-            _law.AddGradient(s.Joint, s.Relative, ref before, ref after);
-            return Quaterniond.Rotate(shape.Q[k], new Vector3d(after.T1, after.T2, after.T3));
+            couples[_joints.ElementCount] = Vector3d.Zero;
         }
 
         /// <inheritdoc/>

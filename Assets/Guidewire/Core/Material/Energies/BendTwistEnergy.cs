@@ -28,6 +28,8 @@ namespace Guidewire.Core
         private bool _isStiffened;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
+        private RodVector[]? _onBefore;       // couples of each joint on the elements beside it, N m
+        private RodVector[]? _onAfter;
 
         /// <summary>The energy of these n+1 joints; the first and the last count only where that end is
         /// clamped.</summary>
@@ -139,24 +141,29 @@ namespace Guidewire.Core
                 _law.AddGradient(First, FirstRelative(shape), ref _clampVector,
                     ref gradient[0]);
             }
-            int end = to < n - 1 ? to : n - 1;
+            AddGradient(shape, gradient, gradient, from, to < n - 1 ? to : n - 1);
+            if (to >= n && from < n && _hasDistal)
+            {
+                _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1],
+                    ref _clampVector);
+            }
+        }
+
+        // Of the joints between elements: that along the element before each and that along the element after it.
+        private void AddGradient(RodShape shape, RodVector[] before, RodVector[] after, int from, int end)
+        {
             int j = from;
             while (j < end)
             {
                 int stop = Math.Min(j + 4, end);
-                if (stop == j + 4 && HasLanes && RotationVectorLanes.AddGradient(_joint, shape, gradient, j))
+                if (stop == j + 4 && HasLanes && RotationVectorLanes.AddGradient(_joint, shape, before, after, j))
                 {
                     j = stop;
                 }
                 for (; j < stop; j++)
                 {
-                    _law.AddGradient(_joint[j + 1], Relative(shape, j), ref gradient[j], ref gradient[j + 1]);
+                    _law.AddGradient(_joint[j + 1], Relative(shape, j), ref before[j], ref after[j + 1]);
                 }
-            }
-            if (to >= n && from < n && _hasDistal)
-            {
-                _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref gradient[n - 1],
-                    ref _clampVector);
             }
         }
 
@@ -219,9 +226,21 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Measure(RodShape shape, Vector3d[] turns)
         {
-            for (int k = 0; k <= shape.ElementCount; k++)
+            int n = shape.ElementCount;
+            turns[0] = TurnOf(shape, 0);
+            turns[n] = TurnOf(shape, n);
+            int j = 0;
+            while (j < n - 1)
             {
-                turns[k] = TurnOf(shape, k);
+                int stop = Math.Min(j + 4, n - 1);
+                if (stop == j + 4 && HasLanes && RotationVectorLanes.Measure(shape, turns, j))
+                {
+                    j = stop;
+                }
+                for (; j < stop; j++)
+                {
+                    turns[j + 1] = _law.Measure(Relative(shape, j));
+                }
             }
         }
 
@@ -256,19 +275,28 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override Vector3d Couple(RodShape shape, int k)
+        public override void Couples(RodShape shape, Vector3d[] couples)
         {
             int n = shape.ElementCount;
-            if ((k == 0 && !_hasProximal) || (k == n && !_hasDistal))
+            _onBefore ??= new RodVector[n + 1];
+            _onAfter ??= new RodVector[n + 1];
+            Array.Clear(_onAfter, 0, n + 1);
+            if (_hasProximal)
             {
-                return Vector3d.Zero;
+                _law.AddGradient(First, FirstRelative(shape), ref _clampVector, ref _onAfter[0]);
             }
-            RodVector before = default;
-            RodVector after = default;
-            Quaterniond b = k == n ? shape.DistalFrame : shape.Q[k];
-            _law.AddGradient(k == 0 ? First : _joint[k], k == 0 ? FirstRelative(shape) : shape.Q[k - 1].Conjugate * b,
-                ref before, ref after);
-            return Quaterniond.Rotate(b, new Vector3d(after.T1, after.T2, after.T3));
+            AddGradient(shape, _onBefore, _onAfter, 0, n - 1);
+            if (_hasDistal)
+            {
+                _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref _clampVector,
+                    ref _onAfter[n]);
+            }
+            for (int k = 0; k <= n; k++)
+            {
+                bool isMissing = (k == 0 && !_hasProximal) || (k == n && !_hasDistal);
+                couples[k] = isMissing ? Vector3d.Zero : Quaterniond.Rotate(k == n ? shape.DistalFrame : shape.Q[k],
+                    new Vector3d(_onAfter[k].T1, _onAfter[k].T2, _onAfter[k].T3));
+            }
         }
 
         /// <inheritdoc/>

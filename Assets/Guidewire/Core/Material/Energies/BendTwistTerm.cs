@@ -18,9 +18,9 @@ namespace Guidewire.Core
         /// <summary>Joint k is this one from now on.</summary>
         public abstract void SetJoint(int k, in Joint joint);
 
-        /// <summary>Couple that the piece after joint k exerts on the piece before it, N m, along the world's axes; 0
-        /// where an end has no joint.</summary>
-        public abstract Vector3d Couple(RodShape shape, int k);
+        /// <summary>Couple that the piece after each of the n+1 joints exerts on the piece before it, N m, along the
+        /// world's axes; 0 where an end has no joint.</summary>
+        public abstract void Couples(RodShape shape, Vector3d[] couples);
 
         /// <summary>The term of these n+1 joints under the supports' law.</summary>
         public static BendTwistTerm Create(Joint[] joints, RodSupports supports)

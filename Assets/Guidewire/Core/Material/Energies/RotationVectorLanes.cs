@@ -34,9 +34,24 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Adds the gradients.</summary>
+        /// <summary>Writes the turns of the joints.</summary>
         [MethodImpl(Compiled.AtOnce)]
-        public static bool AddGradient(Joint[] joints, RodShape shape, RodVector[] gradient, int j)
+        public static bool Measure(RodShape shape, Vector3d[] turns, int j)
+        {
+#if NET8_0_OR_GREATER
+            if (Rows4.IsSupported && RotationVector4.TryLog(Relative(shape, j), out Vector3d4 theta))
+            {
+                theta.Store(ref turns[j + 1]);
+                return true;
+            }
+#endif
+            return false;
+        }
+
+        /// <summary>Adds the gradients, of each joint that along the element before it and that along the element after
+        /// it.</summary>
+        [MethodImpl(Compiled.AtOnce)]
+        public static bool AddGradient(Joint[] joints, RodShape shape, RodVector[] before, RodVector[] after, int j)
         {
 #if NET8_0_OR_GREATER
             if (Load(joints, shape, j, out Stiffness k, out Vector3d4 theta, out Vector3d4 rest))
@@ -44,7 +59,7 @@ namespace Guidewire.Core
                 Vector256<double> square = theta.LengthSquared;
                 Vector256<double> c = RotationVector4.CotangentFactor(square);
                 Vector256<double> tb = Vector256.Create(1.0) - c * square;
-                AddCouple(tb, c, theta, Couple(k, theta - rest), ref gradient[j], ref gradient[j + 1]);
+                AddCouple(tb, c, theta, Couple(k, theta - rest), ref before[j], ref after[j + 1]);
                 return true;
             }
 #endif
@@ -147,11 +162,10 @@ namespace Guidewire.Core
             {
                 return false;
             }
-            Quaterniond4 relative = Quaterniond4.Load(ref shape.Q[j]).Conjugate * Quaterniond4.Load(ref shape.Q[j + 1]);
             ref Joint joint = ref joints[j + 1];
             Rows4.Load(ref joint.Bend1, JointStride, out Vector256<double> bend1, out Vector256<double> bend2,
                 out Vector256<double> twist, out Vector256<double> restX);
-            if (!RotationVector4.TryLog(relative, out theta) || !Vector256.EqualsAll(bend1, bend2))
+            if (!RotationVector4.TryLog(Relative(shape, j), out theta) || !Vector256.EqualsAll(bend1, bend2))
             {
                 return false;
             }
@@ -160,6 +174,12 @@ namespace Guidewire.Core
             stiffness = new Stiffness(bend1, twist);
             rest = new Vector3d4(restX, restY, restZ);
             return true;
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static Quaterniond4 Relative(RodShape shape, int j)
+        {
+            return Quaterniond4.Load(ref shape.Q[j]).Conjugate * Quaterniond4.Load(ref shape.Q[j + 1]);
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

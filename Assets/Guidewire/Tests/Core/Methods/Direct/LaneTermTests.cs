@@ -72,6 +72,37 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCaseSource(nameof(Angles))]
+        public void TurnsAndCouples_HaveTheBitsOfPlainNumbers(double angle)
+        {
+            MaterialRod rod = Rods.Wire(N);
+            rod.BendStiffness2[9] *= 1.5;
+            Joint[] joints = rod.Joints(new RodSupports { Distal = DistalEnd.Clamped });
+            RodShape shape = Rods.Random(rod, angle, 0.1, 5);
+            var law = default(RotationVectorLaw);
+            var turns = new Vector3d[N + 1];
+            var couples = new Vector3d[N + 1];
+            var bending = new BendTwistEnergy<RotationVectorLaw>(joints, false, true);
+            for (int round = 0; round < 2; round++)    // the second time with what the first has left
+            {
+                bending.Measure(shape, turns);
+                bending.Couples(shape, couples);
+            }
+            Assert.That(turns[0], Is.EqualTo(Vector3d.Zero));
+            Assert.That(couples[0], Is.EqualTo(Vector3d.Zero));
+            for (int k = 1; k <= N; k++)
+            {
+                Quaterniond after = k == N ? shape.DistalFrame : shape.Q[k];
+                RodVector onBefore = default;
+                RodVector onAfter = default;
+                Quaterniond relative = shape.Q[k - 1].Conjugate * after;
+                law.AddGradient(joints[k], relative, ref onBefore, ref onAfter);
+                Assert.That(turns[k], Is.EqualTo(law.Measure(relative)), "joint " + k);
+                Assert.That(couples[k], Is.EqualTo(Quaterniond.Rotate(after,
+                    new Vector3d(onAfter.T1, onAfter.T2, onAfter.T3))), "joint " + k);
+            }
+        }
+
+        [TestCaseSource(nameof(Angles))]
         public void WorkOfTheCouples_IsTheSumOfPlainNumbers(double angle)
         {
             InertiaEnergy inertia = Inertia(Rods.Wire(N), angle, out RodShape start);
