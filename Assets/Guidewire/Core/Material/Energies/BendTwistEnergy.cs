@@ -304,13 +304,13 @@ namespace Guidewire.Core
             Vector3d[] rates)
         {
             int n = shape.ElementCount;
-            rates[0] = _hasProximal ? Rate(FirstRelative(shape), proximal, spins[0])
+            rates[0] = _hasProximal ? _law.Rate(FirstRelative(shape), proximal, spins[0])
                 : Vector3d.Zero;
             for (int k = 1; k < n; k++)
             {
-                rates[k] = Rate(Relative(shape, k - 1), spins[k - 1], spins[k]);
+                rates[k] = _law.Rate(Relative(shape, k - 1), spins[k - 1], spins[k]);
             }
-            rates[n] = _hasDistal ? Rate(shape.Q[n - 1].Conjugate * shape.DistalFrame, spins[n - 1], distal)
+            rates[n] = _hasDistal ? _law.Rate(shape.Q[n - 1].Conjugate * shape.DistalFrame, spins[n - 1], distal)
                 : Vector3d.Zero;
         }
 
@@ -337,26 +337,6 @@ namespace Guidewire.Core
                 _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref onElement, ref onFrame);
             }
             return Quaterniond.Rotate(shape.DistalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
-        }
-
-        // By virtual power: the couples of a joint of unit stiffness whose turn is too large by 1 in one component have
-        // that component's rate as their power.
-        private Vector3d Rate(in Quaterniond relative, in Vector3d before, in Vector3d after)
-        {
-            Vector3d turn = _law.Measure(relative);
-            return new Vector3d(Power(turn - Vector3d.UnitX, relative, before, after),
-                Power(turn - Vector3d.UnitY, relative, before, after),
-                Power(turn - Vector3d.UnitZ, relative, before, after));
-        }
-
-        private double Power(in Vector3d rest, in Quaterniond relative, in Vector3d before, in Vector3d after)
-        {
-            var unit = new Joint { Bend1 = 1.0, Bend2 = 1.0, Twist = 1.0, Rest = rest };
-            RodVector a = default;
-            RodVector b = default;
-            _law.AddGradient(unit, relative, ref a, ref b);
-            return a.T1 * before.X + a.T2 * before.Y + a.T3 * before.Z
-                + b.T1 * after.X + b.T2 * after.Y + b.T3 * after.Z;
         }
 
         // Joint 0 at rest, and its turn, both less the winding.

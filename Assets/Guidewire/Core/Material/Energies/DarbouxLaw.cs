@@ -15,6 +15,14 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        /// <remarks>A after - A^T before.</remarks>
+        public Vector3d Rate(in Quaterniond relative, in Vector3d before, in Vector3d after)
+        {
+            Strain(default, relative, out Vector3d v, out double w);
+            return w * (after - before) + Vector3d.Cross(v, before + after);
+        }
+
+        /// <inheritdoc/>
         /// <remarks>theta0 = 2 v is at most 2.</remarks>
         public Quaterniond AtRest(in Joint joint)
         {

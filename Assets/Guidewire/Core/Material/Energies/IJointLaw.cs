@@ -11,6 +11,9 @@ namespace Guidewire.Core
         /// <summary>The turn to which the couple is proportional.</summary>
         Vector3d Measure(in Quaterniond relative);
 
+        /// <summary>How fast that grows where the frames turn at these rates along their own axes, rad/s.</summary>
+        Vector3d Rate(in Quaterniond relative, in Vector3d before, in Vector3d after);
+
         /// <summary>The energy, J.</summary>
         double Value(in Joint joint, in Quaterniond relative);
 

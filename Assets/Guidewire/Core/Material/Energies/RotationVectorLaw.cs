@@ -21,6 +21,18 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        /// <remarks>T after - T^T before.</remarks>
+        public Vector3d Rate(in Quaterniond relative, in Vector3d before, in Vector3d after)
+        {
+            Vector3d theta = RotationVector.Log(relative);
+            double square = theta.LengthSquared;
+            double c = RotationVector.CotangentFactor(square);
+            Vector3d change = after - before;
+            return (1.0 - c * square) * change + (c * Vector3d.Dot(theta, change)) * theta
+                + 0.5 * Vector3d.Cross(theta, before + after);
+        }
+
+        /// <inheritdoc/>
         public Quaterniond AtRest(in Joint joint)
         {
             return RotationVector.Exp(joint.Rest);
