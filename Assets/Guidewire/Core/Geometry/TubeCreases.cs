@@ -91,11 +91,17 @@ namespace Guidewire.Core
         private void Find(int k, in Vector3d a, in Vector3d b, double size, double range,
             StructList<EdgeContact> edgeContacts)
         {
-            if (MayCross(k, a, b, size) && Find(k, a, b, range, out EdgeContact contact))
+            if (!_isCrease[k])
+            {
+                return;
+            }
+            double pastA = _planes.Past(k, a);
+            double pastB = _planes.Past(k, b);
+            if (MayCross(k, a, pastA, pastB, size) && Find(k, a, b, pastA, pastB, range, out EdgeContact contact))
             {
                 edgeContacts.Add(contact);
             }
-            else if (MayCross(k, b, a, size) && Find(k, b, a, range, out contact))
+            else if (MayCross(k, b, pastB, pastA, size) && Find(k, b, a, pastB, pastA, range, out contact))
             {
                 edgeContacts.Add(contact.Reversed());
             }
@@ -103,15 +109,23 @@ namespace Guidewire.Core
 
         private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
         {
-            return (MayCross(k, a, b, size) && Cross(k, a, b, out Crossing crossing))
-                || (MayCross(k, b, a, size) && Cross(k, b, a, out crossing)) ? crossing.Distance
-                : double.PositiveInfinity;
+            if (!_isCrease[k])
+            {
+                return double.PositiveInfinity;
+            }
+            double pastA = _planes.Past(k, a);
+            double pastB = _planes.Past(k, b);
+            return (MayCross(k, a, pastA, pastB, size) && Cross(k, a, b, pastA, pastB, out Crossing crossing))
+                || (MayCross(k, b, pastB, pastA, size) && Cross(k, b, a, pastB, pastA, out crossing))
+                ? crossing.Distance : double.PositiveInfinity;
         }
 
-        private bool Find(int k, in Vector3d a, in Vector3d b, double range, out EdgeContact contact)
+        private bool Find(int k, in Vector3d a, in Vector3d b, double pastA, double pastB, double range,
+            out EdgeContact contact)
         {
             contact = default;
-            if (IsFar(k, a, b, range) || !Cross(k, a, b, out Crossing c) || c.Distance > range)
+            if (IsFar(k, a, b, pastA, pastB, range) || !Cross(k, a, b, pastA, pastB, out Crossing c)
+                || c.Distance > range)
             {
                 return false;
             }
@@ -145,32 +159,26 @@ namespace Guidewire.Core
         }
 
         // No crossing is farther from the knot than its crease, nor from a than b is; and it goes from one side of the
-        // knot's plane to the other, but for the slack.
-        private bool MayCross(int k, in Vector3d a, in Vector3d b, double size)
+        // knot's plane to the other, but for the slack. Both are so far past the plane.
+        private bool MayCross(int k, in Vector3d a, double pastA, double pastB, double size)
         {
             double limit = _extent[k] + size;
-            Vector3d offset = a - _knots[k];
-            return _isCrease[k] && offset.LengthSquared <= limit * limit
-                && _planes.Past(k, a) <= _slack[k] && _planes.Past(k, b) >= -_slack[k];
+            return pastA <= _slack[k] && pastB >= -_slack[k] && (a - _knots[k]).LengthSquared <= limit * limit;
         }
 
         // Where f1 - f2 goes from positive to negative along the segment, by Newton's method between bounds.
-        private bool Cross(int k, in Vector3d a, in Vector3d b, out Crossing at)
+        private bool Cross(int k, in Vector3d a, in Vector3d b, double pastA, double pastB, out Crossing at)
         {
-            at = new Crossing(_pieces[k - 1], _pieces[k], a, 0.0);
-            if (!(at.Difference > 0.0))
-            {
-                return false;
-            }
-            at = new Crossing(_pieces[k - 1], _pieces[k], b, 1.0);
-            if (!(at.Difference < 0.0))
+            at = default;
+            if (!(Difference(k, a) > 0.0 && Difference(k, b) < 0.0))
             {
                 return false;
             }
             Vector3d u = b - a;
             double low = 0.0;
             double high = 1.0;
-            double s = PlaneCrossing(k, a, b);
+            // Near the crossing: in the plane that halves the bend.
+            double s = pastA < 0.0 && pastB > 0.0 ? pastA / (pastA - pastB) : 0.5;
             double resolution = 1e-15 * (_radii[k] + a.Length);
             for (int i = 0; i < MostIterations; i++)
             {
@@ -197,26 +205,21 @@ namespace Guidewire.Core
 
         // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there
         // is no crease: it crosses within the slack of the plane, and a piece's term has a slope of 1 at most.
-        private bool IsFar(int k, in Vector3d a, in Vector3d b, double range)
+        private bool IsFar(int k, in Vector3d a, in Vector3d b, double pastA, double pastB, double range)
         {
-            double atA = _planes.Past(k, a);
-            double atB = _planes.Past(k, b);
-            if (!(atA < 0.0 && atB > 0.0))
+            if (!(pastA < 0.0 && pastB > 0.0))
             {
                 return false;
             }
-            double slack = Vector3d.Distance(a, b) * _slack[k] / (atB - atA);
-            Vector3d x = Vector3d.Lerp(a, b, atA / (atA - atB));
+            double slack = Vector3d.Distance(a, b) * _slack[k] / (pastB - pastA);
+            Vector3d x = Vector3d.Lerp(a, b, pastA / (pastA - pastB));
             return _pieces[k - 1].Distance(x) > range + slack
                 || (_pieces[k - 1].IsPast(x, slack) && _pieces[k].IsBefore(x, slack));
         }
 
-        // Near the crossing: in the plane that halves the bend.
-        private double PlaneCrossing(int k, in Vector3d a, in Vector3d b)
+        private double Difference(int k, in Vector3d x)
         {
-            double atA = _planes.Past(k, a);
-            double atB = _planes.Past(k, b);
-            return atA < 0.0 && atB > 0.0 ? atA / (atA - atB) : 0.5;
+            return _pieces[k - 1].Distance(x) - _pieces[k].Distance(x);
         }
 
         // Both pieces' terms at a point of the segment.
