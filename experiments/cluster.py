@@ -74,8 +74,8 @@ class Cluster:
         dask.config.set({
             "temporary-directory": self._scratch.name,
             "distributed.diagnostics.computations.ignore-modules": [".*"],  # no sources for a dashboard
-            # Nobody looks at dask's samples of where each thread stands, and while they are taken Python 3.11 can stop
-            # for ever (github.com/python/cpython/issues/106883).
+            # Nobody looks at the profiles that dask takes of all threads, and Python 3.11 can hang while it takes one
+            # (github.com/python/cpython/issues/106883).
             "distributed.worker.profile.enabled": False,
         })
         self._works = (worker.make, worker.check)

@@ -39,7 +39,7 @@ RUNS = ("test_validation.py", "test_random_parameters.py", "test_core_against_re
 WAITING = ("test_view.py", "test_view_browser.py", "test_view_vessel.py", "test_endings.py", "test_cluster.py",
            "test_whole_files.py", "test_sweep.py", "test_testing.py", "test_building.py", "test_session.py", "test_native.py")
 _SUITE_SECONDS = {False: 900, True: 6 * 3600}
-_STUCK_SECONDS = 300    # after which a test of Python writes where each of its threads stands
+_STUCK_SECONDS = 300    # after which a Python test prints the stack of each of its threads
 _POLL_SECONDS = 0.05
 _NICENESS = 15    # suites give way to builds, for which others wait
 

@@ -49,7 +49,7 @@ def results_of(folder):
         return list(csv.DictReader(file))
 
 
-def test_nobody_samples_where_threads_stand_beside_a_sweep(fake, tmp_path, monkeypatch):
+def test_a_sweep_takes_no_profile_of_threads(fake, tmp_path, monkeypatch):
     taken = []
     frames = sys._current_frames
     monkeypatch.setattr(sys, "_current_frames", lambda: taken.append(threading.current_thread().name) or frames())

@@ -159,7 +159,7 @@ namespace Guidewire.Core
         }
 
         // No crossing is farther from the knot than its crease, nor from a than b is; and it goes from one side of the
-        // knot's plane to the other, but for the slack. Both are so far past the plane.
+        // knot's plane to the other, but for the slack. pastA and pastB: how far its ends are beyond that plane, units.
         private bool MayCross(int k, in Vector3d a, double pastA, double pastB, double size)
         {
             double limit = _extent[k] + size;

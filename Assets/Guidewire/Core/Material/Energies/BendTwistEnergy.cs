@@ -28,8 +28,8 @@ namespace Guidewire.Core
         private bool _isStiffened;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
-        private RodVector[]? _onBefore;       // couples of each joint on the elements beside it, N m
-        private RodVector[]? _onAfter;
+        private RodVector[]? _onAfter;        // couple of each joint on the element after it, N m
+        private RodVector[]? _onBefore;       // the same on that before it, which nobody reads
 
         /// <summary>The energy of these n+1 joints; the first and the last count only where that end is
         /// clamped.</summary>
@@ -149,7 +149,7 @@ namespace Guidewire.Core
             }
         }
 
-        // Of the joints between elements: that along the element before each and that along the element after it.
+        // The joints between elements: each adds to the element before it in one list, to that after it in the other.
         private void AddGradient(RodShape shape, RodVector[] before, RodVector[] after, int from, int end)
         {
             int j = from;

@@ -48,7 +48,7 @@ namespace Guidewire.Core
             return false;
         }
 
-        /// <summary>Adds the gradients, of each joint that along the element before it and that along the element after
+        /// <summary>Adds the gradients of each joint along the element before it and along the element after
         /// it.</summary>
         [MethodImpl(Compiled.AtOnce)]
         public static bool AddGradient(Joint[] joints, RodShape shape, RodVector[] before, RodVector[] after, int j)
