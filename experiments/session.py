@@ -14,7 +14,9 @@ import base64
 import json
 import math
 import sys
+import threading
 import warnings
+import weakref
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
@@ -24,7 +26,9 @@ import numpy as np
 
 from experiments import building
 from experiments.session_hosts import Ended, Library, Process, obstacle
-from experiments.session_state import Frames, SessionError, State, arrays_of, state_of
+from experiments.session_state import (
+    Frames, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
+)
 
 _MOST = 1 << 31  # from here on a number does not fit a request of the library's
 
@@ -60,7 +64,10 @@ class Session:
     def __init__(self, file: str | Path | None = None, hand: bool | None = None, native: bool | None = None,
                  **overrides: Any) -> None:
         self._host: Library | Process | None = _host(native)
-        self._state: State | None = None
+        self._lock = threading.RLock()    # one asks it at a time; a state may be read off in another thread
+        self._state: State | None = None    # the newest, once something has been read off
+        self._newest: Callable[[], State | None] = lambda: None    # while somebody has it, the same
+        self._head = (0, 0.0, 0.0)    # of the newest: steps, time, prediction error
         self._layout: dict[str, tuple[int, ...]] = {}
         try:
             asked: dict[str, Any] = {"set": overrides, "hand": hand}
@@ -84,7 +91,11 @@ class Session:
     @property
     def state(self) -> State:
         """The wire as it is now."""
-        return self._state
+        state = self._state
+        if state is None:
+            with self._lock:
+                state = self._state or self._newest() or self._unread()
+        return state
 
     def step(self, push: float = 0.0, turn: float = 0.0, steps: int = 1, hub: int = 0) -> State:
         """Go on by some steps of `timeStep`, fewer where the run ends before.
@@ -103,16 +114,17 @@ class Session:
         SessionError : a value is not allowed, or the run has ended before (`state.outcome`). What a hand steers is not
             ended by `maxSimulationSteps`.
         """
-        push, turn = (_number(name, value) for name, value in (("push", push), ("turn", turn)))
+        push, turn = _number("push", push), _number("turn", turn)
         steps, hub = _whole("steps", steps, "1"), _whole("hub", hub, "0, the wire's")
         if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < _MOST):
-            return self._take(self._ask("step", push=push, turn=turn, steps=steps, hub=hub))
-        made = self._guarded(lambda host: host.step(push, turn, hub, steps, self._layout))
-        if isinstance(made, dict):
-            return self._take(_accepted(made))
-        (step, time, _, prediction_error), arrays = made
-        self._state = state_of(int(step), float(time), None, "", float(prediction_error), arrays, self)
-        return self._state
+            return self._move("step", push=push, turn=turn, steps=steps, hub=hub)
+        with self._lock:
+            self._leave()
+            made = self._guarded(lambda host: host.step(push, turn, hub, steps))
+            if isinstance(made, dict):
+                return self._take(_accepted(made))
+            self._state, self._head = None, made
+            return self._unread()
 
     def record(self, frames: int, steps: int = 1) -> Frames:
         """Go on, and keep the state as it is now and after each of some numbers of steps.
@@ -128,22 +140,27 @@ class Session:
         """
         if isinstance(frames, (bool, np.bool_)) or not isinstance(frames, (int, np.integer)) or frames < 1:
             raise SessionError(f"frames = {frames!r} is not allowed: needs a whole number from 1")
-        states = [self.state]
-        while len(states) <= frames and states[-1].outcome is None:
-            states.append(self.step(steps=steps))
-        return Frames(np.array([state.time for state in states]), np.stack([state.positions for state in states]),
-                      np.stack([state.directors for state in states]), states[-1].outcome, states[-1].reason)
+        state = self.state
+        times, positions, directors = [state.time], [state.positions], [state.directors]
+        while len(times) <= frames and state.outcome is None:
+            state = self.step(steps=steps)
+            times.append(state.time)
+            positions.append(state.positions)
+            directors.append(state.directors)
+        return Frames(np.array(times), np.stack(positions), np.stack(directors), state.outcome, state.reason)
 
     def reset(self) -> State:
         """Go back to the start."""
-        return self._take(self._ask("reset"))
+        return self._move("reset")
 
     def change(self, **parameters: Any) -> State:
         """Change parameters, such as `timeStep`, or parts of them, such as `**{"vessel.frictionCoefficient": 0.1}`; the
         wire continues from its current state. What takes the place of an override counts after a `reset` too."""
-        answer = self._ask("change", set=parameters)
-        self.parameters = answer["effective"]
-        return self._take(answer)
+        with self._lock:
+            self._leave()
+            answer = self._ask("change", set=parameters)
+            self.parameters = answer["effective"]
+            return self._take(answer)
 
     def save(self) -> bytes:
         """All that the next steps depend on, for `restore` here or in another session of the same parameters."""
@@ -152,7 +169,7 @@ class Session:
     def restore(self, saved: bytes) -> State:
         """Go on from what was saved: the same steps then give the same bits, but for rounding between walls that are
         meshes and in a sheath that is not along an axis of the scene."""
-        return self._take(self._ask("restore", snapshot=base64.b64encode(saved).decode("ascii")))
+        return self._move("restore", snapshot=base64.b64encode(saved).decode("ascii"))
 
     def describe(self) -> dict[str, Any]:
         """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
@@ -207,11 +224,30 @@ class Session:
         grey = np.frombuffer(base64.b64decode(answer["grey"]), dtype=np.uint8)
         return grey.reshape(answer["pixels"], answer["pixels"]).copy()
 
+    def read(self, state: State, part: int) -> None:
+        """Read a part of a state of this session off; states ask for it themselves."""
+        with self._lock:
+            if part not in unread(state):    # another thread has done so
+                return
+            arrays = self._guarded(lambda host: host.read(part, self._layout))
+            if arrays is not None:
+                fill(state, part, arrays)
+            else:    # other arrays than before
+                arrays = self._laid_out(self._ask("state"))
+                for other in unread(state):
+                    fill(state, other, arrays)
+            self._state = state
+
     def close(self) -> None:
         """End the runner. Nothing but `state` can be asked for afterwards."""
-        host, self._host = self._host, None
-        if host is not None:
-            host.close()
+        with self._lock:
+            if self._host is not None:
+                self._leave()
+                if isinstance(self._host, Library):    # a step that was interrupted may have come further
+                    answer = self._host.last()
+                    if answer["exitCode"] == 0 and (self._state is None or self._state.step != answer["step"]):
+                        self._take(answer)
+                self._end()
 
     def kill(self) -> None:
         """End the runner at once, whatever it is doing; from any thread. A step under way raises SessionError."""
@@ -228,30 +264,58 @@ class Session:
 
     def __del__(self) -> None:
         if getattr(self, "_host", None) is not None:
-            self.close()
+            self._leave()
+            self._end()
+
+    def _end(self) -> None:
+        host, self._host = self._host, None
+        host.close()
+
+    def _leave(self) -> None:
+        """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then."""
+        if self._state is None or unread(self._state):
+            self._state = None
+            newest = self._newest()
+            if newest is not None:
+                for part in unread(newest):
+                    self.read(newest, part)
+
+    def _unread(self) -> State:
+        state = unread_state(*self._head, self)
+        self._newest = weakref.ref(state)
+        return state
+
+    def _move(self, what: str, **more: Any) -> State:
+        with self._lock:
+            self._leave()
+            return self._take(self._ask(what, **more))
 
     def _ask(self, what: str, **more: Any) -> dict[str, Any]:
         line = json.dumps({"id": 0, "session": what, **more}, default=_plain)
         return _accepted(self._guarded(lambda host: host.ask(line)))
 
     def _guarded(self, ask: Callable[[Library | Process], Any]) -> Any:
-        if self._host is None:
-            raise SessionError("this session is closed")
-        try:
-            return ask(self._host)
-        except Ended as end:
-            self.close()
-            raise SessionError(str(end)) from end
-        except BaseException:    # such as Ctrl-C: how far it had come is not known
-            self.close()
-            raise
+        with self._lock:
+            if self._host is None:
+                raise SessionError("this session is closed")
+            try:
+                return ask(self._host)
+            except Ended as end:
+                self.close()
+                raise SessionError(str(end)) from end
+            except BaseException:    # such as Ctrl-C: how far it had come is not known
+                self.close()
+                raise
 
     def _take(self, answer: Mapping[str, Any]) -> State:
+        state = self._state = state_of(answer, self._laid_out(answer), self)
+        self._newest = weakref.ref(state)
+        return state
+
+    def _laid_out(self, answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
         arrays = arrays_of(answer)
         self._layout = {name: array.shape for name, array in arrays.items()}
-        self._state = state_of(answer["step"], answer["time"], answer["outcome"], answer["message"],
-                               answer["predictionError"], arrays, self)
-        return self._state
+        return arrays
 
 
 def session_of(file: Path, native: bool | None = None) -> Session:

@@ -20,11 +20,12 @@ import numpy as np
 
 from experiments.installed import has_avx2
 from experiments.prepare import INSTALLED, ROOT, PreparationError
+from experiments.session_state import PARTS, part_of
 
 _SECONDS_TO_END = 10.0
 _STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
 _loaded_by: int | None = None  # the process that loaded the library
-HEAD = 4  # numbers before the arrays of a state: step, time, whether the run has ended, prediction error
+_STATE = '{"session": "state"}'
 
 
 class Ended(Exception):
@@ -88,47 +89,63 @@ class Library:
         self._functions = _load(str(path))
         self._number = self._functions.guidewire_new()
         self._layout: Mapping[str, tuple[int, ...]] | None = None    # that of the parts
-        self._parts: list[tuple[str, slice, tuple[int, ...]]] = []    # of the numbers of a state, by array
-        self._count = HEAD
+        # By part of a state, its arrays within the numbers of that part, and how many these are.
+        self._parts: list[tuple[list[tuple[str, slice, tuple[int, ...]]], int]] = []
+        self._head = (ctypes.c_double * 4)()    # after steps: steps done, time, whether the run has ended, error
         self._grey_levels = 256 * 256    # of the last picture
         self._is_killed = threading.Event()
 
     def ask(self, line: str) -> dict[str, Any]:
         """The answer to a request."""
+        if self._is_killed.is_set():
+            raise Ended("this session was ended while it made steps")
         return self._answer(line.encode("utf-8"))
 
-    def step(self, push: float, turn: float, hub: int, steps: int, layout: Mapping[str, tuple[int, ...]]
-             ) -> tuple[np.ndarray, dict[str, np.ndarray]] | dict[str, Any]:
+    def last(self) -> dict[str, Any]:
+        """The answer to a request for the state, also of a session that was ended."""
+        return self._answer(_STATE.encode("ascii"))
+
+    def step(self, push: float, turn: float, hub: int, steps: int) -> tuple[int, float, float] | dict[str, Any]:
         """Make steps.
 
         Parameters
         ----------
         push, turn : in all of them together, units and rad.
         hub : whose they move: 0 the wire's, k that of catheter k.
+
+        Returns
+        -------
+        Steps done since the start, the time (s) and the prediction error (units); or the answer of a session that
+        refused, or whose run has ended, with its state.
+        """
+        step, head = self._functions.guidewire_step, self._head
+        for done in range(0, steps, _STEPS_AT_ONCE):
+            if self._is_killed.is_set():
+                raise Ended("this session was ended while it made steps")
+            if not step(self._number, push / steps, turn / steps, hub, min(_STEPS_AT_ONCE, steps - done), head):
+                return self._answer(b"")
+            if head[2]:
+                return self.ask(_STATE)
+        return int(head[0]), head[1], head[3]
+
+    def read(self, part: int, layout: Mapping[str, tuple[int, ...]]) -> dict[str, np.ndarray] | None:
+        """Read a part of the state off.
+
+        Parameters
+        ----------
         layout : the arrays of a state and their shapes.
 
         Returns
         -------
-        The head of the state, shape (4,), and its arrays; or the answer of a session that refused. Arrays of other
-        shapes than the layout's are asked for by a request: then the answer to that.
+        The arrays of that part, by name; None where the session has others than the layout says.
         """
         if layout is not self._layout:
             self._lay_out(layout)
-        numbers = np.empty(self._count)    # new ones for each state: its arrays are parts of them
-        address = numbers.ctypes.data
-        for done in range(0, steps, _STEPS_AT_ONCE):
-            if self._is_killed.is_set():
-                raise Ended("this session was ended while it made steps")
-            written = self._functions.guidewire_step(
-                self._number, push / steps, turn / steps, hub, min(_STEPS_AT_ONCE, steps - done),
-                address, self._count)
-            if written == 0:
-                return self._answer(b"")
-            if numbers[2]:
-                break
-        if written != self._count or numbers[2]:    # other arrays than before, or an end that has a reason
-            return self.ask('{"session": "state"}')
-        return numbers[:HEAD], {name: numbers[part].reshape(shape) for name, part, shape in self._parts}
+        arrays, count = self._parts[part]
+        numbers = np.empty(count)    # new ones for each state: its arrays are parts of them
+        if self._functions.guidewire_state(self._number, part, numbers.ctypes.data, count) != count:
+            return None
+        return {name: numbers[where].reshape(shape) for name, where, shape in arrays}
 
     def picture(self, view: str, positions: np.ndarray | None) -> np.ndarray | dict[str, Any]:
         """Take a fluoroscopic picture.
@@ -172,15 +189,17 @@ class Library:
         self._functions.guidewire_close(self._number)
 
     def _lay_out(self, layout: Mapping[str, tuple[int, ...]]) -> None:
-        self._layout, self._parts, self._count = layout, [], HEAD
-        for name, shape in layout.items():
-            end = self._count + math.prod(shape)
-            self._parts.append((name, slice(self._count, end), shape))
-            self._count = end
+        self._layout, self._parts = layout, []
+        for part in PARTS:
+            arrays, count = [], 0
+            for name, shape in layout.items():
+                if part_of(name) == part:
+                    end = count + math.prod(shape)
+                    arrays.append((name, slice(count, end), shape))
+                    count = end
+            self._parts.append((arrays, count))
 
     def _answer(self, request: bytes) -> dict[str, Any]:
-        if self._is_killed.is_set():
-            raise Ended("this session was ended while it made steps")
         length = ctypes.c_int()
         answer = self._functions.guidewire_ask(self._number, request, len(request), ctypes.byref(length))
         try:
@@ -202,7 +221,8 @@ def _load(path: str) -> ctypes.CDLL:
     number, count, real, data = ctypes.c_longlong, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
     for name, result, arguments in (
         ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
-        ("step", count, [number, real, real, count, count, data, count]), ("close", None, [number]), ("lanes", count, []),
+        ("step", count, [number, real, real, count, count, data]), ("state", count, [number, count, data, count]),
+        ("close", None, [number]), ("lanes", count, []),
         ("picture", count, [number, ctypes.c_char_p, count, data, count, data, count]),
         ("folder", None, [ctypes.c_char_p]),
     ):

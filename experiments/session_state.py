@@ -6,7 +6,7 @@ import base64
 import math
 import weakref
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, fields
 from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
@@ -17,6 +17,14 @@ if TYPE_CHECKING:
 _COLUMNS = {
     "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
     "hub": 14, "catheter": 12, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
+}
+# Parts of a state, each read off once something of it is asked for.
+MOTION, INSTRUMENTS, STRAINS = PARTS = range(3)
+_STRAINS = ("curvature", "couple", "strain", "force", "energy")
+_PART_OF = {
+    **dict.fromkeys(("positions", "velocities", "orientations", "angular_velocities", "contact_forces", "reaction"),
+                    MOTION),
+    **dict.fromkeys(("hub", "catheters"), INSTRUMENTS), **dict.fromkeys(_STRAINS, STRAINS),
 }
 _DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
 
@@ -97,7 +105,9 @@ class Energy:
 
 @dataclass(frozen=True)
 class State:
-    """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own.
+    """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own. The native
+    library reads them off when they are first asked for, or before the next step for a state that is kept, so that a
+    state always describes its own moment.
 
     Attributes
     ----------
@@ -153,8 +163,16 @@ class State:
             raise SessionError("this state has no session that could take a picture")
         return session.picture_of([self.positions, *(one.positions for one in self.catheters)], **view)
 
+    def __getattr__(self, name: str) -> Any:
+        part = _PART_OF.get(name)
+        session = None if part is None else self._session()
+        if session is None:
+            raise AttributeError(f"a state has no {name}")
+        session.read(self, part)
+        return vars(self)[name]
+
     def __getstate__(self) -> dict[str, Any]:
-        return {name: value for name, value in vars(self).items() if name != "_session"}
+        return {field.name: getattr(self, field.name) for field in fields(self)}
 
     @property
     def directors(self) -> np.ndarray:
@@ -197,24 +215,51 @@ def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
             for name, width in columns.items() if width is not None}
 
 
-def state_of(step: int, time: float, outcome: str | None, reason: str, prediction_error: float,
-             arrays: dict[str, np.ndarray], session: Session) -> State:
-    """The state that these arrays say, of a session."""
-    positions = arrays["positions"]
-    state = State(
-        step, time, outcome, reason, prediction_error, positions, arrays["velocities"], arrays["orientations"],
-        arrays["angularVelocities"],
-        arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
-        arrays["reaction"][0] if "reaction" in arrays else None,
-        arrays.get("curvature"), arrays.get("couple"), arrays.get("strain"), arrays.get("force"),
-        Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None,
-        _hub(arrays["hub"][0]) if "hub" in arrays else None, _catheters(arrays),
-    )
-    object.__setattr__(state, "_session", weakref.ref(session))    # not a part of what it says
+def part_of(array: str) -> int:
+    """Which part of a state an array of an answer belongs to."""
+    return INSTRUMENTS if array == "hub" or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
+
+
+def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
+    """The state of a session whose run goes on, of which nothing else has been read off."""
+    state = object.__new__(State)
+    vars(state).update(step=step, time=time, outcome=None, reason="", prediction_error=prediction_error,
+                       _session=weakref.ref(session))    # not a part of what it says
     return state
 
 
-def _catheters(arrays: dict[str, np.ndarray]) -> tuple[CatheterState, ...]:
+def state_of(answer: Mapping[str, Any], arrays: Mapping[str, np.ndarray], session: Session) -> State:
+    """The state of a session that an answer and its arrays say."""
+    state = unread_state(answer["step"], answer["time"], answer["predictionError"], session)
+    vars(state).update(outcome=answer["outcome"], reason=answer["message"])
+    for part in PARTS:
+        fill(state, part, arrays)
+    return state
+
+
+def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
+    """Give a state a part of it."""
+    if part == MOTION:
+        positions = arrays["positions"]
+        vars(state).update(
+            positions=positions, velocities=arrays["velocities"], orientations=arrays["orientations"],
+            angular_velocities=arrays["angularVelocities"],
+            contact_forces=arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
+            reaction=arrays["reaction"][0] if "reaction" in arrays else None)
+    elif part == INSTRUMENTS:
+        vars(state).update(hub=_hub(arrays["hub"][0]) if "hub" in arrays else None, catheters=_catheters(arrays))
+    else:
+        vars(state).update({name: arrays.get(name) for name in _STRAINS},
+                           energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)
+
+
+def unread(state: State) -> list[int]:
+    """The parts of a state that have not been read off."""
+    return [part for part, name in ((MOTION, "positions"), (INSTRUMENTS, "hub"), (STRAINS, "strain"))
+            if name not in vars(state)]
+
+
+def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
     catheters = []
     while (positions := arrays.get(f"positions{len(catheters) + 1}")) is not None:
         number = len(catheters) + 1

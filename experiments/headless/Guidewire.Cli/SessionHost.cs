@@ -73,6 +73,10 @@ namespace Guidewire.Cli
             State(_session!.Simulation, answer);
         }
 
+        /// <summary>The run as it is now.</summary>
+        /// <exception cref="ParameterException">No session is open.</exception>
+        public Simulation Simulation => Opened().Simulation;
+
         private SimulationSession Opened()
         {
             return _session ?? throw new ParameterException("request: no session is open: \"session\": \"open\" opens one");

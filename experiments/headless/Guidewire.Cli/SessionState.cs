@@ -38,11 +38,41 @@ namespace Guidewire.Cli
         /// <summary>How many there are.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Reads off a simulation as it is now.</summary>
+        /// <summary>Reads all parts of a simulation off as it is now.</summary>
         public void Read(Simulation simulation)
+        {
+            Clear();
+            TakeMotion(simulation);
+            TakeInstruments(simulation);
+            TakeStrains(simulation);
+        }
+
+        /// <summary>Reads one part off.</summary>
+        public void Read(Simulation simulation, StatePart part)
+        {
+            Clear();
+            switch (part)
+            {
+                case StatePart.Motion:
+                    TakeMotion(simulation);
+                    break;
+                case StatePart.Instruments:
+                    TakeInstruments(simulation);
+                    break;
+                default:
+                    TakeStrains(simulation);
+                    break;
+            }
+        }
+
+        private void Clear()
         {
             _fields.Clear();
             Count = 0;
+        }
+
+        private void TakeMotion(Simulation simulation)
+        {
             RodState state = simulation.State;
             Put("positions", state.Positions);
             Put("velocities", state.Velocities);
@@ -53,6 +83,11 @@ namespace Guidewire.Cli
                 Put("contactForces", contacts.Forces);
                 PutOne("reaction", contacts.Reaction);
             }
+        }
+
+        private void TakeInstruments(Simulation simulation)
+        {
+            RodState state = simulation.State;
             if (simulation.Hub() is HubRecord hub)
             {
                 Put(hub, state.Positions[state.ElementCount]);
@@ -65,6 +100,10 @@ namespace Guidewire.Cli
                 Put("orientations" + number, catheters[k].Orientations);
                 Put("catheter" + number, catheters[k]);
             }
+        }
+
+        private void TakeStrains(Simulation simulation)
+        {
             if (simulation.Stress() is StressRecord stress)
             {
                 Put("strain", stress.Strain);

@@ -30,7 +30,7 @@ namespace Guidewire.Native
         /// <summary>Answers a request of docs/runs.md, JSON in UTF-8.</summary>
         /// <param name="number">The session's.</param>
         /// <param name="request">The request.</param>
-        /// <param name="length">Its length in bytes; 0 asks why the last step was refused.</param>
+        /// <param name="length">Its length in bytes; 0 asks why the last call was refused.</param>
         /// <param name="answerLength">Takes the length of the answer in bytes.</param>
         /// <returns>The answer, JSON in UTF-8; <see cref="Free"/> gives it back.</returns>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_ask")]
@@ -45,20 +45,28 @@ namespace Guidewire.Native
             return copy;
         }
 
-        /// <summary>Makes steps, with so much push (units) and turn (rad) in each, and reads the state off.</summary>
+        /// <summary>Makes steps, with so much push (units) and turn (rad) in each.</summary>
         /// <param name="hub">Whose hub they move: 0 the wire's, k that of catheter k.</param>
-        /// <param name="numbers">Takes the state: step, time (s), 0 or 1 where the run has ended, prediction error
-        /// (units), and then the arrays of an answer in their order.</param>
-        /// <param name="capacity">How many numbers fit there, at least the first four.</param>
-        /// <returns>How many numbers the state has; arrays are not written where they do not fit. 0 where the steps
-        /// were
-        /// refused or failed.</returns>
+        /// <param name="head">Takes four numbers: steps done since the start, time (s), 0 or 1 where the run has ended,
+        /// prediction error (units).</param>
+        /// <returns>1, or 0 where the steps were refused or failed.</returns>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_step")]
-        public static int Step(long number, double push, double turn, int hub, int steps, double* numbers,
-            int capacity)
+        public static int Step(long number, double push, double turn, int hub, int steps, double* head)
         {
             return Sessions.TryGetValue(number, out NativeSession? session)
-                ? session.Step(push, turn, hub, steps, new Span<double>(numbers, capacity)) : 0;
+                && session.Step(push, turn, hub, steps, new Span<double>(head, 4)) ? 1 : 0;
+        }
+
+        /// <summary>Reads a part of the state off.</summary>
+        /// <param name="part">Which, a number of <see cref="StatePart"/>.</param>
+        /// <param name="numbers">Takes the arrays of an answer that belong to it, in their order.</param>
+        /// <param name="capacity">How many numbers fit there; where they do not fit, none is written.</param>
+        /// <returns>How many numbers the part has; -1 where it cannot be read.</returns>
+        [UnmanagedCallersOnly(EntryPoint = "guidewire_state")]
+        public static int State(long number, int part, double* numbers, int capacity)
+        {
+            return Sessions.TryGetValue(number, out NativeSession? session)
+                ? session.Read((StatePart)part, new Span<double>(numbers, capacity)) : -1;
         }
 
         /// <summary>Takes a fluoroscopic picture.</summary>

@@ -11,8 +11,6 @@ namespace Guidewire.Native
     /// <summary>One session of the library. One thread asks it at a time.</summary>
     internal sealed class NativeSession
     {
-        private const int Head = 4;    // numbers before the arrays
-
         private readonly SessionHost _host = new SessionHost(() => false);
         private readonly SessionState _state = new SessionState();
         private PictureView _picture = new PictureView();
@@ -21,7 +19,7 @@ namespace Guidewire.Native
         /// <summary>The answer for a number that no session has.</summary>
         public static string Closed => Refusal(ExitCodes.BadInput, "request: this session is closed");
 
-        /// <summary>Why the last step was refused, as an answer.</summary>
+        /// <summary>Why the last call was refused, as an answer.</summary>
         public string Problem { get; private set; } = "";
 
         /// <summary>Answers a request, as the runner does.</summary>
@@ -40,26 +38,40 @@ namespace Guidewire.Native
         }
 
         /// <summary>As <see cref="Exports.Step"/> says.</summary>
-        public int Step(double push, double turn, int hub, int steps, Span<double> numbers)
+        public bool Step(double push, double turn, int hub, int steps, Span<double> head)
         {
             try
             {
                 Simulation simulation = _host.Step(push, turn, hub, steps);
-                _state.Read(simulation);
-                numbers[0] = simulation.StepCount;
-                numbers[1] = simulation.Time;
-                numbers[2] = simulation.Outcome == Outcome.Running ? 0.0 : 1.0;
-                numbers[3] = simulation.PredictionError;
-                if (numbers.Length >= Head + _state.Count)
-                {
-                    _state.Numbers.AsSpan(0, _state.Count).CopyTo(numbers.Slice(Head));
-                }
-                return Head + _state.Count;
+                head[0] = simulation.StepCount;
+                head[1] = simulation.Time;
+                head[2] = simulation.Outcome == Outcome.Running ? 0.0 : 1.0;
+                head[3] = simulation.PredictionError;
+                return true;
             }
             catch (Exception error)
             {
                 Problem = Refusal(error);
-                return 0;
+                return false;
+            }
+        }
+
+        /// <summary>As <see cref="Exports.State"/> says.</summary>
+        public int Read(StatePart part, Span<double> numbers)
+        {
+            try
+            {
+                _state.Read(_host.Simulation, part);
+                if (numbers.Length >= _state.Count)
+                {
+                    _state.Numbers.AsSpan(0, _state.Count).CopyTo(numbers);
+                }
+                return _state.Count;
+            }
+            catch (Exception error)
+            {
+                Problem = Refusal(error);
+                return -1;
             }
         }
 
