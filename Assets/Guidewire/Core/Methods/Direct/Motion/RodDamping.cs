@@ -12,7 +12,7 @@ namespace Guidewire.Core
     internal sealed class RodDamping : EnergyTerm
     {
         private readonly double _ofMass;      // a, 1/s
-        private readonly double _ofMaterial;  // b, s
+        private readonly double _ofMaterial;  // b, s; where it is 0 no strain is measured
         private readonly RodMass _mass;
         private readonly MaterialRod _rod;
         private readonly Joint[] _elastic;
@@ -70,6 +70,10 @@ namespace Guidewire.Core
             Measure(shape, _begun);
             Measures first = _rate[0];
             Array.Copy(velocities, first.Position, velocities.Length);
+            if (_ofMaterial == 0.0)
+            {
+                return;
+            }
             _bending.MeasureRates(shape, spins, proximal, distal, first.Joint);
             for (int j = 0; j < spins.Length; j++)
             {
@@ -133,13 +137,13 @@ namespace Guidewire.Core
         /// </summary>
         public Vector3d ProximalCouple(RodShape shape)
         {
-            return _bending.ProximalCouple(shape);
+            return _ofMaterial > 0.0 ? _bending.ProximalCouple(shape) : Vector3d.Zero;
         }
 
         /// <summary>The same for the distal clamp.</summary>
         public Vector3d DistalCouple(RodShape shape)
         {
-            return _bending.DistalCouple(shape);
+            return _ofMaterial > 0.0 ? _bending.DistalCouple(shape) : Vector3d.Zero;
         }
 
         /// <inheritdoc/>
@@ -214,7 +218,10 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            _bending.Anchor(shape);
+            if (_ofMaterial > 0.0)
+            {
+                _bending.Anchor(shape);
+            }
         }
 
         /// <inheritdoc/>
@@ -240,30 +247,47 @@ namespace Guidewire.Core
         private void AddDrag(RodShape shape, RodVector[] gradient, int from, int to)
         {
             double scale = _ofMass * _perStage;
-            for (int i = from; i < Math.Min(to, _mass.Diagonal.Length); i++)
+            int last = Math.Min(to, _mass.Coupling.Length);
+            Vector3d moved = shape.X[from] - _history.Position[from];
+            Vector3d sum = ForceOf(gradient[from]);
+            for (int i = from; i < last; i++)
             {
-                Vector3d d = scale * (shape.X[i] - _history.Position[i]);
-                Add(ref gradient[i], _mass.Diagonal[i] * d);
-                if (i < _mass.Coupling.Length)
-                {
-                    Add(ref gradient[i + 1], _mass.Coupling[i] * d);
-                    Add(ref gradient[i],
-                        (scale * _mass.Coupling[i]) * (shape.X[i + 1] - _history.Position[i + 1]));
-                }
+                Vector3d d = scale * moved;
+                moved = shape.X[i + 1] - _history.Position[i + 1];
+                sum = sum + _mass.Diagonal[i] * d + (scale * _mass.Coupling[i]) * moved;
+                SetForce(ref gradient[i], sum);
+                sum = ForceOf(gradient[i + 1]) + _mass.Coupling[i] * d;
+            }
+            if (last < to && last < _mass.Diagonal.Length)
+            {
+                sum += _mass.Diagonal[last] * (scale * moved);
+            }
+            if (last < _mass.Diagonal.Length)
+            {
+                SetForce(ref gradient[last], sum);
             }
         }
 
-        private static void Add(ref RodVector to, in Vector3d force)
+        private static Vector3d ForceOf(in RodVector of)
         {
-            to.X1 += force.X;
-            to.X2 += force.Y;
-            to.X3 += force.Z;
+            return new Vector3d(of.X1, of.X2, of.X3);
+        }
+
+        private static void SetForce(ref RodVector to, in Vector3d force)
+        {
+            to.X1 = force.X;
+            to.X2 = force.Y;
+            to.X3 = force.Z;
         }
 
         /// <summary>Sets springs of b/h, at rest in y^.</summary>
         private void Stiffen(double perStage)
         {
             _perStage = perStage;
+            if (_ofMaterial == 0.0)
+            {
+                return;
+            }
             double scale = _ofMaterial * perStage;
             for (int k = 0; k < _joint.Length; k++)
             {
@@ -284,8 +308,12 @@ namespace Guidewire.Core
 
         private void Measure(RodShape shape, Measures to)
         {
-            _bending.Measure(shape, to.Joint);
             Array.Copy(shape.X, to.Position, shape.X.Length);
+            if (_ofMaterial == 0.0)
+            {
+                return;
+            }
+            _bending.Measure(shape, to.Joint);
             for (int j = 0; j < _dashpot.ElementCount; j++)
             {
                 _stretch.Stress(shape, j, out to.Chord[j]);
