@@ -67,6 +67,18 @@ namespace Guidewire.Core
             return new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), curvature, curvature);
         }
 
+        /// <summary>f'' n n^T + f' H.</summary>
+        /// <param name="slope">f'.</param>
+        /// <param name="curvature">f''.</param>
+        public Symmetric3 SecondDerivative(double slope, double curvature)
+        {
+            Vector3d n = Contact.Normal;
+            Symmetric3 own = Symmetric3.Outer(curvature, n);
+            return Curvature == 0.0 && CrossCurvature == 0.0 ? own : own
+                + Symmetric3.Outer(slope * Curvature, Direction)
+                + Symmetric3.Outer(slope * CrossCurvature, Vector3d.Cross(n, Direction));
+        }
+
         /// <summary>The same point seen from behind the wall.</summary>
         public ContactPoint FromBehind()
         {

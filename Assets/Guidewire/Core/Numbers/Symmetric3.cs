@@ -6,6 +6,7 @@ namespace Guidewire.Core
     internal readonly struct Symmetric3
     {
         private const int JacobiSweeps = 5;
+        private const double Rounding = 4e-15;    // of the largest entry
 
         private readonly double _11;
         private readonly double _21;
@@ -95,10 +96,14 @@ namespace Guidewire.Core
                 _31 * b.X + _32 * b.Y + _33 * b.Z);
         }
 
-        /// <summary>The nearest matrix without negative eigenvalues: those of this one are set to 0. By Jacobi's
-        /// rotations.</summary>
+        /// <summary>The nearest matrix without negative eigenvalues: those of this one are set to 0, by Jacobi's
+        /// rotations. A matrix that has none, or only such as rounding leaves, is returned as it is.</summary>
         public Symmetric3 PositivePart()
         {
+            if (IsPositive())
+            {
+                return this;
+            }
             Symmetric3 d = this;
             Vector3d v1 = Vector3d.UnitX;
             Vector3d v2 = Vector3d.UnitY;
@@ -122,6 +127,33 @@ namespace Guidewire.Core
             }
             return Outer(System.Math.Max(0.0, d._11), v1) + Outer(System.Math.Max(0.0, d._22), v2)
                 + Outer(System.Math.Max(0.0, d._33), v3);
+        }
+
+        // By elimination, the largest diagonal entry first: the pivots have the signs of the eigenvalues.
+        private bool IsPositive()
+        {
+            (double a, double b, double c) = (_11, _22, _33);
+            (double ab, double ac, double bc) = (_21, _31, _32);
+            if (b > a && b >= c)
+            {
+                (a, b, ac, bc) = (b, a, bc, ac);
+            }
+            else if (c > a)
+            {
+                (a, c, ab, bc) = (c, a, bc, ab);
+            }
+            if (!(a > 0.0))
+            {
+                return false;
+            }
+            double rounding = Rounding * a;
+            double scale = 1.0 / a;
+            b -= scale * ab * ab;
+            c -= scale * ac * ac;
+            bc -= scale * ab * ac;
+            (b, c) = c > b ? (c, b) : (b, c);
+            return b > rounding ? c - bc * bc / b >= -rounding
+                : System.Math.Abs(b) <= rounding && System.Math.Abs(c) <= rounding && System.Math.Abs(bc) <= rounding;
         }
 
         // The turn by which (p, q; q, r) becomes diagonal.

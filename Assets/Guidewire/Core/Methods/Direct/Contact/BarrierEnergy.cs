@@ -378,7 +378,6 @@ namespace Guidewire.Core
             }
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
-            bool mayBeNegative = false;
             ref double nearest = ref _nodeGap[w * _x.Length + i];
             for (int k = 0; k < _contactPoints.Count; k++)
             {
@@ -393,13 +392,8 @@ namespace Guidewire.Core
                 }
                 _value += point.Weight * value;
                 slope *= point.Weight;
-                Vector3d n = point.Contact.Normal;
-                double along = slope * point.Curvature * _units;
-                double across = slope * point.CrossCurvature * _units;
-                mayBeNegative |= point.Weight < 0 || along < 0.0 || across < 0.0;
-                gradient += slope * n;
-                second += Symmetric3.Outer(point.Weight * curvature, n) + Symmetric3.Outer(along, point.Direction)
-                    + Symmetric3.Outer(across, Vector3d.Cross(n, point.Direction));
+                gradient += slope * point.Contact.Normal;
+                second += point.SecondDerivative(slope * _units, point.Weight * curvature);
                 if (double.IsPositiveInfinity(value))
                 {
                     _value = double.PositiveInfinity;
@@ -411,7 +405,7 @@ namespace Guidewire.Core
                 return;
             }
             _resultant[w] -= gradient;
-            Symmetric3 positive = mayBeNegative ? second.PositivePart() : second;
+            Symmetric3 positive = second.PositivePart();
             _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest);
         }
 
