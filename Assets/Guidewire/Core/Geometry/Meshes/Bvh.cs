@@ -138,28 +138,28 @@ namespace Guidewire.Core
         /// little farther.</summary>
         public void Within(in Vector3d a, in Vector3d b, double range, StructList<int> triangles)
         {
-            FindLeaves(new SegmentSearch(a, b, range));
+            FindLeaves(a, b, range);
             AddTriangles(triangles);
         }
 
         /// <summary>Adds every triangle that a moving segment may come near to, and perhaps some others.</summary>
         public void Within(in SweptSegment swept, StructList<int> triangles)
         {
-            FindLeaves(swept, new SegmentSearch(swept.A0, swept.B0, swept.Range));
+            FindLeaves(swept);
             AddTriangles(triangles);
         }
 
         /// <summary>False where surely no triangle comes within the distance of a moving segment.</summary>
         public bool MayMeet(in SweptSegment swept)
         {
-            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
-            FindLeaves(swept, search);
+            FindLeaves(swept);
+            double squared = SegmentSearch.Square(swept.Range);
             for (int i = 0; i < _found.Count; i++)
             {
                 ref readonly BvhNode leaf = ref _nodes[_found[i]];
                 for (int k = leaf.First; k < leaf.First + leaf.Count; k++)
                 {
-                    if (MayMeet(swept, k, search.Squared))
+                    if (MayMeet(swept, k, squared))
                     {
                         return true;
                     }
@@ -180,17 +180,18 @@ namespace Guidewire.Core
             }
         }
 
-        // The leaves that may hold what is within the search's range of its segment.
-        private void FindLeaves(in SegmentSearch search)
+        // The leaves that may hold what is within a range of a segment.
+        private void FindLeaves(in Vector3d a, in Vector3d b, double range)
         {
             _found.Clear();
 #if NET8_0_OR_GREATER
             if (WideBvh.IsSupported)
             {
-                Wide.Collect(new SegmentBoundsTest(search, Wide), _found);
+                Wide.Collect(new SegmentBoundsTest(a, b, range, Wide), _found);
                 return;
             }
 #endif
+            var search = new SegmentSearch(a, b, range);
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
             stack[depth++] = 0;
@@ -206,16 +207,17 @@ namespace Guidewire.Core
         }
 
         // The same for what a moving segment may come near to.
-        private void FindLeaves(in SweptSegment swept, in SegmentSearch search)
+        private void FindLeaves(in SweptSegment swept)
         {
             _found.Clear();
 #if NET8_0_OR_GREATER
             if (WideBvh.IsSupported)
             {
-                Wide.Collect(new SweptBoundsTest(swept, search, Wide), _found);
+                Wide.Collect(new SweptBoundsTest(swept, Wide), _found);
                 return;
             }
 #endif
+            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
             stack[depth++] = 0;

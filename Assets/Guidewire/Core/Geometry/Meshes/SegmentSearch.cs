@@ -29,13 +29,18 @@ namespace Guidewire.Core
                 0.5 * Math.Abs(_along.X), 0.5 * Math.Abs(_along.Y), 0.5 * Math.Abs(_along.Z));
             double lengthSquared = _along.LengthSquared;
             _inverseLengthSquared = lengthSquared > 0.0 ? 1.0 / lengthSquared : 0.0;
-
-            // A triangle exactly at the range counts: the next larger number makes "less than" sufficient below.
-            Squared = range * range * (1.0 + 1e-15);
+            Squared = Square(range);
             Slot = -1;
             S = 0.0;
             Point = a;
             Feature = 0;
+        }
+
+        /// <summary>The square of a range, up to the next larger number: a triangle exactly at the range counts, though
+        /// what is found is nearer than this.</summary>
+        public static double Square(double range)
+        {
+            return range * range * (1.0 + 1e-15);
         }
 
         /// <summary>True for a segment of no length: a sphere's centre.</summary>

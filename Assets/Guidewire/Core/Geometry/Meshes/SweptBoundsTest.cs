@@ -9,25 +9,26 @@ namespace Guidewire.Core
     internal readonly struct SweptBoundsTest : IBoundsTest
     {
         private readonly SegmentBoundsTest _start;
-        private readonly Vector3d _a0;
-        private readonly Vector3d _b0;
-        private readonly Vector3d _a1;
-        private readonly Vector3d _b1;
-        private readonly Vector3d _centre;
-        private readonly Vector3d _extent;
+        private readonly Point _a0;
+        private readonly Point _b0;
+        private readonly Point _a1;
+        private readonly Point _b1;
+        private readonly Point _centre;
+        private readonly Point _extent;
         private readonly float _border;
 
         /// <summary>For what a moving segment may come near to.</summary>
-        public SweptBoundsTest(in SweptSegment swept, in SegmentSearch search, WideBvh tree)
+        public SweptBoundsTest(in SweptSegment swept, WideBvh tree)
         {
-            _start = new SegmentBoundsTest(search, tree);
-            _a0 = swept.A0 - tree.Origin;
-            _b0 = swept.B0 - tree.Origin;
-            _a1 = swept.A1 - tree.Origin;
-            _b1 = swept.B1 - tree.Origin;
-            _centre = swept.Centre - tree.Origin;
-            double slack = tree.Slack(_centre.Length + swept.Extent.Length);
-            _extent = swept.Extent + new Vector3d(slack, slack, slack);
+            _start = new SegmentBoundsTest(swept.A0, swept.B0, swept.Range, tree);
+            _a0 = new Point(swept.A0 - tree.Origin);
+            _b0 = new Point(swept.B0 - tree.Origin);
+            _a1 = new Point(swept.A1 - tree.Origin);
+            _b1 = new Point(swept.B1 - tree.Origin);
+            Vector3d centre = swept.Centre - tree.Origin;
+            double slack = tree.Slack(WideBvh.Sum(centre) + WideBvh.Sum(swept.Extent));
+            _centre = new Point(centre);
+            _extent = new Point(swept.Extent + new Vector3d(slack, slack, slack));
             _border = (float)(swept.Border + slack);
         }
 
@@ -58,19 +59,33 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<float> Overlaps(ref float bounds, int axis, double centre, double extent)
+        private static Vector256<float> Overlaps(ref float bounds, int axis, float centre, float extent)
         {
             return Vector256.LessThanOrEqual(
-                Vector256.Abs(Vector256.Create((float)centre) - SegmentBoundsTest.Bounds(ref bounds, axis)),
-                Vector256.Create((float)extent) + SegmentBoundsTest.Bounds(ref bounds, axis + 3));
+                Vector256.Abs(Vector256.Create(centre) - SegmentBoundsTest.Bounds(ref bounds, axis)),
+                Vector256.Create(extent) + SegmentBoundsTest.Bounds(ref bounds, axis + 3));
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<float> Height(ref float bounds, in Vector3d x)
+        private static Vector256<float> Height(ref float bounds, in Point x)
         {
-            return SegmentBoundsTest.Bounds(ref bounds, 6) * Vector256.Create((float)x.X)
-                + SegmentBoundsTest.Bounds(ref bounds, 7) * Vector256.Create((float)x.Y)
-                + SegmentBoundsTest.Bounds(ref bounds, 8) * Vector256.Create((float)x.Z);
+            return SegmentBoundsTest.Bounds(ref bounds, 6) * Vector256.Create(x.X)
+                + SegmentBoundsTest.Bounds(ref bounds, 7) * Vector256.Create(x.Y)
+                + SegmentBoundsTest.Bounds(ref bounds, 8) * Vector256.Create(x.Z);
+        }
+
+        private readonly struct Point
+        {
+            public readonly float X;
+            public readonly float Y;
+            public readonly float Z;
+
+            public Point(in Vector3d x)
+            {
+                X = (float)x.X;
+                Y = (float)x.Y;
+                Z = (float)x.Z;
+            }
         }
     }
 }

@@ -29,7 +29,7 @@ namespace Guidewire.Core
         private readonly float[] _bounds;           // by node, field and child
         private readonly int[] _child;              // by node and child: a node, or -1 - the binary leaf
         private readonly int[] _source;             // by node and child: the binary node, -1 where there is none
-        private double _size;                       // of all, from the origin, units
+        private double _slack;                      // of what is at the origin, units
 
         /// <summary>The same tree as that of binary nodes, children side by side behind their parent.</summary>
         public WideBvh(BvhNode[] nodes)
@@ -74,14 +74,20 @@ namespace Guidewire.Core
         /// <param name="distance">The largest of what is compared with nodes, from the origin, units.</param>
         public double Slack(double distance)
         {
-            return Rounding * (_size + distance) + OfOrigin * Origin.Length;
+            return Rounding * distance + _slack;
+        }
+
+        /// <summary>At least a vector's length, without its root.</summary>
+        public static double Sum(in Vector3d of)
+        {
+            return Math.Abs(of.X) + Math.Abs(of.Y) + Math.Abs(of.Z);
         }
 
         /// <summary>Takes over the boxes and slabs of the binary nodes.</summary>
         public void Refit(BvhNode[] nodes)
         {
             Origin = nodes[0].Centre;
-            _size = nodes[0].Extent.Length;
+            _slack = Rounding * nodes[0].Extent.Length + OfOrigin * Origin.Length;
             for (int k = 0; k < _source.Length; k++)
             {
                 Span<float> lane = _bounds.AsSpan(Stride * (k / Lanes) + k % Lanes);
