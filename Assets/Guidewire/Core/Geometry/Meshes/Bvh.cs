@@ -191,7 +191,25 @@ namespace Guidewire.Core
                 return;
             }
 #endif
-            var search = new SegmentSearch(a, b, range);
+            FindLeaves(new SegmentSearch(a, b, range));
+        }
+
+        // The same for what a moving segment may come near to.
+        private void FindLeaves(in SweptSegment swept)
+        {
+            _found.Clear();
+#if NET8_0_OR_GREATER
+            if (WideBvh.IsSupported)
+            {
+                Wide.Collect(new SweptBoundsTest(swept, Wide), _found);
+                return;
+            }
+#endif
+            FindLeaves(swept, new SegmentSearch(swept.A0, swept.B0, swept.Range));
+        }
+
+        private void FindLeaves(in SegmentSearch search)
+        {
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
             stack[depth++] = 0;
@@ -206,18 +224,8 @@ namespace Guidewire.Core
             }
         }
 
-        // The same for what a moving segment may come near to.
-        private void FindLeaves(in SweptSegment swept)
+        private void FindLeaves(in SweptSegment swept, in SegmentSearch search)
         {
-            _found.Clear();
-#if NET8_0_OR_GREATER
-            if (WideBvh.IsSupported)
-            {
-                Wide.Collect(new SweptBoundsTest(swept, Wide), _found);
-                return;
-            }
-#endif
-            var search = new SegmentSearch(swept.A0, swept.B0, swept.Range);
             Span<int> stack = stackalloc int[StackSize];
             int depth = 0;
             stack[depth++] = 0;

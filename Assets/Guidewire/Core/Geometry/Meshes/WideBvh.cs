@@ -29,6 +29,7 @@ namespace Guidewire.Core
         private readonly float[] _bounds;           // by node, field and child
         private readonly int[] _child;              // by node and child: a node, or -1 - the binary leaf
         private readonly int[] _source;             // by node and child: the binary node, -1 where there is none
+        private readonly int[] _stack = new int[StackSize];    // of a search: one on the stack would be cleared each time
         private double _slack;                      // of what is at the origin, units
 
         /// <summary>The same tree as that of binary nodes, children side by side behind their parent.</summary>
@@ -106,7 +107,8 @@ namespace Guidewire.Core
         public void Collect<TTest>(in TTest test, StructList<int> leaves)
             where TTest : struct, IBoundsTest
         {
-            Span<int> stack = stackalloc int[StackSize];
+            int[] stack = _stack;
+            int[] children = _child;
             int depth = 0;
             stack[depth++] = 0;
             ref float bounds = ref MemoryMarshal.GetArrayDataReference(_bounds);
@@ -121,7 +123,7 @@ namespace Guidewire.Core
                 uint hits = test.MayHold(ref Unsafe.Add(ref bounds, Stride * node));
                 for (; hits != 0; hits &= hits - 1)
                 {
-                    stack[depth++] = _child[Lanes * node + BitOperations.TrailingZeroCount(hits)];
+                    stack[depth++] = children[Lanes * node + BitOperations.TrailingZeroCount(hits)];
                 }
             }
         }
