@@ -11,10 +11,9 @@ from experiments import building, session_hosts
 from experiments.prepare import ROOT
 from experiments.session import Session, SessionError
 from experiments.tests.test_session import (
-    CATHETER, MATERIAL, TUBE, WIRE, assert_hubs_that_are_not_there_are_refused, assert_same_bits,
+    ACCURATE, CATHETER, MATERIAL, TUBE, WIRE, assert_hubs_that_are_not_there_are_refused, assert_same_bits,
 )
 
-ACCURATE = ROOT / "params" / "insertion-accurate.json"
 ENDLESS = {"maxSimulationSteps": 10**9, "deltaThreshold": 0}
 
 

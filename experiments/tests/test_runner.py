@@ -1,5 +1,6 @@
 """What runner.py promises when the runner works, dies, babbles, takes too long, or loses us."""
 
+import json
 import os
 import signal
 import subprocess
@@ -11,7 +12,9 @@ from pathlib import Path
 
 import pytest
 
+from analysis.logs import read_entries
 from experiments import runner
+from experiments.prepare import ROOT
 from experiments.runner import Checked, Request, Runner
 
 
@@ -151,3 +154,28 @@ def test_the_real_runner_ends_its_run_when_its_parent_process_is_gone(runner_com
         time.sleep(0.02)
     answer, _ = attached.communicate(timeout=60)
     assert '"outcome":"interrupted"' in answer
+
+
+def test_runs_one_after_another_in_one_mesh_have_the_bits_of_each_alone(runner_command, tmp_path):
+    """Its wall is made once; a run must not feel what those before it have left."""
+    scene = {"parameters": str(ROOT / "params" / "insertion-accurate.json")}
+    changes = [{}, {"wireRadius": 0.0003, "insertionSpeed": 0.2}, {"vessel.frictionCoefficient": 0.2}, {},
+               {"scale": [1.1, 1.1, 1.1]}, {}]
+    texts = [json.dumps({"id": k, **scene, "out": str(tmp_path / str(k)), "set": {"maxSimulationSteps": 60, **more}})
+             for k, more in enumerate(changes)]
+    done = subprocess.run([*runner_command, "-lines"], input="\n".join(texts) + "\n", capture_output=True, text=True,
+                          timeout=120, check=True)
+    assert [json.loads(line)["outcome"] for line in done.stdout.splitlines()] == ["finished"] * len(changes)
+    for k, text in enumerate(texts):
+        alone = json.loads(text)
+        alone["out"] = str(tmp_path / f"alone-{k}")
+        subprocess.run([*runner_command, "-lines"], input=json.dumps(alone) + "\n", capture_output=True, text=True,
+                       timeout=120, check=True)
+        assert steps_of(tmp_path / str(k)) == steps_of(tmp_path / f"alone-{k}"), changes[k]
+
+
+def steps_of(folder):
+    """What a run has logged, but for wall times."""
+    steps = [{**step, "elapsedMilliseconds": 0.0} for _, step in read_entries(folder)]
+    assert len(steps) == 61
+    return steps

@@ -19,6 +19,7 @@ from experiments.session import Session, SessionError
 WIRE = {"numberRodElements": 8, "constraintSolverSteps": 20, "deltaThreshold": 0, "displacement": 0}
 TUBE = {**WIRE, "guidewireOffset": -310, "sphereRadius": 4, "collisionStiffness": 0.1, "damping": 0.1,
         "vessel": {"shape": "tube", "knots": [[0, 0, -330], [0, 0, 0], [0, 40, 60]], "radius": 10}}
+ACCURATE = ROOT / "params" / "insertion-accurate.json"
 MATERIAL = {"solver": "direct", "proximalEnd": "clamped", "numberRodElements": 8, "gravity": [0, -9.81, 0],
             "maxSimulationSteps": 5, "initialState": "equilibrium", "deltaThreshold": 0}
 MOTION = ("positions", "velocities", "orientations", "angular_velocities", "contact_forces")
@@ -116,6 +117,22 @@ def test_what_is_changed_holds_from_there_on_and_what_cannot_be_changes_nothing(
             assert_same_bits(session.state, now)
         assert not np.array_equal(session.step(push=1.0).positions, other.step(push=6.0, steps=6).positions)
         assert session.reset().step == 0 and session.parameters["damping"] == 0.2
+
+
+def test_a_mesh_that_stays_has_the_friction_of_the_last_change_that_was_made():
+    """Its triangles are examined once; a refused change leaves the wall of the run as it is."""
+    with Session(ACCURATE, native=False) as session, Session(ACCURATE, native=False) as other:
+        for one in (session, other):
+            one.step(steps=90)
+        with pytest.raises(SessionError):
+            session.change(**{"vessel.frictionCoefficient": 0.4, "numberRodElements": 30})
+        assert_same_bits(session.step(steps=20), other.step(steps=20))
+        session.change(**{"vessel.frictionCoefficient": 0.4})
+        rubbed, free = session.step(steps=20), other.step(steps=20)
+        assert np.abs(rubbed.positions - free.positions).max() > 1e-3
+        assert_same_bits(session.reset(), other.reset())
+        other.change(**{"vessel.frictionCoefficient": 0.4})
+        assert_same_bits(session.step(steps=110), other.step(steps=110))
 
 
 def test_a_material_states_its_forces_and_is_carried_by_its_support():

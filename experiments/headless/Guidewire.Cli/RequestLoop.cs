@@ -19,6 +19,7 @@ namespace Guidewire.Cli
             Func<RunRequest, ParameterHandler, RunResult> execute, Func<bool> stopRequested)
         {
             var sessions = new SessionHost(stopRequested);
+            var mesh = new LastMesh();
             string? line;
             while (!stopRequested() && (line = input.ReadLine()) != null)
             {
@@ -26,14 +27,14 @@ namespace Guidewire.Cli
                 {
                     continue;
                 }
-                output.WriteLine(Answer(line, execute, sessions).ToString(Formatting.None));
+                output.WriteLine(Answer(line, execute, sessions, mesh).ToString(Formatting.None));
                 output.Flush();
             }
             return stopRequested() ? ExitCodes.Of(Core.Outcome.Interrupted) : 0;
         }
 
         private static JObject Answer(string line, Func<RunRequest, ParameterHandler, RunResult> execute,
-            SessionHost sessions)
+            SessionHost sessions, LastMesh mesh)
         {
             var answer = new JObject
             {
@@ -56,7 +57,8 @@ namespace Guidewire.Cli
                     answer["exitCode"] = 0;
                     return answer;
                 }
-                ParameterHandler handler = ParameterHandler.Load(request.ParameterFile, request.Overrides);
+                ParameterHandler handler = ParameterHandler.Load(
+                    ParameterSource.OfFile(request.ParameterFile, mesh), request.Overrides, false);
                 if (request.IsCheck)
                 {
                     answer["exitCode"] = 0;

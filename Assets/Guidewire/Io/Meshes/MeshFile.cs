@@ -15,15 +15,26 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">The file cannot be read or holds no such wall.</exception>
         public static TriangleMesh Read(string file, double scale, IReadOnlyList<Vector3d> rims)
         {
-            var vertices = new List<Vector3d>();
-            var triangles = new List<int>();
-            string extension = Path.GetExtension(file).ToLowerInvariant();
-            if (extension != ".obj" && extension != ".stl" && !Directory.Exists(file))
+            return Make(file, ReadBytes(file), scale, rims);
+        }
+
+        /// <summary>What stands in a file.</summary>
+        /// <exception cref="ParameterException">It cannot be read.</exception>
+        internal static byte[] ReadBytes(string file)
+        {
+            if (Extension(file) != ".obj" && Extension(file) != ".stl" && !Directory.Exists(file))
             {
                 throw new ParameterException(file + ": needs a name that ends in .obj or .stl");
             }
-            byte[] bytes = PlainFile.ReadBytes(file, "a mesh file");
-            string? problem = extension == ".obj" ? ObjReader.Read(bytes, vertices, triangles)
+            return PlainFile.ReadBytes(file, "a mesh file");
+        }
+
+        /// <summary>The wall of what was read from a file; see <see cref="Read"/>.</summary>
+        internal static TriangleMesh Make(string file, byte[] bytes, double scale, IReadOnlyList<Vector3d> rims)
+        {
+            var vertices = new List<Vector3d>();
+            var triangles = new List<int>();
+            string? problem = Extension(file) == ".obj" ? ObjReader.Read(bytes, vertices, triangles)
                 : StlReader.Read(bytes, vertices, triangles);
             if (problem != null)
             {
@@ -43,6 +54,11 @@ namespace Guidewire.Io
             {
                 throw new ParameterException(file + ": " + error.Message);
             }
+        }
+
+        private static string Extension(string file)
+        {
+            return Path.GetExtension(file).ToLowerInvariant();
         }
     }
 }

@@ -14,15 +14,16 @@ namespace Guidewire.Io
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
         /// <param name="sourceOf">Who said what stands at a path: a parameter file, or "command line".</param>
         /// <param name="warnings">Gets a line for a wall that goes through itself.</param>
+        /// <param name="last">Has the mesh of the run before, or null.</param>
         /// <exception cref="ParameterException">A wall that cannot be made.</exception>
         public static ContactShape[] Read(
-            RunParameters values, Func<string, string> sourceOf, List<string> warnings)
+            RunParameters values, Func<string, string> sourceOf, List<string> warnings, LastMesh? last)
         {
             var walls = new List<ContactShape>();
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(sourceOf, "vessel", values.Vessel);
-                ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"));
+                ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"), last);
                 vessel.FrictionCoefficient = Friction(fields);
                 walls.Add(vessel);
                 WarnOfSelfIntersection(vessel, fields.Text("file"), warnings);
@@ -51,7 +52,8 @@ namespace Guidewire.Io
             }
         }
 
-        private static ContactShape Vessel(JsonFields fields, RunParameters scene, string fileSource)
+        private static ContactShape Vessel(
+            JsonFields fields, RunParameters scene, string fileSource, LastMesh? last)
         {
             var placement = new Placement(scene.Position, Placement.FromEulerDegrees(scene.Rotation), scene.Scale);
             try
@@ -68,7 +70,7 @@ namespace Guidewire.Io
                     case "mesh":
                         fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims",
                             "anatomy");
-                        return Mesh(fields, scene, placement, fileSource);
+                        return Mesh(fields, scene, placement, fileSource, last);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
                 }
@@ -129,7 +131,7 @@ namespace Guidewire.Io
         }
 
         private static MeshShape Mesh(
-            JsonFields fields, RunParameters scene, in Placement placement, string fileSource)
+            JsonFields fields, RunParameters scene, in Placement placement, string fileSource, LastMesh? last)
         {
             if (scene.Scale.X == 0.0 || scene.Scale.Y == 0.0 || scene.Scale.Z == 0.0)
             {
@@ -152,8 +154,7 @@ namespace Guidewire.Io
             {
                 rims = anatomy.OpenRims;
             }
-            TriangleMesh mesh = MeshFile.Read(file, scale, rims);
-            return new MeshShape(mesh, placement);
+            return (last ?? new LastMesh()).Read(file, scale, rims, placement);
         }
 
         private static ContactShape Obstacle(JsonFields fields)

@@ -264,7 +264,7 @@ namespace Guidewire.Io
         private void ReadWalls(SimulationParameters simulation)
         {
             string vessel = _given.SourceOf("vessel");
-            ContactShape[] stated = WallReader.Read(Values, _given.SourceOf, _warnings);
+            ContactShape[] stated = WallReader.Read(Values, _given.SourceOf, _warnings, _from.Mesh);
             simulation.Scene.Walls = stated.Concat(_from.Walls).ToArray();
             if (simulation.Scene.Walls.Length > 0 && !_given.Has("integrator"))
             {

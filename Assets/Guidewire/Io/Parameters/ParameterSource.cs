@@ -10,11 +10,12 @@ namespace Guidewire.Io
     {
         private readonly JObject? _content;
 
-        private ParameterSource(string? name, JObject? content, ContactShape[] walls)
+        private ParameterSource(string? name, JObject? content, ContactShape[] walls, LastMesh? mesh)
         {
             Name = name;
             _content = content;
             Walls = walls;
+            Mesh = mesh;
         }
 
         /// <summary>The file, or what error lines call it; null for the defaults alone. Files that it names are looked
@@ -24,11 +25,15 @@ namespace Guidewire.Io
         /// <summary>Walls in addition to those of the keys, in units of the wire.</summary>
         public ContactShape[] Walls { get; }
 
+        /// <summary>Keeps the vessel's mesh for the next run; null where nothing does.</summary>
+        internal LastMesh? Mesh { get; }
+
         /// <summary>A file on disk.</summary>
         /// <param name="file">Its name; null for the defaults.</param>
-        public static ParameterSource OfFile(string? file)
+        /// <param name="mesh">Keeps the vessel's mesh where one run follows another.</param>
+        public static ParameterSource OfFile(string? file, LastMesh? mesh = null)
         {
-            return new ParameterSource(file, null, Array.Empty<ContactShape>());
+            return new ParameterSource(file, null, Array.Empty<ContactShape>(), mesh);
         }
 
         /// <summary>The text of a parameter file.</summary>
@@ -37,13 +42,13 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">It is no JSON object.</exception>
         public static ParameterSource OfText(string name, string text)
         {
-            return new ParameterSource(name, JsonText.ParseObject(text, name), Array.Empty<ContactShape>());
+            return new ParameterSource(name, JsonText.ParseObject(text, name), Array.Empty<ContactShape>(), null);
         }
 
         /// <summary>The same with walls beside those that the keys state.</summary>
         public ParameterSource With(ContactShape[] walls)
         {
-            return new ParameterSource(Name, _content, walls);
+            return new ParameterSource(Name, _content, walls, Mesh);
         }
 
         /// <summary>Its keys and values; null without any.</summary>

@@ -84,7 +84,8 @@ namespace Guidewire.Io
             bool? isSteered)
         {
             var given = new List<KeyValuePair<string, JToken>>(overrides);
-            ParameterHandler handler = ParameterHandler.Load(file, given, isSteered == true);
+            ParameterSource from = ParameterSource.OfFile(file, new LastMesh());
+            ParameterHandler handler = ParameterHandler.Load(from, given, isSteered == true);
             MethodParameters method = handler.Values.Simulation.Method;
             MethodTraits traits = MethodTable.Of(method.Solver);
             if (isSteered == true && !traits.TakesSteering)
@@ -93,7 +94,7 @@ namespace Guidewire.Io
                     + Get(handler, "solver") + " is not steered interactively: its file's drive moves it");
             }
             method.StatesReactions |= CanStateReactions(method);
-            return new SimulationSession(ParameterSource.OfFile(file), given, handler,
+            return new SimulationSession(from, given, handler,
                 isSteered ?? (traits.TakesSteering && !traits.TakesMaterial));
         }
 
@@ -106,7 +107,7 @@ namespace Guidewire.Io
         public static SimulationSession Open(string file, IEnumerable<string> overrides,
             string logFolder, bool isSteered)
         {
-            return Open(ParameterSource.OfFile(file), overrides, logFolder, isSteered);
+            return Open(ParameterSource.OfFile(file, new LastMesh()), overrides, logFolder, isSteered);
         }
 
         /// <summary>A run at its start; errors as of the other.</summary>

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -14,9 +15,7 @@ namespace Guidewire.Core
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
         private readonly MeshGeometry _closed;
-        private MeshContactPoints? _contactPoints;
-        private MeshEdges? _edgeContacts;
-        private MeshNearby? _nearby;
+        private readonly Derived _derived;
 
         /// <summary>The wall where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -30,6 +29,15 @@ namespace Guidewire.Core
             _mesh = mesh;
             _wall = new MeshGeometry(mesh, closeRims: false, placement);
             _closed = mesh.Rims.Count > 0 ? new MeshGeometry(mesh, closeRims: true, placement) : _wall;
+            _derived = new Derived();
+        }
+
+        private MeshShape(MeshShape other)
+        {
+            _mesh = other._mesh;
+            _wall = other._wall;
+            _closed = other._closed;
+            _derived = other._derived;
         }
 
         /// <summary>What was found in the mesh and repaired.</summary>
@@ -45,14 +53,29 @@ namespace Guidewire.Core
         /// </summary>
         public int CountSelfIntersections(out Vector3d position)
         {
-            return SelfIntersection.Count(_wall, out position);
+            if (_derived.SelfIntersections == null)
+            {
+                int count = SelfIntersection.Count(_wall, out Vector3d first);
+                _derived.SelfIntersections = (count, first);
+            }
+            position = _derived.SelfIntersections.Value.Position;
+            return _derived.SelfIntersections.Value.Count;
+        }
+
+        /// <summary>The same wall for another run, with a friction of its own: what follows from the triangles is
+        /// shared, what queries have left is not. Placed anew, both are; and both serve one thread.</summary>
+        public MeshShape Again()
+        {
+            return new MeshShape(this);
         }
 
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
         {
             _wall.Place(placement);
-            _nearby = null;
+            _derived.Nearby = null;
+            _derived.SelfIntersections = null;
+            _derived.Narrowest.Clear();
             ClearCache();
             if (_closed != _wall)
             {
@@ -84,8 +107,8 @@ namespace Guidewire.Core
         internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {
-            _contactPoints ??= new MeshContactPoints(_wall);
-            _contactPoints.Find(x, range, Nearby, features, contactPoints);
+            _derived.ContactPoints ??= new MeshContactPoints(_wall);
+            _derived.ContactPoints.Find(x, range, Nearby, features, contactPoints);
             return range;
         }
 
@@ -127,14 +150,19 @@ namespace Guidewire.Core
             return _wall.Tree.MayMeet(new SweptSegment(a0, b0, a1, b1, distance));
         }
 
-        private MeshEdges EdgeContacts => _edgeContacts ??= new MeshEdges(_wall);
+        private MeshEdges EdgeContacts => _derived.EdgeContacts ??= new MeshEdges(_wall);
 
-        private MeshNearby Nearby => _nearby ??= new MeshNearby(_wall, EdgeContacts);
+        private MeshNearby Nearby => _derived.Nearby ??= new MeshNearby(_wall, EdgeContacts);
 
         /// <summary>See <see cref="MeshWidth"/>.</summary>
         internal override double NarrowestRadius(double above, double below)
         {
-            return MeshWidth.Narrowest(this, _wall, above, below);
+            if (!_derived.Narrowest.TryGetValue((above, below), out double radius))
+            {
+                radius = MeshWidth.Narrowest(this, _wall, above, below);
+                _derived.Narrowest.Add((above, below), radius);
+            }
+            return radius;
         }
 
         /// <inheritdoc/>
@@ -153,6 +181,17 @@ namespace Guidewire.Core
             double clearance, double resolution, int hint)
         {
             return _wall.Tree.TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
+        }
+
+        // What follows from the triangles where they are, each computed when it is first asked for.
+        private sealed class Derived
+        {
+            public MeshContactPoints? ContactPoints;
+            public MeshEdges? EdgeContacts;
+            public MeshNearby? Nearby;
+            public (int Count, Vector3d Position)? SelfIntersections;
+            public readonly Dictionary<(double, double), double> Narrowest =
+                new Dictionary<(double, double), double>();
         }
     }
 }

@@ -21,6 +21,21 @@ namespace Guidewire.Core.Tests
             Assert.That(narrowest, Is.EqualTo(0.3).Within(0.02));
         }
 
+        /// <summary>A wall remembers how narrow it is until it is placed anew.</summary>
+        [Test]
+        public void WallThatIsScaled_IsAsNarrowAsItIsThen()
+        {
+            TestMeshes tube = TestMeshes.Tube(16, 40, Length, RadiusOf("throat"));
+            var wall = new MeshShape(tube.Build(Vector3d.Zero, Length * Vector3d.UnitZ), Placement.Identity);
+            double radius = wall.NarrowestRadius(0.25, 0.4);
+            Assert.That(radius, Is.EqualTo(0.3).Within(0.03));
+            Assert.That(wall.NarrowestRadius(0.25, 0.4), Is.EqualTo(radius));
+            Assert.That(wall.NarrowestRadius(0.25, 0.27), Is.EqualTo(double.PositiveInfinity));
+            wall.Place(new Placement(Vector3d.Zero, Quaterniond.Identity, new Vector3d(2.0, 2.0, 2.0)));
+            Assert.That(wall.NarrowestRadius(0.5, 0.8), Is.EqualTo(2.0 * radius).Within(1e-3 * radius));
+            Assert.That(wall.NarrowestRadius(0.25, 0.4), Is.EqualTo(double.PositiveInfinity));
+        }
+
         [Test]
         public void EvenTube_IsAsNarrowAsItsRadius()
         {

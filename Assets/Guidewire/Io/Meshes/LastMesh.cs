@@ -1,0 +1,41 @@
+using System;
+using System.Linq;
+using Guidewire.Core;
+
+namespace Guidewire.Io
+{
+    /// <summary>The mesh that was read last, for runs one after another in a process, or one whose parameters change:
+    /// where the next has the same file with the same contents at the same place, its triangles are not sorted and
+    /// examined again, which for tens of thousands takes longer than many a run. Runs have the same bits either
+    /// way.</summary>
+    /// <remarks>One run at a time: its walls serve one thread.</remarks>
+    public sealed class LastMesh
+    {
+        private string _file = "";
+        private byte[] _bytes = Array.Empty<byte>();
+        private double _scale;
+        private Vector3d[] _rims = Array.Empty<Vector3d>();
+        private Placement _placement;
+        private MeshShape? _wall;
+
+        /// <summary>The wall in a file, placed.</summary>
+        /// <param name="file">As of <see cref="MeshFile.Read"/>.</param>
+        /// <param name="scale">Units of the scene per unit of the file.</param>
+        /// <param name="rims">A point near the middle of each rim that may be open, in the file's own units.</param>
+        /// <param name="placement">In the scene.</param>
+        /// <exception cref="ParameterException">The file cannot be read or holds no such wall.</exception>
+        internal MeshShape Read(string file, double scale, Vector3d[] rims, in Placement placement)
+        {
+            byte[] bytes = MeshFile.ReadBytes(file);
+            if (_wall != null && file == _file && scale == _scale && placement.Equals(_placement)
+                && rims.SequenceEqual(_rims) && bytes.AsSpan().SequenceEqual(_bytes))
+            {
+                return _wall.Again();
+            }
+            _wall = null;
+            _wall = new MeshShape(MeshFile.Make(file, bytes, scale, rims), placement);
+            (_file, _bytes, _scale, _rims, _placement) = (file, bytes, scale, rims, placement);
+            return _wall;
+        }
+    }
+}
