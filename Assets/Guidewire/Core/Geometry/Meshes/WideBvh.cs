@@ -29,7 +29,7 @@ namespace Guidewire.Core
         private readonly float[] _bounds;           // by node, field and child
         private readonly int[] _child;              // by node and child: a node, or -1 - the binary leaf
         private readonly int[] _source;             // by node and child: the binary node, -1 where there is none
-        private readonly int[] _stack = new int[StackSize];    // of a search: one on the stack would be cleared each time
+        private readonly int[] _stack = new int[StackSize];    // of a search: a local one would be cleared each time
         private double _slack;                      // of what is at the origin, units
 
         /// <summary>The same tree as that of binary nodes, children side by side behind their parent.</summary>
