@@ -1,6 +1,7 @@
 #if NET8_0_OR_GREATER
 using System;
 using System.Runtime.CompilerServices;
+using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
 {
@@ -20,6 +21,7 @@ namespace Guidewire.Core
         where T : struct, ILanes<T>
     {
         private const int Lag = LaneTable.Lag;
+        private const int CacheLine = 64;    // bytes
 
         // In elements of a scalar iteration: a node in and out; a contact more than it costs there.
         private const double CopyCost = 0.5;
@@ -93,9 +95,21 @@ namespace Guidewire.Core
                 _end[lane] = Lag * lane + laneIterations * _period;
             }
             Take(x, q);
-            Run(Ticks(iterations), x);
+            RunFromLine(Ticks(iterations), x);
             GiveBack(x, q);
             return true;
+        }
+
+        // More numbers are at work than fit the registers. Where those that wait on the stack lie across two lines of
+        // the cache each, a tick takes 1.4 times as long; and where a process's stack begins is left to chance.
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private void RunFromLine(long ticks, Vector3d[] x)
+        {
+            Span<byte> top = stackalloc byte[CacheLine];
+            nint address = Unsafe.ByteOffset(ref Unsafe.NullRef<byte>(), ref MemoryMarshal.GetReference(top));
+            Span<byte> rest = stackalloc byte[(int)(address & (CacheLine - 1))];
+            rest.Clear();
+            Run(ticks, x);
         }
 
         /// <inheritdoc/>
