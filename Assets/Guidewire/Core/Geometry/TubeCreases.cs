@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -52,12 +53,12 @@ namespace Guidewire.Core
         public double Nearest(in Vector3d a, in Vector3d b, FeatureRange pieces)
         {
             double nearest = double.PositiveInfinity;
-            double size = Vector3d.Distance(a, b);
             for (int i = pieces.From + 1; i < pieces.To; i++)
             {
-                if (pieces[i] == pieces[i - 1] + 1)
+                int k = pieces[i];
+                if (k == pieces[i - 1] + 1 && _isCrease[k] && !IsBeside(k, a, b, out double pastA, out double pastB))
                 {
-                    nearest = Math.Min(nearest, DistanceAt(pieces[i], a, b, size));
+                    nearest = Math.Min(nearest, DistanceAt(k, a, b, pastA, pastB));
                 }
             }
             return nearest;
@@ -66,10 +67,12 @@ namespace Guidewire.Core
         /// <summary>Adds the creases that segment a b crosses within <paramref name="range"/> of the wall.</summary>
         public void Find(in Vector3d a, in Vector3d b, double range, StructList<EdgeContact> edgeContacts)
         {
-            double size = Vector3d.Distance(a, b);
             for (int k = 1; k + 1 < _knots.Length; k++)
             {
-                Find(k, a, b, size, range, edgeContacts);
+                if (_isCrease[k] && !IsBeside(k, a, b, out double pastA, out double pastB))
+                {
+                    Find(k, a, b, pastA, pastB, range, edgeContacts);
+                }
             }
         }
 
@@ -77,26 +80,33 @@ namespace Guidewire.Core
         public void Find(in Vector3d a, in Vector3d b, double range, FeatureRange pieces,
             StructList<EdgeContact> edgeContacts)
         {
-            double size = Vector3d.Distance(a, b);
             for (int i = pieces.From + 1; i < pieces.To; i++)
             {
-                if (pieces[i] == pieces[i - 1] + 1)
+                int k = pieces[i];
+                if (k == pieces[i - 1] + 1 && _isCrease[k] && !IsBeside(k, a, b, out double pastA, out double pastB))
                 {
-                    Find(pieces[i], a, b, size, range, edgeContacts);
+                    Find(k, a, b, pastA, pastB, range, edgeContacts);
                 }
             }
         }
 
+        // Whether a segment is on one side of a knot's plane, farther than its crease; and how far its ends are beyond
+        // that plane, units.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private bool IsBeside(int k, in Vector3d a, in Vector3d b, out double pastA, out double pastB)
+        {
+            double slack = _slack[k];
+            pastA = _planes.Past(k, a);
+            pastB = _planes.Past(k, b);
+            return (pastA > slack && pastB > slack) || (pastA < -slack && pastB < -slack);
+        }
+
         // In the direction of the tube, or against it where the wire has turned back.
-        private void Find(int k, in Vector3d a, in Vector3d b, double size, double range,
+        [MethodImpl(MethodImplOptions.NoInlining)]
+        private void Find(int k, in Vector3d a, in Vector3d b, double pastA, double pastB, double range,
             StructList<EdgeContact> edgeContacts)
         {
-            if (!_isCrease[k])
-            {
-                return;
-            }
-            double pastA = _planes.Past(k, a);
-            double pastB = _planes.Past(k, b);
+            double size = Vector3d.Distance(a, b);
             if (MayCross(k, a, pastA, pastB, size) && Find(k, a, b, pastA, pastB, range, out EdgeContact contact))
             {
                 edgeContacts.Add(contact);
@@ -107,14 +117,9 @@ namespace Guidewire.Core
             }
         }
 
-        private double DistanceAt(int k, in Vector3d a, in Vector3d b, double size)
+        private double DistanceAt(int k, in Vector3d a, in Vector3d b, double pastA, double pastB)
         {
-            if (!_isCrease[k])
-            {
-                return double.PositiveInfinity;
-            }
-            double pastA = _planes.Past(k, a);
-            double pastB = _planes.Past(k, b);
+            double size = Vector3d.Distance(a, b);
             return (MayCross(k, a, pastA, pastB, size) && Cross(k, a, b, pastA, pastB, out Crossing crossing))
                 || (MayCross(k, b, pastB, pastA, size) && Cross(k, b, a, pastB, pastA, out crossing))
                 ? crossing.Distance : double.PositiveInfinity;
