@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -43,6 +44,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether the result is valid between a and b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool Covers(in Vector3d a, in Vector3d b)
         {
             return _skin >= 0.0 && (a - _a).LengthSquared <= _skin * _skin
@@ -57,23 +59,27 @@ namespace Guidewire.Core
         }
 
         /// <summary>False where the wall is certainly farther from segment a b than a range.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool MayBeInRange(in Vector3d a, in Vector3d b, double range)
         {
             return MayBeInRange(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
         }
 
         /// <summary>The same for its first end alone.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool FirstMayBeInRange(in Vector3d a, double range)
         {
             return MayBeInRange((a - _a).LengthSquared, range);
         }
 
         /// <summary>The same for its second end.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool SecondMayBeInRange(in Vector3d b, double range)
         {
             return MayBeInRange((b - _b).LengthSquared, range);
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private readonly bool MayBeInRange(double squaredMotion, double range)
         {
             double left = _clearance - range;
@@ -81,6 +87,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Its features, if the result is valid between a and b.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly FeatureRange Features(StructList<WallFeature> features, in Vector3d a, in Vector3d b)
         {
             return Covers(a, b) ? new FeatureRange(features, _from, _to, Moved(a, b)) : default;
@@ -98,6 +105,7 @@ namespace Guidewire.Core
             return Features(features, _a, b);
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private readonly double Moved(in Vector3d a, in Vector3d b)
         {
             return Math.Sqrt(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared));

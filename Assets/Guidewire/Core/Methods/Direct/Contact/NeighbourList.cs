@@ -1,4 +1,5 @@
 using System;
+using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -140,6 +141,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether element j may come near wall w within the skin.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool IsNear(int w, int j)
         {
             return _element[w * _range.Length + j].IsNear
@@ -147,6 +149,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether node i may.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool IsNodeNear(int w, int i)
         {
             int n = _range.Length;
@@ -300,6 +303,7 @@ namespace Guidewire.Core
 
         // Whether one of two queries is valid between a and b: it is then the last; else the older one is, to be made
         // again.
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static bool IsCovered(ref Neighbour last, ref Neighbour before, in Vector3d a, in Vector3d b)
         {
             if (last.Covers(a, b))
