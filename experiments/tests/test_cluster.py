@@ -33,8 +33,14 @@ class Processes:
 
     @property
     def address(self):
-        """Of the scheduler, when it is up."""
-        return json.loads(wait_for(self._folder / "scheduler.json").read_text())["address"]
+        """Of the scheduler, when it is up: its file is there before all of it is written."""
+        end = time.monotonic() + 60.0
+        while True:
+            try:
+                return json.loads(wait_for(self._folder / "scheduler.json").read_text())["address"]
+            except ValueError:
+                assert time.monotonic() < end
+                time.sleep(0.02)
 
     def _start(self, program, *options):
         # Not where the repository stands: workers elsewhere do not see its packages either.
