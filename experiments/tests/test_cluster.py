@@ -69,10 +69,12 @@ def processes(tmp_path_factory):
     made = Processes(tmp_path_factory.mktemp("cluster"))
     from distributed import Client
 
-    with Client(made.address) as client:
-        client.wait_for_workers(2, timeout=60)
-    yield made
-    made.close()
+    try:
+        with Client(made.address) as client:
+            client.wait_for_workers(2, timeout=60)
+        yield made
+    finally:
+        made.close()
 
 
 def results_of(folder):
