@@ -240,6 +240,12 @@ namespace Guidewire.Core
             _history.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
+                // A writer without damping of the material has measured no strain; and here they would grow old.
+                _hasBegun &= _ofMaterial == 0.0 || _begun.HasStrains;
+                if (_ofMaterial == 0.0)
+                {
+                    _begun.ForgetStrains();
+                }
                 Stiffen(_perStage);
             }
         }
@@ -335,6 +341,15 @@ namespace Guidewire.Core
             public Vector3d[] Chord { get; }     // p, over the element's length
 
             public Vector3d[] Position { get; }  // m
+
+            /// <summary>Whether strains were measured: a chord has a length.</summary>
+            public bool HasStrains => Chord[0] != Vector3d.Zero;
+
+            public void ForgetStrains()
+            {
+                Array.Clear(Joint, 0, Joint.Length);
+                Array.Clear(Chord, 0, Chord.Length);
+            }
 
             public void CopyFrom(Measures other)
             {
