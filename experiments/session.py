@@ -25,7 +25,7 @@ from typing import Any
 import numpy as np
 
 from experiments import building
-from experiments.session_hosts import Ended, Library, Process, obstacle
+from experiments.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
 from experiments.session_state import (
     Frames, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
 )
@@ -119,7 +119,7 @@ class Session:
         if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < _MOST):
             return self._move("step", push=push, turn=turn, steps=steps, hub=hub)
         with self._lock:
-            self._leave()
+            self._leave(keeps=steps > STEPS_AT_ONCE)
             made = self._guarded(lambda host: host.step(push, turn, hub, steps))
             if isinstance(made, dict):
                 return self._take(_accepted(made))
@@ -239,8 +239,12 @@ class Session:
             self._state = state
 
     def close(self) -> None:
-        """End the runner. Nothing but `state` can be asked for afterwards."""
-        with self._lock:
+        """End the runner. Nothing but `state` can be asked for afterwards. Steps under way in another thread have ten
+        seconds to end; then they raise SessionError."""
+        if not self._lock.acquire(timeout=SECONDS_TO_END):
+            self.kill()
+            self._lock.acquire()
+        try:
             if self._host is not None:
                 self._leave()
                 if isinstance(self._host, Library):    # a step that was interrupted may have come further
@@ -248,6 +252,8 @@ class Session:
                     if answer["exitCode"] == 0 and (self._state is None or self._state.step != answer["step"]):
                         self._take(answer)
                 self._end()
+        finally:
+            self._lock.release()
 
     def kill(self) -> None:
         """End the runner at once, whatever it is doing; from any thread. A step under way raises SessionError."""
@@ -271,11 +277,13 @@ class Session:
         host, self._host = self._host, None
         host.close()
 
-    def _leave(self) -> None:
-        """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then."""
+    def _leave(self, keeps: bool = False) -> None:
+        """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then; all of
+        it where the session `keeps` it, for other threads to see during long steps."""
         if self._state is None or unread(self._state):
+            newest = self.state if keeps else None
             self._state = None
-            newest = self._newest()
+            newest = newest or self._newest()
             if newest is not None:
                 for part in unread(newest):
                     self.read(newest, part)

@@ -22,8 +22,8 @@ from experiments.installed import has_avx2
 from experiments.prepare import INSTALLED, ROOT, PreparationError
 from experiments.session_state import PARTS, part_of
 
-_SECONDS_TO_END = 10.0
-_STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
+SECONDS_TO_END = 10.0
+STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
 _loaded_by: int | None = None  # the process that loaded the library
 _STATE = '{"session": "state"}'
 
@@ -66,7 +66,7 @@ class Process:
         """End it."""
         try:
             self.process.stdin.close()
-            self.process.wait(timeout=_SECONDS_TO_END)
+            self.process.wait(timeout=SECONDS_TO_END)
         except (OSError, subprocess.TimeoutExpired):
             self.process.kill()
             self.process.wait()
@@ -119,10 +119,10 @@ class Library:
         refused, or whose run has ended, with its state.
         """
         step, head = self._functions.guidewire_step, self._head
-        for done in range(0, steps, _STEPS_AT_ONCE):
+        for done in range(0, steps, STEPS_AT_ONCE):
             if self._is_killed.is_set():
                 raise Ended("this session was ended while it made steps")
-            if not step(self._number, push / steps, turn / steps, hub, min(_STEPS_AT_ONCE, steps - done), head):
+            if not step(self._number, push / steps, turn / steps, hub, min(STEPS_AT_ONCE, steps - done), head):
                 return self._answer(b"")
             if head[2]:
                 return self.ask(_STATE)

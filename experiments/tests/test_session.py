@@ -119,6 +119,22 @@ def test_what_is_changed_holds_from_there_on_and_what_cannot_be_changes_nothing(
         assert session.reset().step == 0 and session.parameters["damping"] == 0.2
 
 
+@pytest.mark.parametrize("integrator", ["bdf2", "esdirk3", "implicitEuler"])
+def test_damping_of_the_material_begins_in_the_midst_of_a_motion_that_mass_alone_damps(integrator):
+    """As if there had been next to none before; also where it was there, was taken away and comes again."""
+    wire = {**MATERIAL, "initialState": "straight", "maxSimulationSteps": 100, "integrator": integrator,
+            "timeStep": 0.002, "massDamping": 5.0}
+    found = []
+    for none in (0.0, 1e-9):
+        with Session(**wire, materialDamping=none, native=False) as session:
+            for now in (0.02, none, 0.02):
+                session.step(steps=5)
+                session.change(materialDamping=now)
+            found.append(session.step(steps=5))
+    assert found[0].outcome is None
+    assert np.abs(found[0].positions - found[1].positions).max() < 2e-3 * np.abs(found[1].positions[:, 1]).max()
+
+
 def test_a_mesh_that_stays_has_the_friction_of_the_last_change_that_was_made():
     """Its triangles are examined once; a refused change leaves the wall of the run as it is."""
     with Session(ACCURATE, native=False) as session, Session(ACCURATE, native=False) as other:

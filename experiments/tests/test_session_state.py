@@ -4,6 +4,7 @@ import base64
 import copy
 import pickle
 import threading
+import time
 
 import numpy as np
 import pytest
@@ -144,3 +145,38 @@ def test_a_state_may_be_read_in_another_thread_while_the_session_goes_on(stand_i
     while any(reader.is_alive() for reader in readers):
         session.step()
     assert not wrong
+
+
+def test_the_state_before_long_steps_is_there_for_other_threads_while_they_last(stand_in):
+    session = Session()
+    session.step(steps=3)
+    seen = []
+
+    def step(push, turn, hub, steps):
+        other = threading.Thread(target=lambda: seen.append((session.state.step, session.state.positions[0, 0])))
+        other.start()
+        other.join(timeout=20.0)
+        return 3 + steps, 0.0, 0.0
+
+    stand_in.step = step
+    assert session.step(steps=1000).step == 1003
+    assert seen == [(3, 3.0)]
+
+
+def test_a_session_is_closed_in_the_midst_of_steps_of_another_thread(monkeypatch):
+    monkeypatch.setattr(sessions, "SECONDS_TO_END", 0.3)
+    session, raised = Session(native=False, maxSimulationSteps=10**9, deltaThreshold=0), []
+
+    def step():
+        try:
+            session.step(steps=10**9)
+        except SessionError as error:
+            raised.append(str(error))
+
+    stepping = threading.Thread(target=step)
+    stepping.start()
+    time.sleep(0.2)
+    session.close()
+    stepping.join(timeout=20.0)
+    assert not session.is_open and len(raised) == 1 and "killed" in raised[0]
+    assert session.state.step == 0
