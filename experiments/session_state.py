@@ -105,9 +105,9 @@ class Energy:
 
 @dataclass(frozen=True)
 class State:
-    """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own. The native
-    library reads them off when they are first asked for, or before the next step for a state that is kept, so that a
-    state always describes its own moment.
+    """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own. With the
+    native library they are read when first accessed, or before the next step if the state is still referenced: a state
+    always describes its own moment.
 
     Attributes
     ----------

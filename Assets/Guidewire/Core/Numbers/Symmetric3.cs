@@ -100,7 +100,7 @@ namespace Guidewire.Core
         /// rotations. A matrix that has none, or only such as rounding leaves, is returned as it is.</summary>
         public Symmetric3 PositivePart()
         {
-            if (IsPositive())
+            if (IsSemidefinite())
             {
                 return this;
             }
@@ -129,8 +129,9 @@ namespace Guidewire.Core
                 + Outer(System.Math.Max(0.0, d._33), v3);
         }
 
-        // By elimination, the largest diagonal entry first: the pivots have the signs of the eigenvalues.
-        private bool IsPositive()
+        // Whether no eigenvalue is negative beyond rounding: the pivots of an elimination, largest diagonal entry first,
+        // have the signs of the eigenvalues.
+        private bool IsSemidefinite()
         {
             (double a, double b, double c) = (_11, _22, _33);
             (double ab, double ac, double bc) = (_21, _31, _32);

@@ -4,11 +4,10 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>The mesh that was read last, for runs one after another in a process, or one whose parameters change:
-    /// where the next has the same file with the same contents at the same place, its triangles are not sorted and
-    /// examined again, which for tens of thousands takes longer than many a run. Runs have the same bits either
-    /// way.</summary>
-    /// <remarks>One run at a time: its walls serve one thread.</remarks>
+    /// <summary>Keeps the mesh that was read last, for the next run in this process or a change of parameters: if the
+    /// file has the same contents and the same placement, its hierarchy and checks are not computed again, which for
+    /// tens of thousands of triangles takes longer than many a run. Runs have the same bits either way.</summary>
+    /// <remarks>One run at a time: its walls share their work memory.</remarks>
     public sealed class LastMesh
     {
         private string _file = "";
@@ -30,7 +29,7 @@ namespace Guidewire.Io
             if (_wall != null && file == _file && scale == _scale && placement.Equals(_placement)
                 && rims.SequenceEqual(_rims) && bytes.AsSpan().SequenceEqual(_bytes))
             {
-                return _wall.Again();
+                return _wall.ForNextRun();
             }
             _wall = null;
             _wall = new MeshShape(MeshFile.Make(file, bytes, scale, rims), placement);

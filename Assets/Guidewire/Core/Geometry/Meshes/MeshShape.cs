@@ -62,9 +62,9 @@ namespace Guidewire.Core
             return _derived.SelfIntersections.Value.Count;
         }
 
-        /// <summary>The same wall for another run, with a friction of its own: what follows from the triangles is
-        /// shared, what queries have left is not. Placed anew, both are; and both serve one thread.</summary>
-        public MeshShape Again()
+        /// <summary>The same wall for the next run, with a friction coefficient of its own. Both share what is computed
+        /// from the triangles, so placing one places the other, and only one may be queried at a time.</summary>
+        public MeshShape ForNextRun()
         {
             return new MeshShape(this);
         }

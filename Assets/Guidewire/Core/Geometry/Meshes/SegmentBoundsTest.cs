@@ -23,7 +23,7 @@ namespace Guidewire.Core
         {
             Vector3d half = 0.5 * (b - a);
             Vector3d middle = 0.5 * (a + b) - tree.Origin;
-            range += tree.Slack(WideBvh.Sum(middle) + WideBvh.Sum(half));
+            range += tree.Slack(WideBvh.LengthBound(middle) + WideBvh.LengthBound(half));
             _middleX = (float)middle.X;
             _middleY = (float)middle.Y;
             _middleZ = (float)middle.Z;

@@ -36,8 +36,8 @@ namespace Guidewire.Core
             Feature = 0;
         }
 
-        /// <summary>The square of a range, up to the next larger number: a triangle exactly at the range counts, though
-        /// what is found is nearer than this.</summary>
+        /// <summary>The square of a range, a little larger: a search finds what is nearer than this, and so also a
+        /// triangle exactly at the range.</summary>
         public static double Square(double range)
         {
             return range * range * (1.0 + 1e-15);

@@ -26,7 +26,7 @@ namespace Guidewire.Core
             _a1 = new Point(swept.A1 - tree.Origin);
             _b1 = new Point(swept.B1 - tree.Origin);
             Vector3d centre = swept.Centre - tree.Origin;
-            double slack = tree.Slack(WideBvh.Sum(centre) + WideBvh.Sum(swept.Extent));
+            double slack = tree.Slack(WideBvh.LengthBound(centre) + WideBvh.LengthBound(swept.Extent));
             _centre = new Point(centre);
             _extent = new Point(swept.Extent + new Vector3d(slack, slack, slack));
             _border = (float)(swept.Border + slack);

@@ -78,8 +78,8 @@ namespace Guidewire.Core
             return Rounding * distance + _slack;
         }
 
-        /// <summary>At least a vector's length, without its root.</summary>
-        public static double Sum(in Vector3d of)
+        /// <summary>Upper bound of a vector's length, without a square root.</summary>
+        public static double LengthBound(in Vector3d of)
         {
             return Math.Abs(of.X) + Math.Abs(of.Y) + Math.Abs(of.Z);
         }

@@ -240,7 +240,7 @@ namespace Guidewire.Core
             _history.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
-                // A writer without damping of the material has measured no strain; and here they would grow old.
+                // Damping by mass alone measures no strains: a snapshot written under it has none, and it keeps none.
                 _hasBegun &= _ofMaterial == 0.0 || _begun.HasStrains;
                 if (_ofMaterial == 0.0)
                 {

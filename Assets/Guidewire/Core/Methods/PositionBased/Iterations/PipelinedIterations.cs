@@ -95,15 +95,15 @@ namespace Guidewire.Core
                 _end[lane] = Lag * lane + laneIterations * _period;
             }
             Take(x, q);
-            RunFromLine(Ticks(iterations), x);
+            RunAligned(Ticks(iterations), x);
             GiveBack(x, q);
             return true;
         }
 
-        // More numbers are at work than fit the registers. Where those that wait on the stack lie across two lines of
-        // the cache each, a tick takes 1.4 times as long; and where a process's stack begins is left to chance.
+        // More values are live than there are registers. Where those spilled to the stack straddle cache lines, a tick
+        // takes 1.4 times as long, and the alignment of the stack differs from process to process.
         [MethodImpl(MethodImplOptions.NoInlining)]
-        private void RunFromLine(long ticks, Vector3d[] x)
+        private void RunAligned(long ticks, Vector3d[] x)
         {
             Span<byte> top = stackalloc byte[CacheLine];
             nint address = Unsafe.ByteOffset(ref Unsafe.NullRef<byte>(), ref MemoryMarshal.GetReference(top));
