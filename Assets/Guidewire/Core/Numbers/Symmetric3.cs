@@ -129,8 +129,8 @@ namespace Guidewire.Core
                 + Outer(System.Math.Max(0.0, d._33), v3);
         }
 
-        // Whether no eigenvalue is negative beyond rounding: the pivots of an elimination, largest diagonal entry first,
-        // have the signs of the eigenvalues.
+        // Whether no eigenvalue is negative beyond rounding: the pivots of an elimination, the largest diagonal entry
+        // first, have the signs of the eigenvalues.
         private bool IsSemidefinite()
         {
             (double a, double b, double c) = (_11, _22, _33);
