@@ -15,6 +15,8 @@ SAME = 1e-9  # of the wire's radius
 OF_DISPLACEMENT = 1e-6  # of the displacement that was asked for: node 0 is on a stiff spring
 DEEPEST = 0.05  # of the radius, from which on a wire of xpbd in a wall is to be warned of
 WARNED = "the wire penetrated a wall"
+KINKED = "the outermost fibre was strained by up to "
+MOST_STRAIN = 0.2
 
 
 def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, radii: np.ndarray, walls: Walls
@@ -34,7 +36,8 @@ def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.nda
         return ["a position is not a finite number"]
     first = _first_outside(scene, positions)
     return [*contradictions(summary), *_passages(summary, positions, first, walls),
-            *_depth(scene, summary, positions, first, radii, walls), *_drive(scene, summary, positions)]
+            *_depth(scene, summary, positions, first, radii, walls), *_drive(scene, summary, positions),
+            *_strain(summary)]
 
 
 def _first_outside(scene: dict[str, Any], positions: np.ndarray) -> np.ndarray:
@@ -95,3 +98,11 @@ def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
     if abs(gone + summary["driveShortfall"] - asked) > elastic:
         claims.append(f"asked {asked}, gone {gone}, driveShortfall = {summary['driveShortfall']}")
     return claims
+
+
+def _strain(summary: dict[str, Any]) -> list[str]:
+    """A warning of a bend that no instrument bears stands where there was one, and nowhere else."""
+    strain = summary["extremes"]["strain"] if summary["extremes"] else 0.0
+    if strain is not None and any(KINKED in warning for warning in summary["warnings"]) != (strain > MOST_STRAIN):
+        return [f"strain = {strain}, warnings {summary['warnings']}"]
+    return []

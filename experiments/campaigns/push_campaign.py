@@ -33,7 +33,8 @@ from experiments.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
-OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", "the drive fell short: ")
+OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", material_claims.KINKED,
+           "the drive fell short: ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
 

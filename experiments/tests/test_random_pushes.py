@@ -206,7 +206,7 @@ def test_the_check_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(s
     def summary(depth, *warnings, **changed):
         return {"outcome": "finished", "reason": "all steps are done", "warnings": list(warnings), "passages": 0,
                 "reliable": not warnings, "driveAsked": 0.5 * (entries - 1), "driveShortfall": 0.0,
-                "maxPenetration": depth, **changed}
+                "maxPenetration": depth, "extremes": None, **changed}
 
     deep = "the surface is in a wall"
     wall, short = "the wire penetrated a wall by 0.12 units", "the drive fell short: of 5 units"
@@ -217,6 +217,9 @@ def test_the_check_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(s
     assert deep in broken(0.12, summary(0.12)) and deep in broken(0.12, summary(0.12, short))
     assert broken(0.12, summary(0.12, wall, reliable=True))[:2] == ["reliable", deep]
     assert broken(0.0, summary(0.0, passages=1)) == ["passages"]
+    kinked, bent = "the outermost fibre was strained by up to 30 %: a real", {"strain": 0.3}
+    assert broken(0.0, summary(0.0, kinked, extremes=bent)) == []
+    assert broken(0.0, summary(0.0, extremes=bent)) == broken(0.0, summary(0.0, kinked)) == ["strain"]
     # A last step without a state did not go, and is not asked for.
     failed = summary(0.0, outcome="failed", reliable=False)
     assert broken(0.0, failed) == [] and "driveAsked" in broken(0.0, failed, entries - 1)

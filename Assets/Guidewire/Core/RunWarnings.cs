@@ -4,11 +4,12 @@ using static System.FormattableString;
 
 namespace Guidewire.Core
 {
-    /// <summary>Warnings at the end of a run with any method: points beyond walls, a wire of another length, a drive
-    /// that fell short.</summary>
+    /// <summary>Warnings at the end of a run with any method: points beyond walls, a wire of another length, one
+    /// that was bent too far, a drive that fell short.</summary>
     internal sealed class RunWarnings
     {
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
+        private const double OddStrain = 0.2;       // of the outermost fibre: bent to five times its own radius
         private const double OddShortfall = 1e-3;   // of what the drive asked
 
         private readonly double _length;            // at rest, units
@@ -27,10 +28,12 @@ namespace Guidewire.Core
 
         /// <summary>One line for each, and one where the tip left a wall by an open rim, which is no error.</summary>
         /// <param name="contacts">Null where there are no walls.</param>
+        /// <param name="extremes">Null where the method has none.</param>
         /// <param name="coaxial">Null without a catheter.</param>
-        public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial)
+        public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts, RunExtremes? extremes,
+            CoaxialRecord? coaxial)
         {
-            List<string> lines = CollectWarnings(state, contacts);
+            List<string> lines = CollectWarnings(state, contacts, extremes);
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
                 string? play = one.PlayWarning;
@@ -48,9 +51,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether there is none but that of a rim.</summary>
-        public bool IsTrustworthy(RodState state, ContactRecord? contacts)
+        public bool IsTrustworthy(RodState state, ContactRecord? contacts, RunExtremes? extremes)
         {
-            return CollectWarnings(state, contacts).Count == 0;
+            return CollectWarnings(state, contacts, extremes).Count == 0;
         }
 
         /// <summary>The wire starts in this state.</summary>
@@ -73,7 +76,7 @@ namespace Guidewire.Core
             _rims.Serialize(snapshot, state);
         }
 
-        private List<string> CollectWarnings(RodState state, ContactRecord? contacts)
+        private List<string> CollectWarnings(RodState state, ContactRecord? contacts, RunExtremes? extremes)
         {
             var lines = new List<string>();
             if (contacts != null && contacts.Passages > 0)
@@ -90,6 +93,11 @@ namespace Guidewire.Core
             {
                 string than = change < 0.0 ? "shorter" : "longer";
                 lines.Add(Invariant($"the wire is {100.0 * Math.Abs(change):0.0} % {than} than at rest"));
+            }
+            if (extremes != null && extremes.Strain > OddStrain)
+            {
+                lines.Add(Invariant($"the outermost fibre was strained by up to {100.0 * extremes.Strain:0} %: a ")
+                    + "real instrument would have kinked");
             }
             if (contacts != null && contacts.DriveShortfall > OddShortfall * contacts.DriveAsked)
             {

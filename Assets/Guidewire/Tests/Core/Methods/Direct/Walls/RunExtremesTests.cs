@@ -109,6 +109,29 @@ namespace Guidewire.Core.Tests
             Assert.That(extremes.AxialForceTime, Is.EqualTo(when).Within(1e-9));
         }
 
+        [TestCase(0.19, true)]
+        [TestCase(0.21, false)]
+        public void WireBentToFiveTimesItsRadius_IsNotReliable(double strain, bool isReliable)
+        {
+            // By a couple at its tip, to the arc M = EI k, whose outermost fibre is strained by r k.
+            SimulationParameters parameters = Rods.Clamped(60, Solver.Direct, 1e-3, 3);
+            MaterialParameters material = parameters.Material;
+            double radius = material.WireRadius;
+            parameters.Scene.GuidewireLength = 30e3 * radius;
+            double bend = material.YoungsModulus * Math.PI * Math.Pow(radius, 4) / 4.0;
+            parameters.Scene.TipMoment = new Vector3d(bend * strain / radius, 0.0, 0.0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            Simulation run = Simulation.Create(parameters);
+            Wires.Step(run, 3);
+            Assert.That(run.Report()!.Extremes!.Strain, Is.EqualTo(strain).Within(1e-6));
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(run.IsReliable, Is.EqualTo(isReliable));
+            Assert.That(run.Warnings, Is.EqualTo(isReliable ? Array.Empty<string>() : new[]
+            {
+                "the outermost fibre was strained by up to 21 %: a real instrument would have kinked",
+            }));
+        }
+
         [Test]
         public void Extremes_GoOnWithTheRun()
         {
