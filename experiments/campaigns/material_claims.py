@@ -16,7 +16,7 @@ OF_DISPLACEMENT = 1e-6  # of the displacement that was asked for: node 0 is on a
 DEEPEST = 0.05  # of the radius, from which on a wire of xpbd in a wall is to be warned of
 WARNED = "the wire penetrated a wall"
 KINKED = "the outermost fibre was strained by up to "
-MOST_STRAIN = 0.2
+MOST_STRAIN = 0.2  # of the outermost fibre, from which on is to be warned of a kink
 
 
 def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray, radii: np.ndarray, walls: Walls
