@@ -17,7 +17,7 @@ PARAMS = ROOT / "params"
 def run_scene(live, tmp_path):
     """A function that runs a scene, with keys set, to its end; its log with all spheres, and its summary."""
     def run(name, **given):
-        folder = tmp_path / name
+        folder = tmp_path / "-".join([name, *map(str, given.values())])
         answer = live.run(Request(name, PARAMS / f"{name}.json", folder, given))
         assert answer.exit_code == 0, answer.message
         summary = json.loads((folder / "summary.json").read_text())
@@ -102,6 +102,22 @@ def turned_in_all(knots):
     along = np.diff(knots, axis=0)
     along /= np.linalg.norm(along, axis=1)[:, None]
     return np.degrees(np.arccos(np.clip(np.einsum("ij,ij->i", along[1:], along[:-1]), -1.0, 1.0))).sum()
+
+
+@pytest.mark.parametrize("name", [
+    "catheter", "catheter-branch",
+    pytest.param("microcatheter", marks=pytest.mark.long("another catheter and its wire")),
+    pytest.param("guide-catheter", marks=pytest.mark.long("three instruments")),
+])
+@pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
+def test_the_shape_is_as_exact_as_asked_though_tips_are_soft(run_scene, name, tolerance):
+    exact, summary = run_scene(name, solverTolerance=1e-9)
+    log, rough = run_scene(name, solverTolerance=tolerance)
+    length = json.loads((PARAMS / f"{name}.json").read_text())["guidewireLength"]
+    # A force that is left over in a fifth of a wire, 25 tolerance EI/L^2, moves a free tip by no more than L^3/(3 EI).
+    allowed = 25.0 / 3.0 * tolerance * length
+    assert np.linalg.norm(log.positions - exact.positions, axis=-1).max() < allowed
+    assert rough["extremes"]["strain"] == pytest.approx(summary["extremes"]["strain"], rel=1e-3)
 
 
 def angle_of_the_snap(scene):

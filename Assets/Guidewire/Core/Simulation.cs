@@ -59,15 +59,16 @@ namespace Guidewire.Core
         /// runs.</summary>
         public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
 
-        /// <summary>Warnings at the run's end, one line each; empty while it runs, and if no step was made.</summary>
-        public IReadOnlyList<string> Warnings => Outcome == Outcome.Running || StepCount == 0 ? Array.Empty<string>()
+        /// <summary>Warnings at the run's end, one line each; empty while it runs, and without a step if the start is
+        /// no rest shape: there pbd's first sphere has moved ahead of the wire.</summary>
+        public IReadOnlyList<string> Warnings => !HasResult ? Array.Empty<string>()
             : _warnings.Of(State, Contacts, Report()?.Extremes, Coaxial());
 
         /// <summary>Whether the result can be trusted, as far as the run can tell: it has converged or finished, its
         /// reason has no "but", nothing passed a wall or penetrated one more than the method allows, the wire has kept
         /// its length and was bent no more than instruments bear, and the drive did not fall short.</summary>
         public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
-            && (StepCount == 0 || _warnings.IsTrustworthy(State, Contacts, Report()?.Extremes));
+            && (!HasResult || _warnings.IsTrustworthy(State, Contacts, Report()?.Extremes));
 
         /// <summary>Whether the state is that after <see cref="StepCount"/> steps, all of it finite: a step that lost
         /// the wire may have left none.</summary>
@@ -323,6 +324,8 @@ namespace Guidewire.Core
             next.Serialize(snapshot);
             return next;
         }
+
+        private bool HasResult => Outcome != Outcome.Running && (StepCount > 0 || Outcome == Outcome.Converged);
 
         private static void SerializeStart(Snapshot snapshot, RodStart start)
         {

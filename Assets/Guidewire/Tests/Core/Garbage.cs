@@ -31,13 +31,18 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Bytes that further steps of a run allocate, after as many as bring it into its usual course: the
-        /// less of two times so many steps. Once in many runs of all tests 4 kB were counted that no repetition
-        /// showed.</summary>
+        /// least of up to four times so many steps. Once in many runs of all tests some hundred bytes to 4 kB were
+        /// counted that no repetition showed; steps that allocate do so in each.</summary>
         public static long LeftBySteps(Simulation run, int before, int steps)
         {
             Wires.Step(run, before);
-            long first = LeftBy(() => Wires.Step(run, steps));
-            return first == 0 ? first : Math.Min(first, LeftBy(() => Wires.Step(run, steps)));
+            long least = long.MaxValue;
+            for (int k = 0; k < 4 && least > 0; k++)
+            {
+                least = Math.Min(least, LeftBy(() => Wires.Step(run, steps)));
+                Wires.GoOn(run, least > 0 ? 1 : 0);    // a run at its end would allocate nothing
+            }
+            return least;
         }
     }
 }
