@@ -14,7 +14,7 @@ namespace Guidewire.Core
     internal sealed class WallPrediction
     {
         private const int MostParts = 16;
-        private const double OfElement = 0.5;
+        private const double OfElement = 1.0;
         private readonly RodSupports _supports;
         private readonly WallProjection _projection;
         private readonly InertiaEnergy _inertia;
