@@ -61,7 +61,7 @@ namespace Guidewire.Core
         /// <summary>Takes a shape from which predictions start.</summary>
         /// <param name="shape">Where the wire is.</param>
         /// <param name="start">Where node 0 is to be, m.</param>
-        /// <returns>In how many parts the motion should be divided: in each a node moves less than half an element
+        /// <returns>In how many parts the motion should be divided: in each a node moves at most an element
         /// along the curve, so that straight paths of the nodes stay near it.</returns>
         public int Begin(RodShape shape, in Vector3d start)
         {
