@@ -188,23 +188,22 @@ def check(plugin: str, command: Sequence[str], jobs: str) -> list[Plain]:
     return found
 
 
-def probe(plugin: str, command: Sequence[str], mark: str) -> str:
-    """Start this worker's runners. Why it cannot make runs, in one line; empty where it can. It must see what is at
-    `mark`."""
+def probe(plugin: str, command: Sequence[str], mark: str, dask_worker: Any) -> str:
+    """Start the runners of a worker, which dask names: outside of tasks `get_worker` gives any of this process. Why it
+    cannot make runs, in one line; empty where it can. It must see what is at `mark`."""
     if not Path(mark).exists():
         return f"does not see {Path(mark).parent}: workers need the folder of the results under the same path"
-    here = get_worker()
-    count = here.state.nthreads if hasattr(here, "state") else here.nthreads  # which depends on dask's version
+    count = dask_worker.state.nthreads if hasattr(dask_worker, "state") else dask_worker.nthreads  # by dask's version
     try:
-        here.plugins[plugin].start(command, count)
+        dask_worker.plugins[plugin].start(command, count)
     except WorkerProblem as problem:
         return str(problem)
     return ""
 
 
-def stop(plugin: str) -> None:
-    """`Runners.stop` of the worker that this is run on."""
-    get_worker().plugins[plugin].stop()
+def stop(plugin: str, dask_worker: Any) -> None:
+    """`Runners.stop` of a worker, which dask names."""
+    dask_worker.plugins[plugin].stop()
 
 
 def _time(runner: Runner, job: Job) -> Answer:

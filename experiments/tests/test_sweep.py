@@ -8,6 +8,7 @@ import signal
 import sys
 import threading
 import time
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 
 import pytest
@@ -281,6 +282,16 @@ def test_untimed_runs_are_made_at_once_and_one_job_makes_one_at_a_time(fake, tmp
 
 SCENE = {"maxSimulationSteps": 5, "constraintSolverSteps": 5}
 REAL = Grid((Axis("displacement", tuple(0.5 * k for k in range(1, 21))),), SCENE)
+
+
+def test_two_sweeps_at_once_in_one_process_make_each_its_own(fake, tmp_path):
+    def make(name):
+        return sweep([study_of(name, Axis("sleep", (0.1, 0.2, 0.3)))], fake.command, tmp_path / name)
+
+    with ThreadPoolExecutor(2) as threads:
+        first, second = threads.map(make, ("first", "second"))
+    assert (first.made, second.made) == (3, 3) and first.failures == second.failures == []
+    assert len(results_of(tmp_path / "first" / "first")) == len(results_of(tmp_path / "second" / "second")) == 3
 
 
 def test_results_do_not_depend_on_workers_or_batches(runner_command, tmp_path):
