@@ -5,11 +5,9 @@ namespace Guidewire.Core
     /// <summary>The linear system of a rod: n+1 blocks over (x_i, theta_i), the last theta a placeholder. Assembles the
     /// terms, eliminates the supports, factorises by LDL^T and solves, all in O(n).</summary>
     /// <remarks>A long rod is assembled and eliminated piece by piece, so that a block is still in the cache when it is
-    /// eliminated. At a support the fixed direction's row and column become those of the unit matrix. Nodes and
-    /// elements before the first active node take no part: they are neither assembled nor eliminated, and do not
-    /// move. A rod with an instrument inside it has one twist angle more for each element, with two of them two: its
-    /// vectors go on, behind the place holder, with one entry an element, whose T3 is the first angle's and T2 the
-    /// second one's.</remarks>
+    /// eliminated. At a support the fixed direction's row and column become those of the unit matrix. A rod with an
+    /// instrument inside it has one twist angle more for each element, with two of them two: its vectors go on, behind
+    /// the placeholder, with one entry an element, whose T3 is the first angle's and T2 the second one's.</remarks>
     internal sealed class BlockTridiagonal
     {
         private const int Piece = 32;  // blocks; 12 KB
@@ -24,7 +22,7 @@ namespace Guidewire.Core
         private readonly CoaxialJoints? _coaxial;
         private readonly TwistRow[] _twist = Array.Empty<TwistRow>();   // of the first angles, then of the second
         private readonly bool _isPair;      // whether there are second ones
-        private readonly int _entryCount;   // of vectors, behind the place holder
+        private readonly int _entryCount;   // of vectors, behind the placeholder
         private int _twistCount;            // elements with an angle that is unknown
 
         /// <summary>A system for this rod between these supports.</summary>
