@@ -84,8 +84,9 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>EI of the softest element about its softer axis, N m^2.</summary>
-        public double SoftestBendStiffness
+        /// <summary>Smallest EI of all elements and axes, N m^2, or 3/2 GJ where that is less: of a homogeneous round
+        /// section it is not.</summary>
+        public double SoftestStiffness
         {
             get
             {
@@ -93,6 +94,7 @@ namespace Guidewire.Core
                 for (int j = 0; j < ElementCount; j++)
                 {
                     smallest = Math.Min(smallest, Math.Min(BendStiffness1[j], BendStiffness2[j]));
+                    smallest = Math.Min(smallest, 1.5 * TwistStiffness[j]);
                 }
                 return smallest;
             }

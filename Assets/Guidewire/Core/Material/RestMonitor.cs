@@ -56,7 +56,7 @@ namespace Guidewire.Core
             _end = method.MaxSimulationSteps * method.TimeStep;
             _length = scene.Rod.TotalLength;
             _bendForce = scene.Rod.BendForce;
-            double softest = scene.Rod.SoftestBendStiffness;
+            double softest = terms.SoftestStiffness;
             _regularisation = Math.Min(Regularisation * _bendForce, MostRegularisation * softest / (_length * _length));
             _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
             _tangent = terms.HavePotential ? null

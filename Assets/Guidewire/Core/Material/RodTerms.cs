@@ -65,6 +65,9 @@ namespace Guidewire.Core
         /// <summary>The rod.</summary>
         public MaterialRod Rod { get; }
 
+        /// <summary>Of all elements and, with instruments inside, of theirs, N m^2.</summary>
+        public double SoftestStiffness => Supports.Coaxial?.SoftestStiffness ?? Rod.SoftestStiffness;
+
         /// <summary>How it is held.</summary>
         public RodSupports Supports { get; }
 

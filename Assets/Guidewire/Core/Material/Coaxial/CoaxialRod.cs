@@ -38,6 +38,21 @@ namespace Guidewire.Core
             SetMass();
         }
 
+        /// <summary>The smallest <see cref="MaterialRod.SoftestStiffness"/> of all instruments, N m^2, wherever they
+        /// are.</summary>
+        public double SoftestStiffness
+        {
+            get
+            {
+                double smallest = double.PositiveInfinity;
+                foreach (CoaxialInstrument instrument in _instrument)
+                {
+                    smallest = Math.Min(smallest, instrument.Rod.SoftestStiffness);
+                }
+                return smallest;
+            }
+        }
+
         /// <summary>Where their joints are and what these are made of.</summary>
         public CoaxialJoints Joints { get; }
 

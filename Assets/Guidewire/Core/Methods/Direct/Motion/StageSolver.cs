@@ -40,7 +40,7 @@ namespace Guidewire.Core
         private readonly BalanceRounding _rounding;
         private readonly double _totalLength;
         private readonly double _mass;
-        private readonly double _softestBendForce;  // EI/L^2 of the softest element, N
+        private readonly double _softestForce;  // softest stiffness/L^2, N
         private readonly double _stiffest;         // EA, N
         private double _largestForce;              // in the rod when last measured, N
         private double _knownStep;                 // |d1| when the force that it left was last measured
@@ -63,7 +63,7 @@ namespace Guidewire.Core
             _totalLength = rod.TotalLength;
             _mass = terms.Mass.Total;
             _rounding = new BalanceRounding(rod, terms.Supports, _mass, 1.0);
-            _softestBendForce = rod.SoftestBendStiffness / (_totalLength * _totalLength);
+            _softestForce = terms.SoftestStiffness / (_totalLength * _totalLength);
             for (int j = 0; j < rod.ElementCount; j++)
             {
                 _stiffest = Math.Max(_stiffest, rod.StretchStiffness[j]);
@@ -260,7 +260,7 @@ namespace Guidewire.Core
         public void SerializeTrust(Snapshot snapshot)
         {
             bool isSame = Agrees(snapshot, _stiffest) & Agrees(snapshot, _rounding.AxialSpring)
-                & Agrees(snapshot, _mass) & Agrees(snapshot, _softestBendForce)
+                & Agrees(snapshot, _mass) & Agrees(snapshot, _softestForce)
                 & Agrees(snapshot, Tolerance) & Agrees(snapshot, Balance);
             snapshot.Serialize(ref _largestForce);
             snapshot.Serialize(ref _knownStep);
@@ -289,7 +289,7 @@ namespace Guidewire.Core
         /// <summary>S, N.</summary>
         private double Allowed(double rounding, double loads)
         {
-            return Math.Min(Balance * Math.Max(_largestForce, loads), Tolerance * _softestBendForce) + rounding;
+            return Math.Min(Balance * Math.Max(_largestForce, loads), Tolerance * _softestForce) + rounding;
         }
 
         /// <summary>The largest force on a piece of the rod from its start to any node, or the sum of the couples over

@@ -36,7 +36,7 @@ namespace Guidewire.Core
         private readonly RodVector[] _work;
         private readonly double _totalLength;
         private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
-        private readonly double _softestBendForce;  // the same of the softest, N
+        private readonly double _softestForce;       // softest stiffness/L^2, N
         private readonly double _neutral;    // eigenvalues above its negative may be 0, N
         private EquilibriumStability? _stability;
 
@@ -53,7 +53,7 @@ namespace Guidewire.Core
             _work = new RodVector[_system.VectorCount];
             _totalLength = rod.TotalLength;
             _bendForce = rod.BendForce;
-            _softestBendForce = rod.SoftestBendStiffness / (_totalLength * _totalLength);
+            _softestForce = rod.SoftestStiffness / (_totalLength * _totalLength);
             _neutral = Neutral * _bendForce;
         }
 
@@ -93,7 +93,7 @@ namespace Guidewire.Core
                 // Along a direction that costs no energy rounding alone makes steps: there the energy they gain is
                 // asked.
                 double energyStep = Math.Sqrt(Math.Max(0.0, -RodVectors.Dot(_gradient, _direction))
-                    / (_softestBendForce * _totalLength));
+                    / (_softestForce * _totalLength));
                 double scale = _newton.MaxStep(shape, size, relative, out double fraction);
                 bool done = convex && fraction == 1.0 && (size <= tolerance || energyStep <= tolerance);
                 if (done)
@@ -145,7 +145,7 @@ namespace Guidewire.Core
         /// negative.</summary>
         private bool FindDirection(RodShape shape, ref double shift, ref EquilibriumResult result)
         {
-            double least = Math.Min(Regularisation * _bendForce, MostRegularisation * _softestBendForce);
+            double least = Math.Min(Regularisation * _bendForce, MostRegularisation * _softestForce);
             for (double small = least; small <= _neutral; small *= 10.0)
             {
                 result.Factorisations++;

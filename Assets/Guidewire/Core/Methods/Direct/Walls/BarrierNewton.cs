@@ -37,7 +37,7 @@ namespace Guidewire.Core
         private readonly double _totalLength;
         private readonly BalanceRounding _rounding;
         private readonly double _bendForce;           // EI/L^2 of the stiffest element, N
-        private readonly double _softestBendForce;    // the same of the softest, N
+        private readonly double _softestForce;       // softest stiffness/L^2, N
         private readonly bool _hasFriction;
         private double _shift;
 
@@ -53,7 +53,7 @@ namespace Guidewire.Core
             _totalLength = _rod.TotalLength;
             _rounding = new BalanceRounding(_rod, terms.Supports, terms.Mass.Total, OfSpring);
             _bendForce = _rod.BendForce;
-            _softestBendForce = _rod.SoftestBendStiffness / (_totalLength * _totalLength);
+            _softestForce = terms.SoftestStiffness / (_totalLength * _totalLength);
         }
 
         /// <summary>Error that a stage's shape may have where forces are small: radians, or displacement over
@@ -202,7 +202,7 @@ namespace Guidewire.Core
 
         // Scale of small forces, N: by the wire's free length, which is less where it touches walls.
         private double MostUnbalanced =>
-            (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _softestBendForce;
+            (_barrier.Touches ? FreeParts * FreeParts : 1.0) * Tolerance * _softestForce;
 
         // Far from balance without the terms of forces that may vanish; nearer only those of walls are left out. Says
         // whether what is factorised is the second derivative itself, without a negative eigenvalue.

@@ -1,3 +1,4 @@
+using System;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -51,6 +52,54 @@ namespace Guidewire.Core.Tests
             TestContext.WriteLine(coarse.Length + " and " + fine.Length + " mm");
             Assert.That(Vector3d.Distance(coarse, fine), Is.LessThan(Gap));
             Assert.That(fine.Length, Is.LessThan(0.2 * Gap));
+        }
+
+        [TestCase(0.1, 1e-5)]
+        [TestCase(0.01, 1e-4)]
+        [TestCase(0.001, 1e-3)]
+        [TestCase(0.001, 1e-4)]
+        public void Turn_IsAsExactAsAsked_HoweverSoftTheWireIsInTorsion(double ofBending, double tolerance)
+        {
+            // A couple S L turns the tip by S L^2/GJ; S is 25 tolerance times 3/2 GJ/L^2.
+            Simulation exact = Turned(ofBending, 1e-10);
+            Simulation run = Turned(ofBending, tolerance);
+            double most = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                exact.Step();
+                run.Step();
+                for (int j = 0; j < 60; j++)
+                {
+                    Quaterniond between = exact.State.Orientations[j].Conjugate * run.State.Orientations[j];
+                    most = Math.Max(most, RotationVector.Log(between).Length);
+                }
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(most, Is.LessThan(37.5 * tolerance));
+        }
+
+        // Half of the wire has a torsional stiffness of its own; pushed into the arch and turned by 4 rad.
+        private static Simulation Turned(double ofBending, double tolerance)
+        {
+            SimulationParameters parameters = WallScenes.Arch(60, 0.01, 100.0, 120.0);
+            MaterialParameters material = parameters.Material;
+            double bending = material.YoungsModulus * Math.PI * Math.Pow(material.WireRadius, 4) / 4.0;
+            material.RestCurvature = new Vector3d(5.0, 0.0, 0.0);
+            material.Sections = new[]
+            {
+                new WireSection
+                {
+                    From = 150.0,
+                    To = 300.0,
+                    BendingStiffness1 = bending,
+                    BendingStiffness2 = bending,
+                    TorsionalStiffness = ofBending * bending,
+                },
+            };
+            material.MassDamping = 20.0;    // 1/s
+            parameters.Drive.TwistPerStep = 4.0 / parameters.Method.MaxSimulationSteps;
+            parameters.Method.SolverTolerance = tolerance;
+            return Simulation.Create(parameters);
         }
 
         // Where the tip ends in a mesh, from where it ends in a tube of as many pieces.
