@@ -53,7 +53,10 @@ namespace Guidewire.Io
             },
             new NumberEntry("solverTolerance", "rad, or displacement over L", NumberRange.PositiveUpTo(1e-2),
                 "residual error allowed in a stage of the direct solver, and in the force balance of a step, "
-                + "relative to the largest force") { Methods = Takers.Material },
+                + "relative to the largest force; forces between walls need 1e-5 or less")
+            {
+                Methods = Takers.Material,
+            },
             new NumberEntry("timeStepError", "rad, or displacement over L", NumberRange.NotNegative,
                 "tolerance of the step size control, for the error estimate of trbdf2, esdirk3 and esdirk4: steps are "
                 + "subdivided within timeStep, down to 1/1024 of it; 0: no step size control")
