@@ -7,7 +7,8 @@ namespace Guidewire.Core
     internal sealed class WallStage
     {
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
-        private const double FirstTolerances = 1e5;         // of a solution that only gives normal forces: 1 % of them
+        private const double FirstAccuracy = 1e-4;          // of a solution that only gives normal forces
+        private const double FirstTolerances = 100.0;       // that it may leave at most
         private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
@@ -71,11 +72,12 @@ namespace Guidewire.Core
             }
             FrictionEnergy? friction = _terms.Walls()!.Friction;
             int lags = friction == null ? 0 : FrictionLagIterations;
-            string? failure = Newton.Solve(shape, stageLength, loads, isFar, lags == 0 ? 1.0 : FirstTolerances);
+            double first = Math.Min(FirstTolerances, Math.Max(1.0, FirstAccuracy / Newton.Tolerance));
+            string? failure = Newton.Solve(shape, stageLength, loads, isFar, lags == 0 ? 1.0 : first);
             for (int k = 1; k <= lags && failure == null; k++)
             {
                 friction!.Lag(shape);
-                failure = Newton.Solve(shape, stageLength, loads, isFar: false, k == lags ? 1.0 : FirstTolerances);
+                failure = Newton.Solve(shape, stageLength, loads, isFar: false, k == lags ? 1.0 : first);
             }
             return failure;
         }

@@ -78,6 +78,44 @@ namespace Guidewire.Core.Tests
             Assert.That(most, Is.LessThan(37.5 * tolerance));
         }
 
+        [TestCase(0.1, 1e-3)]
+        [TestCase(0.1, 1e-4)]
+        [TestCase(0.3, 1e-4)]
+        [TestCase(0.3, 1e-5)]
+        [TestCase(0.3, 1e-6)]
+        public void Shape_IsAsExactAsAsked_WithFriction(double coefficient, double tolerance)
+        {
+            // Normal forces of friction are those of a first solution, which may be looser.
+            Simulation exact = Rubbed(coefficient, 1e-10);
+            Simulation run = Rubbed(coefficient, tolerance);
+            double most = 0.0;
+            while (run.Outcome == Outcome.Running)
+            {
+                exact.Step();
+                run.Step();
+                for (int i = 0; i <= 60; i++)
+                {
+                    most = Math.Max(most, Vector3d.Distance(run.State.Positions[i], exact.State.Positions[i]));
+                }
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(most, Is.LessThan(25.0 / 3.0 * tolerance * 300.0));
+        }
+
+        private static Simulation Rubbed(double coefficient, double tolerance)
+        {
+            SimulationParameters parameters = WallScenes.Arch(60, 0.01, 100.0, 120.0);
+            foreach (ContactShape wall in parameters.Scene.Walls)
+            {
+                wall.FrictionCoefficient = coefficient;
+            }
+            parameters.Material.RestCurvature = new Vector3d(3.0, 2.0, 0.0);
+            parameters.Material.MassDamping = 20.0;    // 1/s
+            parameters.Drive.TwistPerStep = 3.0 / parameters.Method.MaxSimulationSteps;
+            parameters.Method.SolverTolerance = tolerance;
+            return Simulation.Create(parameters);
+        }
+
         // Half of the wire has a torsional stiffness of its own; pushed into the arch and turned by 4 rad.
         private static Simulation Turned(double ofBending, double tolerance)
         {
