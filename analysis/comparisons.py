@@ -13,8 +13,8 @@ from pathlib import Path
 import numpy as np
 
 from analysis.distances import Trajectory, distances, trajectory
-from analysis.logs import LogError, read_log
-from analysis.runs import Run, read_study
+from guidewire.logs.logs import LogError, read_log
+from guidewire.logs.runs import Run, read_study
 
 _SAME = 1e-9  # relative difference up to which two times are the same
 

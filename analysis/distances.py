@@ -11,8 +11,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.logs import PositionLog
-from analysis.runs import Run
+from guidewire.logs.logs import PositionLog
+from guidewire.logs.runs import Run
 
 _SAME = 1e-9  # relative difference up to which two times or lengths, computed differently, are the same
 

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from analysis.comparisons import WireRun, read_wire
 from analysis.distances import distances
-from analysis.logs import LogError
 from analysis.passages import Wall, count_passages
-from analysis.runs import busiest, read_study
-from analysis.surfaces import read_obj
 from analysis.tables import Spread
+from guidewire.logs.logs import LogError
+from guidewire.logs.runs import busiest, read_study
+from guidewire.logs.surfaces import read_obj
 
 RULES = {"none": "spheres only", "barycentric": "spheres and elements", "thesis": "as published"}
 

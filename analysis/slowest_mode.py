@@ -24,7 +24,7 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
-from analysis.runs import Run
+from guidewire.logs.runs import Run
 
 
 @dataclass(frozen=True)

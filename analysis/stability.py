@@ -21,11 +21,11 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis.logs import LogError
 from analysis.validation.wire import Wire
-from studies.bisection import FRONTIER
-from studies.frontiers import BEND, LENGTH, MASS, STRETCH
-from studies.keys import RESULTS
+from guidewire.logs.logs import LogError
+from guidewire.studies.bisection import FRONTIER
+from guidewire.studies.frontiers import BEND, LENGTH, MASS, STRETCH
+from guidewire.studies.keys import RESULTS
 
 _GROWTH = 1e-3  # of a step, from which it counts: turns about the held sphere are neutral, and eigenvalues are rounded
 _HALVINGS = 40

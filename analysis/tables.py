@@ -9,9 +9,9 @@ from pathlib import Path
 import numpy as np
 
 from analysis.errors import displacement_errors, steady_state_entry, total_error
-from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, RelaxationError, fit_relaxation, relaxation_error
-from analysis.runs import Run, busiest, read_study
+from guidewire.logs.logs import PositionLog, read_log
+from guidewire.logs.runs import Run, busiest, read_study
 
 NO_STEADY_STATE = -1  # summary.json's steadyStateStep where the run never held still
 

@@ -6,8 +6,8 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from analysis.logs import LogError, find_log, read_entries
-from analysis.runs import Run
+from guidewire.logs.logs import LogError, find_log, read_entries
+from guidewire.logs.runs import Run
 
 
 @dataclass(frozen=True)

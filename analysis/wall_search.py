@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 from scipy.spatial import ConvexHull
 
-from analysis.surfaces import read_obj
+from guidewire.logs.surfaces import read_obj
 
 _LEAF = 4  # triangles
 _BLOCK = 200_000  # pairs at a time

@@ -19,7 +19,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
-from experiments.runner import Request, Runner
+from guidewire.runs.runner import Request, Runner
 
 ROOT = Path(__file__).resolve().parent.parent
 COUNTS = ("factorisations", "wallIterations", "innerSteps", "halvedSteps")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import argparse
 import csv
 import os
 import tempfile
@@ -10,13 +11,23 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from experiments.prepare import PreparationError
-from experiments.sweep import Means, sweep
-from studies.keys import RESULTS
-from studies.table import Axis, Grid, Study
+from guidewire.commands.making import build_benchmarks, build_runner
+from guidewire.prepare import ROOT, PreparationError
+from guidewire.runs.process import hand_to
+from guidewire.studies.keys import RESULTS
+from guidewire.studies.table import Axis, Grid, Study
+from guidewire.sweeps.sweep import Means, sweep
 
 _STEPS = 100
 _ITERATIONS = 50
+
+
+def bench(arguments: argparse.Namespace) -> int:
+    """`bench`: the cost of a step part by part, or the overhead of short runs."""
+    if arguments.runs is None:
+        return hand_to([*build_benchmarks(), str(ROOT / "params" / "sheath.json")])
+    print(measure(build_runner(), arguments.runs, arguments.jobs))
+    return 0
 
 
 @dataclass(frozen=True)

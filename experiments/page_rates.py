@@ -17,12 +17,12 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis.surfaces import read_obj
-from anatomy.centreline import cut_edges
-from anatomy.mesh import Edges, Mesh
-from experiments.campaigns.vessel import write_obj
-from experiments.prepare import ROOT
-from viewer import parts
+from guidewire.anatomy.centreline import cut_edges
+from guidewire.anatomy.lumens import write_obj
+from guidewire.anatomy.mesh import Edges, Mesh
+from guidewire.logs.surfaces import read_obj
+from guidewire.prepare import ROOT
+from guidewire.viewer import parts
 
 SCENES = ("insertion", "insertion-accurate")
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")

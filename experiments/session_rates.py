@@ -18,11 +18,11 @@ from typing import Any
 
 import numpy as np
 
-from environments import Environment
-from environments.baselines import TurnAndRetry
-from experiments import building
-from experiments.campaigns.vessel import main_lumen
 from guidewire import Session
+from guidewire.anatomy.lumens import main_lumen
+from guidewire.env import Environment
+from guidewire.env.baselines import TurnAndRetry
+from guidewire.runs import building
 
 SCENE = Path(__file__).resolve().parent.parent / "params" / "insertion-accurate.json"
 STEPS = (0.14, 0.01)  # s of simulated time a call

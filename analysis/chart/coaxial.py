@@ -10,12 +10,12 @@ import numpy as np
 
 from analysis.chart import settings
 from analysis.chart.points import Asked, Problem, Setting, case
-from analysis.hub import read_hub, snap_turns
-from analysis.runs import Run
 from analysis.validation import scenes
 from analysis.validation.coaxial import BEGIN, SNAPS, Pair, even, tip_of, turning
 from analysis.validation.concentric import coupling, snap_angle, turned_tip
-from studies.table import Case
+from guidewire.logs.hub import read_hub, snap_turns
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
 
 _ALONE = "takes one instrument"
 ABSENT = {"pbd": _ALONE, "xpbd": _ALONE, "explicit": _ALONE}

@@ -16,9 +16,9 @@ from analysis.chart.points import (
     FRAME, METHODS, TICK, Charted, Cost, milliseconds, repeats_in_words, seconds,
 )
 from analysis.chart.published import PUBLISHED
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import beside, number
 from analysis.validation.pictures import SOLVER_MARKERS
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import beside, number
 
 COLOURS = dict(zip(METHODS, ("C0", "C1", "C2", "C3")))
 _COLUMNS = 4

@@ -11,8 +11,6 @@ import numpy as np
 
 from analysis.chart import settings
 from analysis.chart.points import Asked, Measure, Problem, Setting, case
-from analysis.figures.wording import number, percent
-from analysis.runs import Run
 from analysis.validation import beam, elastica, scenes, swing
 from analysis.validation.bar import BarChain
 from analysis.validation.dynamics import (
@@ -21,6 +19,8 @@ from analysis.validation.dynamics import (
 )
 from analysis.validation.states import last_state, tip_at, tip_motion
 from analysis.validation.wire import BASE
+from guidewire.figures.wording import number, percent
+from guidewire.logs.runs import Run
 
 FIRST = 2.0 * math.pi * beam.frequencies(BASE, 1)[0]  # rad/s
 REST_TIME = 15.0 / FIRST  # s; a critically damped motion is over

@@ -7,7 +7,7 @@ import math
 from collections.abc import Sequence
 
 from analysis.chart.points import FRAME, METHODS, TICK, Charted, Cost, Point, milliseconds, seconds
-from analysis.figures.wording import number, percent
+from guidewire.figures.wording import number, percent
 
 _WIDTH, _HEIGHT = 560, 400
 _LEFT, _RIGHT, _TOP, _BOTTOM = 64, 12, 26, 44

@@ -9,10 +9,10 @@ from functools import partial
 
 import numpy as np
 
-from analysis.runs import Run, busiest, read_repeats
-from analysis.validation.check import Check
 from analysis.validation.scenes import Asking
-from studies.table import Case
+from guidewire.logs.runs import Run, busiest, read_repeats
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check
 
 METHODS = ("pbd", "xpbd", "explicit", "direct")
 LOST = ("passed a wall", "diverged", "failed")

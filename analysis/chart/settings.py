@@ -9,13 +9,13 @@ from typing import Any
 import numpy as np
 
 from analysis.chart.points import Setting, case
-from analysis.figures.wording import number
-from analysis.runs import Run
 from analysis.validation import scenes
 from analysis.validation.states import tip_motion
 from analysis.validation.wire import Wire
-from studies.keys import run_key
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.logs.runs import Run
+from guidewire.studies.keys import run_key
+from guidewire.studies.table import Case
 
 GRAVITY = 9.81  # m/s^2
 TUNED = {"constraintSolverSteps": 500, "numberRodElements": 30, "timeStep": 1e-3}  # where pbd's gain is tuned

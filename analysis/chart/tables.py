@@ -8,7 +8,7 @@ import math
 from collections.abc import Sequence
 
 from analysis.chart.points import Charted, Point, best_by_error
-from analysis.figures.wording import number, percent
+from guidewire.figures.wording import number, percent
 
 COLUMNS = ("problem", "method", "settings", "outcome", "error", "error is", "cost (s per simulated s)", "least cost",
            "largest cost", "wall time a step (ms)", "timed repeats", "processors of others", "on the front", "reason")

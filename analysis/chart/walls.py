@@ -10,14 +10,14 @@ import numpy as np
 
 from analysis.chart import settings
 from analysis.chart.points import Asked, Measure, Problem, Setting, case
-from analysis.figures.wording import percent
-from analysis.runs import Run
 from analysis.validation import beam, elastica, scenes
 from analysis.validation.dynamics import rms_error
 from analysis.validation.states import last_state, tip_at
 from analysis.validation.statics import PLANE_DROP, PLANE_WIRE
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import percent
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
 
 ABSENT = {"explicit": "does not support walls"}
 _FIRST = 2.0 * math.pi * beam.frequencies(PLANE_WIRE, 1)[0]  # rad/s

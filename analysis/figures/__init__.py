@@ -30,7 +30,7 @@ class FigureSpec:
     id : its number, such as "4.5".
     title : what it shows, in a few words.
     studies : names of the studies whose runs it is drawn from.
-    draw : from a mapping of study name to study folder to the figure and its caption. Raises analysis.logs.LogError
+    draw : from a mapping of study name to study folder to the figure and its caption. Raises guidewire.logs.logs.LogError
         where a file cannot be read or no run lasts as long as its reference, and analysis.relaxation.RelaxationError
         where nothing relaxes.
     beside : further files of the picture's folder, by name: each writes, from the same mapping, the file at a path.

@@ -10,9 +10,9 @@ from collections.abc import Callable
 
 import numpy as np
 
-from analysis.figures.wording import beside, exponent, number, percent, relative_spread, span
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import StudyTable
+from guidewire.figures.wording import beside, exponent, number, percent, relative_spread, span
 
 _SAME = 1e-9  # relative spread up to which values that should be one number are one
 _NEARLY = 0.12  # relative spread up to which a measured product is called constant

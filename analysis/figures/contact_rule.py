@@ -9,10 +9,10 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun, read_wire
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number, span
 from analysis.gain import RULES
-from analysis.runs import read_study
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number, span
+from guidewire.logs.runs import read_study
 
 _STYLE = {"barycentric": ("C0", "o"), "thesis": ("C3", "^")}
 _ROUNDING = 1e-9  # units

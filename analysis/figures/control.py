@@ -11,11 +11,11 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun, read_wire
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number, percent, span
-from analysis.logs import LogError
-from analysis.runs import read_study
 from analysis.twist import Twist, read_twist
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number, percent, span
+from guidewire.logs.logs import LogError
+from guidewire.logs.runs import read_study
 
 _DRIVES = {
     "axis-published": ("fixed axis, as published", "C3"),

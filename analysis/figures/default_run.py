@@ -10,12 +10,12 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from analysis.errors import displacement_errors, mean_error, total_error
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number, percent
-from analysis.logs import PositionLog, read_log
 from analysis.relaxation import Relaxation, relaxation_error
-from analysis.runs import Run, read_study
 from analysis.tables import measure_relaxation, steady_state_step
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number, percent
+from guidewire.logs.logs import PositionLog, read_log
+from guidewire.logs.runs import Run, read_study
 
 MOST_COLUMNS = 2000  # of the heat map: more would not be seen
 THESIS_PEAK_TIME = 2.19  # s, where the thesis's Fig. 4.4 was taken

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import beside, number, percent, span
 from analysis.gain import RULES, ElementRow, ElementTable
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import beside, number, percent, span
 
 _COLOURS = {"none": "C1", "barycentric": "C0", "thesis": "C3"}
 _MARKERS = {"none": "s", "barycentric": "o", "thesis": "^"}

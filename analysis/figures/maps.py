@@ -11,11 +11,11 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number, percent
-from analysis.logs import LogError, read_log
-from analysis.runs import Run, read_runs
-from studies.maps import MAPS, RADIUS
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number, percent
+from guidewire.logs.logs import LogError, read_log
+from guidewire.logs.runs import Run, read_runs
+from guidewire.studies.maps import MAPS, RADIUS
 
 STUDIES = tuple(study.name for study in MAPS)
 INACCURATE = 0.1  # of the displacement of the reference's tip

@@ -11,9 +11,9 @@ from matplotlib.axes import Axes
 from matplotlib.collections import LineCollection
 from matplotlib.patches import Polygon
 
-from analysis.logs import LogError
-from analysis.runs import Run
-from analysis.surfaces import Surface, read_obj
+from guidewire.logs.logs import LogError
+from guidewire.logs.runs import Run
+from guidewire.logs.surfaces import Surface, read_obj
 
 _COLOUR = "0.55"
 _PLANE = 1000.0  # half the length of a plane's line, units: beyond every picture
@@ -25,7 +25,7 @@ def draw_surroundings(axes: Axes, run: Run) -> None:
 
     Raises
     ------
-    analysis.logs.LogError : the vessel is of a kind that is not drawn, or its file cannot be read.
+    guidewire.logs.logs.LogError : the vessel is of a kind that is not drawn, or its file cannot be read.
     """
     vessel = run.parameters.get("vessel")
     if vessel and vessel["shape"] == "tube":

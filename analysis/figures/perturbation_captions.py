@@ -13,7 +13,7 @@ from scipy.stats import spearmanr
 
 from analysis.comparisons import ComparisonTable, WireRun
 from analysis.distances import distances
-from analysis.figures.wording import number, percent, relative_spread, span
+from guidewire.figures.wording import number, percent, relative_spread, span
 
 _PROMINENCE = 0.03  # of the range of a curve: lower maxima are not described
 _CLEAR = 0.9  # rank correlation from which on a curve is said to grow or fall

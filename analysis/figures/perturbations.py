@@ -18,7 +18,7 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import ComparedRun, ComparisonTable, WireRun
 from analysis.figures.perturbation_captions import perturbation_caption, reference_caption
-from analysis.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.style import captioned, letter, new_figure, styled
 
 _MOST_WIRES = 10  # drawn in one panel: more could not be distinguished
 _COLOURS = "viridis"

@@ -9,9 +9,9 @@ from matplotlib.figure import Figure
 
 from analysis.comparisons import WireRun
 from analysis.figures.outlines import draw_surroundings
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number
 from analysis.gain import ElementTable
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number
 
 _ELEMENTS = 30
 _MOMENTS = 4

@@ -11,14 +11,14 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number, percent
-from analysis.logs import LogError
 from analysis.stability import (
     Frontier, closed_form_along, limit_across, limit_along, limit_explicit, read_frontiers, read_results,
 )
 from analysis.validation.wire import Wire
-from studies.frontiers import LENGTH
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number, percent
+from guidewire.logs.logs import LogError
+from guidewire.studies.frontiers import LENGTH
 
 STUDIES = ("limit-stretch-across", "limit-stretch-along", "limit-bend", "limit-explicit", "long-steps")
 _CLASSES = {"converged": "o", "finished": "o", "diverged": "x", "failed": "s"}

@@ -11,9 +11,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogLocator, NullFormatter, StrMethodFormatter
 
 from analysis.figures.captions import sweep_caption
-from analysis.figures.style import captioned, letter, new_figure, styled
 from analysis.slowest_mode import SlowestMode
 from analysis.tables import Spread, StudyRow, StudyTable
+from guidewire.figures.style import captioned, letter, new_figure, styled
 
 _FEW_DECADES = 30.0  # ratio up to which powers of ten alone are too few ticks
 

@@ -16,14 +16,14 @@ from analysis.figures.maps import (
     BENT, INACCURATE, JOINT_LIMIT, LARGEST_JOINT, LOST_TURN, Cell, View, draw_classes, draw_map, kind_of, kinds_of,
     read_map,
 )
-from analysis.figures.style import captioned, letter, new_figure, styled
-from analysis.figures.wording import number, percent
-from analysis.logs import read_log
-from analysis.runs import Run
 from analysis.stability import Frontier, limit_along, lost_turns, read_frontiers
 from analysis.twist import Twist, read_twist
 from analysis.validation.wire import Wire
-from studies.wire_maps import (
+from guidewire.figures.style import captioned, letter, new_figure, styled
+from guidewire.figures.wording import number, percent
+from guidewire.logs.logs import read_log
+from guidewire.logs.runs import Run
+from guidewire.studies.wire_maps import (
     BEND_GAIN, FALL, LENGTH, LONG_STEP, MOVED_ELEMENTS, PUSHED_ELEMENT, TURNED_ELEMENTS, TURNED_LENGTH, TURNED_STEPS,
     WIRE_MAPS, pushes,
 )

@@ -16,8 +16,8 @@ from typing import Protocol
 
 import numpy as np
 
-from studies.keys import run_key
-from studies.table import Case
+from guidewire.studies.keys import run_key
+from guidewire.studies.table import Case
 
 EPSILON = 0.001  # units
 HOLD = 100  # steps

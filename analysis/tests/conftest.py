@@ -15,9 +15,9 @@ from analysis.tests.chain import Chain, small, write_study
 from analysis.tests.outcomes import write_outcomes
 from analysis.tests.waves import Wave
 from analysis.validation.wire import Wire
-from studies.bisection import FRONTIER
-from studies.frontiers import LENGTH
-from studies.keys import RESULTS
+from guidewire.studies.bisection import FRONTIER
+from guidewire.studies.frontiers import LENGTH
+from guidewire.studies.keys import RESULTS
 
 
 @pytest.fixture(scope="session")

@@ -5,11 +5,11 @@ from __future__ import annotations
 import json
 from pathlib import Path
 
-from studies.bisection import FRONTIER
-from studies.keys import TABLE
-from studies.maps import MAPS
-from studies.table import Case, Grid
-from studies.wire_maps import WIRE_MAPS
+from guidewire.studies.bisection import FRONTIER
+from guidewire.studies.keys import TABLE
+from guidewire.studies.maps import MAPS
+from guidewire.studies.table import Case, Grid
+from guidewire.studies.wire_maps import WIRE_MAPS
 
 SUMMARY = {"outcome": "finished", "passages": 0, "maxPenetration": 0.0, "solver": {}}
 DEFAULTS = {"guidewireLength": 100.0, "numberRodElements": 20, "timeStep": 0.001, "contactDistance": 0.0,

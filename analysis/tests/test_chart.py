@@ -17,11 +17,11 @@ import pytest
 from analysis.chart import coaxial, figure, material, page, tables, walls
 from analysis.chart.points import LOST, METHODS, Charted, Point, Problem, Setting, _point, pareto
 from analysis.chart.published import PUBLISHED
-from analysis.figures.style import CAPTION_ID
-from analysis.runs import Run
 from analysis.validation import concentric, swing
 from analysis.validation.wire import BASE
-from studies.table import Case
+from guidewire.figures.style import CAPTION_ID
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
 
 STABLE = 2e-7  # s
 PROBLEMS = (*material.PROBLEMS, *walls.PROBLEMS, *coaxial.PROBLEMS)

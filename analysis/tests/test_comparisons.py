@@ -13,10 +13,10 @@ from analysis.comparisons import ComparisonTable, read_comparison, read_referenc
 from analysis.figures import FIGURES
 from analysis.figures.perturbation_captions import maxima, perturbation_caption
 from analysis.figures.perturbations import VIEWS, draw_reference
-from analysis.logs import LogError
 from analysis.tests.chain import write_study
 from analysis.tests.conftest import REFERENCE, WAVES
 from analysis.tests.waves import Wave
+from guidewire.logs.logs import LogError
 
 TRANSVERSAL = ("4.11", "4.12", "4.13", "4.14", "4.14b")
 

@@ -14,12 +14,12 @@ from analysis.figures.control import along_line, draw_drives, drives_caption, re
 from analysis.figures.gain import draw_gain, gain_caption
 from analysis.figures.outlines import draw_surroundings, section, tube_sides
 from analysis.gain import ElementTable, read_gain
-from analysis.logs import LogError
-from analysis.runs import Run
-from analysis.surfaces import read_obj
 from analysis.tests.conftest import BOX, LUMEN, NAMED_WAVES, box_passages, write_box
 from analysis.tests.waves import Wave
 from analysis.twist import joint_angles
+from guidewire.logs.logs import LogError
+from guidewire.logs.runs import Run
+from guidewire.logs.surfaces import read_obj
 
 
 @pytest.fixture(scope="module")

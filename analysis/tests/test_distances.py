@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from analysis.distances import DistanceError, Trajectory, at_arc_length, distances, trajectory
-from analysis.logs import read_log
-from analysis.runs import read_run
 from analysis.tests.chain import Chain
+from guidewire.logs.logs import read_log
+from guidewire.logs.runs import read_run
 
 LENGTH = 12.0  # units
 RATE = np.array([0.1, -0.2, 0.3])  # units/s

@@ -16,15 +16,16 @@ from matplotlib.collections import LineCollection, QuadMesh
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 
-from analysis.figures import FIGURES, style
+from analysis.figures import FIGURES
 from analysis.figures.captions import sweep_caption
 from analysis.figures.default_run import draw_time_evolution, read_default_run
-from analysis.figures.style import CAPTION_ID
 from analysis.figures.sweeps import VIEWS, draw_sweep
-from analysis.figures.wording import number, span
 from analysis.tables import StudyTable, read_table
 from analysis.tests.chain import EPSILON, Chain
-from studies.builtin import STUDIES
+from guidewire.figures import style
+from guidewire.figures.style import CAPTION_ID
+from guidewire.figures.wording import number, span
+from guidewire.studies.builtin import STUDIES
 
 SWEEPS = {name: FIGURES[name].studies[0] for name in ("4.5", "4.6", "4.7", "4.8", "4.9")}
 

@@ -11,13 +11,13 @@ from matplotlib.figure import Figure
 
 from analysis.figures import maps, wire_maps
 from analysis.figures.maps import VIEWS, drag_error, kind_of, read_map
-from analysis.runs import Run
 from analysis.tests.outcomes import SUMMARY
 from analysis.twist import Twist
-from studies.maps import MAPS
-from studies.quick import shortened
-from studies.table import Grid
-from studies.wire_maps import WIRE_MAPS
+from guidewire.logs.runs import Run
+from guidewire.studies.maps import MAPS
+from guidewire.studies.quick import shortened
+from guidewire.studies.table import Grid
+from guidewire.studies.wire_maps import WIRE_MAPS
 
 
 @pytest.mark.parametrize("changed, error, kind", [

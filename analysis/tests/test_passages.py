@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from analysis.passages import MeshError, Wall, count_passages, sample_wire
-from analysis.surfaces import read_obj
 from analysis.tests.conftest import BOX, box_passages, write_box
 from analysis.tests.waves import Wave
+from guidewire.logs.surfaces import read_obj
 
 
 def tube_of_triangles(radius: float = 10.0, rings: int = 60, sides: int = 24) -> tuple[np.ndarray, np.ndarray]:

@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from analysis.relaxation import fit_relaxation
-from analysis.runs import Run
 from analysis.slowest_mode import SlowestMode
 from analysis.tests.chain import EPSILON, Chain
+from guidewire.logs.runs import Run
 
 
 def mode_of(chain: Chain) -> SlowestMode:

@@ -9,14 +9,14 @@ import pytest
 from matplotlib.figure import Figure
 
 from analysis.figures import FIGURES
-from analysis.logs import LogError
 from analysis.stability import (
     _sweep_across, _sweep_along, closed_form_along, limit_across, limit_along, limit_explicit, lost_turns,
     read_frontiers,
 )
 from analysis.tests.turning_spring import ESDIRK4, TRBDF2, largest_energy
 from analysis.validation.wire import Wire
-from studies.frontiers import LENGTH, MASS
+from guidewire.logs.logs import LogError
+from guidewire.studies.frontiers import LENGTH, MASS
 
 
 def test_long_wires_of_many_sweeps_come_to_the_closed_forms() -> None:

@@ -8,10 +8,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.logs import LogError, read_log
-from analysis.runs import read_run, read_study
 from analysis.tables import Spread, read_table, steady_state_step
 from analysis.tests.chain import Chain, small, write_study
+from guidewire.logs.logs import LogError, read_log
+from guidewire.logs.runs import read_run, read_study
 
 
 @pytest.fixture(scope="module")

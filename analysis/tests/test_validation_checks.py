@@ -9,17 +9,17 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from analysis.figures.style import CAPTION_ID
-from analysis.runs import Run
 from analysis.validation import balance, dynamics, pictures, ring, scenes, stability
 from analysis.validation.beam import mode_numbers
-from analysis.validation.check import Check, Finding, Result, not_run
 from analysis.validation.clamp import fit_frequency
 from analysis.validation.dynamics import rms_error
 from analysis.validation.report import ROWS, Report, as_csv, as_markdown, draw_finding, draw_overview
 from analysis.validation.states import State
 from analysis.validation.wire import BASE, Wire
-from studies.table import Case
+from guidewire.figures.style import CAPTION_ID
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Result, not_run
 
 
 def drive(search: stability.Search) -> stability.Limit:

@@ -8,14 +8,14 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number
-from analysis.runs import Run
 from analysis.validation import beam, pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result, not_run
 from analysis.validation.dynamics import SCHEMES, SECTION
 from analysis.validation.states import reactions, read_states, wall_time_per_second
 from analysis.validation.wire import BASE, STURDY
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result, not_run
 
 _PERIODS = 100
 _STEPS = 100  # a period, for the implicit schemes

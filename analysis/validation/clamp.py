@@ -8,12 +8,12 @@ from typing import Any
 import numpy as np
 from scipy.optimize import least_squares
 
-from analysis.figures.wording import number
 from analysis.validation import beam, pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result, by_point
 from analysis.validation.states import last_state, tip_motion, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE
-from studies.table import Axis, Case, Grid
+from guidewire.figures.wording import number
+from guidewire.studies.table import Axis, Case, Grid
+from guidewire.sweeps.check import Check, Finding, Plan, Result, by_point
 
 SECTION = "The clamp"
 SMALL = 1e-4  # F L^2/EI and w L^3/EI, small enough for the linear beam

@@ -12,14 +12,14 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number, percent, span
-from analysis.hub import read_hub, snap_turns
-from analysis.runs import Run
 from analysis.validation import pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.concentric import coupling, hub_slope, snap_angle, threshold
 from analysis.validation.states import last_state, solver_report, tip_motion, wall_time
-from studies.table import Case
+from guidewire.figures.wording import number, percent, span
+from guidewire.logs.hub import read_hub, snap_turns
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 SECTION = "A wire in a catheter"
 

@@ -13,13 +13,13 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import percent
-from analysis.hub import read_hub
-from analysis.logs import read_entries
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import wall_time_per_second
-from studies.table import Case
+from guidewire.figures.wording import percent
+from guidewire.logs.hub import read_hub
+from guidewire.logs.logs import read_entries
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _WIRE = tubes.WIRE
 _RADIUS, _LUMEN = 30.0, 0.5  # mm; the clearance is 0.1 mm

@@ -8,15 +8,15 @@ from collections.abc import Sequence
 
 import numpy as np
 
-from analysis.figures.wording import exponent, percent
-from analysis.runs import Run
 from analysis.validation import elastica, pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result, not_run
 from analysis.validation.spatial import CurvedRod
 from analysis.validation.states import last_state, solver_method, wall_time
 from analysis.validation.wire import BASE, STURDY, Wire
-from studies.keys import value_text
-from studies.table import Case
+from guidewire.figures.wording import exponent, percent
+from guidewire.logs.runs import Run
+from guidewire.studies.keys import value_text
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result, not_run
 
 SECTION = "Statics"
 ARC_GATE = 1e-3  # of L

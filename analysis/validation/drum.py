@@ -20,12 +20,12 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from analysis.figures.wording import number, percent
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import reactions, wall_time_per_second
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _DRUM, _HANGING, _APART = 50.0, 100.0, 0.12  # mm; the last what chords take, and the contact distance
 _ROPE = 0.3e-3  # m

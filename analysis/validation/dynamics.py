@@ -9,16 +9,16 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import beside, number, percent
-from analysis.runs import Run, read_repeats
 from analysis.validation import pictures, scenes
 from analysis.validation.bar import BarChain
-from analysis.validation.check import TUNED, Check, Finding, Plan, Result, not_run
 from analysis.validation.release import Release, tip_motion
 from analysis.validation.states import tip_at, wall_time_per_second
 from analysis.validation.states import tip_motion as logged_tip
 from analysis.validation.wire import BASE
-from studies.table import Case
+from guidewire.figures.wording import beside, number, percent
+from guidewire.logs.runs import Run, read_repeats
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import TUNED, Check, Finding, Plan, Result, not_run
 
 SECTION = "Dynamics"
 

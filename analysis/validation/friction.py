@@ -7,14 +7,14 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import percent
-from analysis.logs import read_entries, read_log
-from analysis.runs import Run
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import reactions, wall_time_per_second
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import percent
+from guidewire.logs.logs import read_entries, read_log
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _MU = 0.3
 _SLOPES = (0.1, 0.2, 0.25, 0.35, 0.45)  # tangents

@@ -11,16 +11,16 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number, percent
-from analysis.runs import Run
 from analysis.validation import elastica, pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.planar_stability import PlaneRest, snap
 from analysis.validation.stability import LEFT, SECTION, Search, branches, limit, limit_line
-from analysis.validation.statics import SECTION as STATICS
 from analysis.validation.states import last_state, wall_time
+from analysis.validation.statics import SECTION as STATICS
 from analysis.validation.wire import BASE
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _HANGING = (1.0, 3.0, 10.0, 30.0, 100.0, 500.0, 1000.0)  # w L^3/EI
 _POINTS = np.linspace(0.0, 1.0, 201)

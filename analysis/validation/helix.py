@@ -6,13 +6,13 @@ import math
 
 import numpy as np
 
-from analysis.figures.wording import number, percent
 from analysis.validation import pictures, scenes, twisted
-from analysis.validation.check import Check, Finding, Plan, Result, by_point, not_run
 from analysis.validation.stability import SECTION
 from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import Wire
-from studies.table import Axis, Grid
+from guidewire.figures.wording import number, percent
+from guidewire.studies.table import Axis, Grid
+from guidewire.sweeps.check import Check, Finding, Plan, Result, by_point, not_run
 
 _HELIX = {"bending": 1.345, "torsion": 0.789, "length": 100.0, "shortening": 3.0, "turn": 54.0 * math.pi}
 _WIRE = Wire.of_stiffness(_HELIX["length"], 0.01, _HELIX["bending"], _HELIX["torsion"], 1.0)

@@ -8,12 +8,12 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import percent, span
-from analysis.hub import HubLog, read_hub
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import wall_time_per_second
-from studies.table import Case
+from guidewire.figures.wording import percent, span
+from guidewire.logs.hub import HubLog, read_hub
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _BEND, _LUMEN, _PIECES, _SPEED = 40.0, 2.0, 8, 0.05  # units, units, of 90 degrees, m/s
 _ELEMENTS, _STEPS, _LUMENS = (50, 100, 200), (0.02, 0.01, 0.005), (0.8, 1.0)  # dt in s, lumens in units

@@ -10,15 +10,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number, percent, span
-from analysis.logs import read_log
 from analysis.validation import beam, elastica, pictures, scenes, spatial
-from analysis.validation.check import Check, Finding, Plan, Result, by_point
 from analysis.validation.dynamics import RELEASE_TIME, release, release_error, release_reference, rms_error
 from analysis.validation.states import last_state, solver_report, tip_at, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE, STURDY, Wire
-from studies.keys import run_key, value_text
-from studies.table import Axis, Case, Grid
+from guidewire.figures.wording import number, percent, span
+from guidewire.logs.logs import read_log
+from guidewire.studies.keys import run_key, value_text
+from guidewire.studies.table import Axis, Case, Grid
+from guidewire.sweeps.check import Check, Finding, Plan, Result, by_point
 
 SECTION = "Independence"
 GATE = 2e-2

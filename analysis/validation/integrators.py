@@ -13,11 +13,11 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import beside, number
-from analysis.logs import read_entries
-from analysis.runs import Run, read_repeats
-from analysis.validation.check import Check, Finding, Plan, Result
-from studies.table import Case
+from guidewire.figures.wording import beside, number
+from guidewire.logs.logs import read_entries
+from guidewire.logs.runs import Run, read_repeats
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _METHODS = {
     "Euler, Euler": "euler", "Verlet, Euler": "verlet", "Euler, Verlet": "eulerOrientationVerlet",

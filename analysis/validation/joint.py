@@ -14,13 +14,13 @@ from typing import Any
 import numpy as np
 from scipy.spatial.transform import Rotation
 
-from analysis.figures.wording import number
 from analysis.validation import pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result, not_run
 from analysis.validation.states import last_state, solver_report, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE
-from studies.keys import run_key
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.studies.keys import run_key
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result, not_run
 
 SECTION = "Statics"
 EXACT = 1e-6

@@ -8,15 +8,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number
-from analysis.runs import Run
 from analysis.validation import beam, pictures, scenes
 from analysis.validation.bar import BarChain
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.dynamics import SCHEMES, SECTION, rms_error
 from analysis.validation.states import last_state, read_states, wall_time_per_second
 from analysis.validation.wire import BASE, Wire
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _ORDER_STEPS = (10, 20, 40, 80, 160)  # a period
 _FINEST = 1280

@@ -16,15 +16,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import percent
-from analysis.logs import read_entries
-from analysis.runs import Run
 from analysis.validation import pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import wall_time_per_second
 from analysis.validation.tubes import SECTION
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import percent
+from guidewire.logs.logs import read_entries
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _WIRE = Wire(radius=0.2e-3)
 _CLEARANCE = 1.5e-3  # m, a two-hundredth of L: the column's slope stays below 3 %

@@ -11,15 +11,15 @@ from pathlib import Path
 
 from matplotlib.figure import Figure
 
-from analysis.figures.style import add_caption, captioned, new_figure, styled
-from analysis.figures.wording import number
-from analysis.logs import LogError
 from analysis.validation import (
     balance, clamp, coaxial, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint,
     order, planes, ring, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
 )
-from analysis.validation.check import Check, Finding, Result, replay
 from analysis.validation.pictures import SOLVER_MARKERS
+from guidewire.figures.style import add_caption, captioned, new_figure, styled
+from guidewire.figures.wording import number
+from guidewire.logs.logs import LogError
+from guidewire.sweeps.check import Check, Finding, Result, replay
 
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,

@@ -10,17 +10,17 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number
-from analysis.runs import Run
 from analysis.validation import scenes, twisted
-from analysis.validation.check import Check, Finding, Plan
 from analysis.validation.stability import (
     GATE, MOVING, PUSH, SECTION, branches, limit, limit_line, motion, passed_through_itself, pushed, pushed_line,
 )
 from analysis.validation.states import State, last_state
 from analysis.validation.wire import BASE, STURDY, Wire
-from studies.keys import value_text
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.logs.runs import Run
+from guidewire.studies.keys import value_text
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan
 
 _RATIOS = (0.5, 1.0, 2.0)  # EI/GJ
 _ELEMENTS = {"direct": 96, "explicit": 48, "xpbd": 32}

@@ -8,12 +8,12 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from analysis.runs import Run
 from analysis.validation import beam
 from analysis.validation.spatial import Bend
 from analysis.validation.states import solver_report
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
 
 UNIT = 1e-3  # m; one unit of length of the files
 ELEMENTS = 30  # n of the scene

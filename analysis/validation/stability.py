@@ -16,14 +16,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from analysis.figures.wording import number
-from analysis.runs import Run
 from analysis.validation import beam, elastica, pictures, scenes, twisted
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import BASE, STURDY, Wire
-from studies.keys import value_text
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.logs.runs import Run
+from guidewire.studies.keys import value_text
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 SECTION = "Stability limits"
 GATE = 3e-2

@@ -7,8 +7,8 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from analysis.logs import read_entries, read_log
-from analysis.runs import Run, read_repeats
+from guidewire.logs.logs import read_entries, read_log
+from guidewire.logs.runs import Run, read_repeats
 
 _MILLIMETRE = 1e-3  # m; the unit of runs with gains here, which have none of their own
 

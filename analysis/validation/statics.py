@@ -10,12 +10,12 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number, percent
 from analysis.validation import elastica, pictures, scenes, spatial, twisted
-from analysis.validation.check import TUNED, Check, Finding, Plan, Result, not_run
 from analysis.validation.states import last_state, solver_report, wall_time
 from analysis.validation.wire import BASE, Wire
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import TUNED, Check, Finding, Plan, Result, not_run
 
 SECTION = "Statics"
 ALL = ("direct", "explicit", "xpbd")

@@ -15,14 +15,14 @@ import numpy as np
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq, minimize_scalar
 
-from analysis.figures.wording import number
-from analysis.logs import read_log
-from analysis.runs import Run
 from analysis.validation import pictures, scenes, twisted
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import last_state, tip_motion, wall_time
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import number
+from guidewire.logs.logs import read_log
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 SECTION = "A published suite"
 SOURCE = "cosseratbench, results-0.2, another machine"

@@ -23,14 +23,14 @@ import numpy as np
 from scipy.integrate import solve_bvp
 from scipy.optimize import brentq
 
-from analysis.figures.wording import number, percent
-from analysis.logs import read_log
-from analysis.runs import Run
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import wall_time_per_second
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.logs.logs import read_log
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 SCENE = "params/buckling.json"
 EVEN_HELIX = 2.0 * math.sqrt(2.0)  # f

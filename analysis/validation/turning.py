@@ -13,14 +13,14 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from analysis.figures.wording import number, percent
-from analysis.runs import Run
 from analysis.validation import pictures, scenes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.dynamics import SECTION, release, release_error
 from analysis.validation.states import State, last_state, read_states, tip_motion
 from analysis.validation.wire import BASE, Wire
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _GRAVITY = 9.81  # m/s^2
 _RATE = 40.0  # rad/s

@@ -20,13 +20,13 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq, root
 
-from analysis.figures.wording import number, percent
-from analysis.logs import read_entries
 from analysis.validation import pictures, scenes, tubes, twisted
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import solver_report, wall_time_per_second
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.logs.logs import read_entries
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 
 def middle(moment: float) -> tuple[complex, complex, float]:

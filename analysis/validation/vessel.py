@@ -10,14 +10,14 @@ from typing import Any
 
 import numpy as np
 
-from analysis.figures.wording import number, percent
-from analysis.hub import read_hub
-from analysis.logs import read_log
-from analysis.runs import Run
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import wall_time_per_second
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.logs.hub import read_hub
+from guidewire.logs.logs import read_log
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _STENOSIS_RADIUS = 1.2  # of the wire's
 _OFF_AXIS = (0.0, 0.1, 0.3, 1.0)  # units

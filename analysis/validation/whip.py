@@ -22,14 +22,14 @@ import numpy as np
 from scipy.optimize import minimize_scalar
 from scipy.special import ellipj
 
-from analysis.figures.wording import number, percent
-from analysis.hub import HubLog, read_hub
-from analysis.runs import Run
 from analysis.validation import pictures, scenes, tubes
-from analysis.validation.check import Check, Finding, Plan, Result
 from analysis.validation.states import wall_time_per_second
 from analysis.validation.wire import Wire
-from studies.table import Case
+from guidewire.figures.wording import number, percent
+from guidewire.logs.hub import HubLog, read_hub
+from guidewire.logs.runs import Run
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 _WIRE = tubes.THIN
 _OWN = 20.0  # k_0, 1/m

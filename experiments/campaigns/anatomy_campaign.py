@@ -23,15 +23,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.logs import read_log
 from analysis.passages import SAMPLES, Wall, sample_wire
-from analysis.surfaces import read_obj
-from experiments import building
+from analysis.wall_search import MeshSearch
 from experiments.campaigns import material_pushes
 from experiments.campaigns.push_campaign import CODES, parser_of
 from experiments.campaigns.push_claims import contradictions
-from analysis.wall_search import MeshSearch
-from experiments.runner import Request, Runner
+from guidewire.logs.logs import read_log
+from guidewire.logs.surfaces import read_obj
+from guidewire.runs import building
+from guidewire.runs.runner import Request, Runner
 
 DIAMETERS = (0.36, 0.89)  # mm
 RUN_LIMIT = 120.0  # s of wall time of one run

@@ -25,15 +25,15 @@ from typing import Any
 
 import numpy as np
 
-from analysis.logs import read_log
-from analysis.surfaces import read_obj
-from anatomy.centreline import cut_edges
-from anatomy.mesh import Edges, Mesh
-from experiments import building
 from experiments.campaigns.anatomy_campaign import DIAMETERS
 from experiments.campaigns.push_campaign import parser_of
-from experiments.campaigns.vessel import write_obj
-from experiments.runner import Request, Runner
+from guidewire.anatomy.centreline import cut_edges
+from guidewire.anatomy.lumens import write_obj
+from guidewire.anatomy.mesh import Edges, Mesh
+from guidewire.logs.logs import read_log
+from guidewire.logs.surfaces import read_obj
+from guidewire.runs import building
+from guidewire.runs.runner import Request, Runner
 
 DISTANCE = 300.0  # mm pushed, at most
 LIMITS = {"timeStep/4": 0.2, "elements x 2": 0.2, "contactDistance/4": 0.2, "triangles x 4": 0.1,

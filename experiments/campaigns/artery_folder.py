@@ -8,13 +8,13 @@ from pathlib import Path
 
 import numpy as np
 
-from analysis.surfaces import read_obj
-from anatomy import output
-from anatomy.centreline import Centreline, End
-from anatomy.inspection import Unit
-from anatomy.mesh import Mesh
-from experiments.campaigns.vessel import ARTERY, ARTERY_ENTRANCE, artery_lumens
-from experiments.whole_files import write_whole
+from guidewire.anatomy import output
+from guidewire.anatomy.centreline import Centreline, End
+from guidewire.anatomy.inspection import Unit
+from guidewire.anatomy.lumens import ARTERY, ARTERY_ENTRANCE, artery_lumens
+from guidewire.anatomy.mesh import Mesh
+from guidewire.logs.surfaces import read_obj
+from guidewire.runs.whole_files import write_whole
 
 
 def write(folder: Path, target: int) -> Path:

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
-from experiments.campaigns.push_claims import contradictions
 from analysis.wall_search import Walls
+from experiments.campaigns.push_claims import contradictions
 
 SAME = 1e-9  # of the wire's radius
 OF_DISPLACEMENT = 1e-6  # of the displacement that was asked for: node 0 is on a stiff spring

@@ -24,12 +24,12 @@ from typing import Any
 
 import numpy as np
 
-from analysis.logs import read_log
-from analysis.surfaces import read_obj
-from experiments import building
-from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
 from analysis.wall_search import Walls, crosses_itself, triangles_of
-from experiments.runner import Request, Runner
+from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
+from guidewire.logs.logs import read_log
+from guidewire.logs.surfaces import read_obj
+from guidewire.runs import building
+from guidewire.runs.runner import Request, Runner
 
 RUN_LIMIT = 60.0  # s of wall time of one run
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 
 from experiments.campaigns.push_claims import contradictions
-from experiments.runner import Answer, Request, Runner
+from guidewire.runs.runner import Answer, Request, Runner
 
 RUN_LIMIT = 20.0  # s of wall time; the costliest scenes drawn take some 0.1 s alone
 ENDINGS = {"converged": 0, "finished": 0, "diverged": 4, "failed": 5}

@@ -9,15 +9,15 @@ import sys
 import numpy as np
 import pytest
 
-from analysis.logs import read_log
-from experiments import navigation
 from experiments.campaigns import anatomy_campaign, artery_folder
-from experiments.campaigns.anatomy_independence import is_other_equilibrium
 from experiments.campaigns.anatomy_campaign import Vessel, campaign, violations
-from experiments.commands import parse, run
-from experiments.instruments import files
-from experiments.prepare import ROOT
-from experiments.runner import Request, Runner
+from experiments.campaigns.anatomy_independence import is_other_equilibrium
+from guidewire import navigation
+from guidewire.commands.commands import parse, run
+from guidewire.commands.instruments import files
+from guidewire.logs.logs import read_log
+from guidewire.prepare import ROOT
+from guidewire.runs.runner import Request, Runner
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 NAMES = sorted(files())

@@ -5,10 +5,10 @@ import json
 import numpy as np
 import pytest
 
-from analysis.logs import read_entries, read_log
-from analysis.surfaces import read_obj
-from experiments.prepare import ROOT
-from experiments.runner import Request
+from guidewire.logs.logs import read_entries, read_log
+from guidewire.logs.surfaces import read_obj
+from guidewire.prepare import ROOT
+from guidewire.runs.runner import Request
 
 PARAMS = ROOT / "params"
 

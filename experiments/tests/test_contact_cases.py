@@ -8,11 +8,11 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.logs import read_log
 from analysis.passages import Wall, count_passages, inside
-from experiments.campaigns.push_claims import crossings, drive_claims, penetration_claims
 from analysis.wall_search import Walls, triangles_of
-from experiments.runner import Request
+from experiments.campaigns.push_claims import crossings, drive_claims, penetration_claims
+from guidewire.logs.logs import read_log
+from guidewire.runs.runner import Request
 
 CASES = Path(__file__).with_name("contact_cases")
 QUICK = (

@@ -6,9 +6,9 @@ import os
 import numpy as np
 import pytest
 
-import reference_step as reference
-from experiments.runner import Request
-from experiments.testing import FULL_CAMPAIGNS
+from experiments.tests import reference_step as reference
+from guidewire.runs.runner import Request
+from tools.testing import FULL_CAMPAIGNS
 
 STEPS = 100 if FULL_CAMPAIGNS in os.environ else 8
 ELEMENT_LENGTH = 0.5

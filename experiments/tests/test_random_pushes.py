@@ -8,13 +8,13 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.hub import read_hub
-from analysis.logs import read_log
-from analysis.surfaces import read_obj
+from analysis.wall_search import MeshSearch, Walls, closed_form, crosses_itself
 from experiments.campaigns import material_claims, material_pushes, pushes
 from experiments.campaigns.push_campaign import campaign
 from experiments.campaigns.push_claims import passage_bounds, violations
-from analysis.wall_search import MeshSearch, Walls, closed_form, crosses_itself
+from guidewire.logs.hub import read_hub
+from guidewire.logs.logs import read_log
+from guidewire.logs.surfaces import read_obj
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 # In the fraction six kinds with one rule each, and each rule with two of them.

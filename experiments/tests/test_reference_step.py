@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-import reference_step as reference
+from experiments.tests import reference_step as reference
 
 
 def straight(n, inverse_masses=None, **changes):

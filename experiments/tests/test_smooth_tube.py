@@ -10,7 +10,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.hub import read_hub
+from guidewire.logs.hub import read_hub
 
 _STIFFNESS = 60e9 * 0.25 * math.pi * 0.0004**4  # EI, N m^2
 

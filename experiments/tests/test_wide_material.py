@@ -10,8 +10,8 @@ import re
 import numpy as np
 import pytest
 
-from parameter_strategies import FULL
-from run_claims import Campaign, read_strictly
+from experiments.tests.run_claims import Campaign, read_strictly
+from guidewire.runs.tests.parameter_strategies import FULL
 
 RUNS = 1000 if FULL else 5
 SEED = 20260

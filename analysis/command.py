@@ -1,0 +1,65 @@
+"""The commands `demo` and `figures`."""
+
+from __future__ import annotations
+
+import argparse
+import os
+import sys
+from pathlib import Path
+
+from analysis import gallery
+from analysis.figures import FIGURES
+from guidewire.commands.making import build_runner, make, means_of
+from guidewire.commands.progress import bar_of
+from guidewire.prepare import PreparationError
+from guidewire.runs import checking
+from guidewire.studies.builtin import STUDIES
+from guidewire.studies.table import Source
+from guidewire.sweeps.sweep import FAILED, Means
+
+BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
+
+
+def demo(arguments: argparse.Namespace) -> int:
+    """`demo`: the thesis's default run, its relaxation time and its figures."""
+    checking.check_out(arguments.out)
+    means = Means(build_runner(), bar=bar_of("default"))
+    if make([(STUDIES["default"], arguments.out)], arguments.out, means).failures:
+        return FAILED
+    study = arguments.out / "default"
+    ids = [name for name, spec in FIGURES.items() if set(spec.studies) == {"default"}]
+    drawn = gallery.draw(ids, {"default": study}, arguments.out)
+    for line in gallery.describe_default_run(study):
+        print(line)
+    return _tell(drawn)
+
+
+def figures(arguments: argparse.Namespace) -> int:
+    """`figures`: the pictures that are asked for, after the runs that they need."""
+    catalogue = gallery.QUICK if arguments.quick else gallery.FULL
+    out = arguments.out / "quick" if arguments.quick else arguments.out
+    known = catalogue.specs
+    unknown = [name for name in arguments.ids if name not in known]
+    if unknown:
+        raise PreparationError(f"there is no figure {unknown[0]}; there are {', '.join(known)}")
+    ids = arguments.ids or list(known)
+    needed = {name for figure in ids for name in known[figure].studies}
+    checking.check_out(arguments.out)
+    means = means_of(arguments, build_runner(), "figures")
+    asked: list[tuple[Source, Path]] = [(study, out) for name, study in catalogue.studies.items() if name in needed]
+    asked += [(check, out / name) for name, checks in catalogue.checked.items() if name in needed for check in checks]
+    result = make(asked, out, means)
+    folders = {name: (out / name).resolve() for name in needed}
+    code = _tell(gallery.draw(ids, folders, out / "figures", catalogue, arguments.jobs))
+    return FAILED if result.failures else code
+
+
+def _tell(drawn: gallery.Gallery) -> int:
+    for problem in drawn.problems:
+        print(f"guidewire: {problem}", file=sys.stderr)
+    print(f"pictures and captions: {os.path.relpath(drawn.index)}")
+    for line in drawn.failed_gates:
+        print(f"guidewire: beyond its limit: {line}", file=sys.stderr)
+    if drawn.problems:
+        return FAILED
+    return BEYOND_A_GATE if drawn.failed_gates else 0

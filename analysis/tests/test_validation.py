@@ -1,0 +1,146 @@
+"""The fast checks of the material rod, on the real runner; and how checks are driven."""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Sequence
+from pathlib import Path
+
+import pytest
+
+from analysis.stability import limit_explicit
+from analysis.validation import scenes, statics, tube_buckling, vessel
+from analysis.validation.report import FAST, Report, as_csv, as_markdown
+from analysis.validation.wire import BASE, Wire
+from guidewire.logs.runs import read_runs
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Result, replay
+from guidewire.sweeps.sweep import Means, SweepResult, sweep
+from tools.testing import FULL_CAMPAIGNS
+
+# The longest run only where campaigns run in full: of the rows in the vessel all but the whip, which needs all of
+# contact, and those whose claim a test of Core holds with the same closed form (TwistedWireTests, MaterialRunTests,
+# MotionTests, ClampTests, CoaxialStaticsTests, CoaxialSlidingTests, StabilityTests, LargeTurnTests); of several checks of
+# one claim one, or those at both ends of its range; of the wire on a plane the row with direct alone.
+HELD_BY_CORE = ("ring", "localised-helix", "bar", "clamp-frequencies", "coaxial-stability", "coaxial-snap",
+                "coaxial-expulsion", "coaxial-sliding", "coaxial-limits", "strips", "large-turns")
+SECOND = ("end-moment-darboux", "force-balance-default",    # joint-law has both laws; force-balance is stricter
+          "tip-load-1", "tip-load-2", "tip-load-10", "own-weight-0.2", "couple-tension-0", "couple-tension-10",
+          "elements")    # clamp-compliance has the order in the number of elements
+CHECKS = FAST if FULL_CAMPAIGNS in os.environ else tuple(
+    check for check in FAST
+    if check not in (*vessel.FAST, *tube_buckling.FAST, *statics.CHECKS) and check.name not in HELD_BY_CORE + SECOND)
+
+
+def make(checks: Sequence[Check], folder: Path, command: list[str]) -> SweepResult:
+    """Make the runs of checks into a folder."""
+    return sweep([(check, folder) for check in checks], folder / "runs", Means(command))
+
+
+@pytest.fixture(scope="module")
+def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[str]) -> Report:
+    folder = tmp_path_factory.mktemp("validation")
+    done = make(CHECKS, folder, runner_command)
+    assert done.failures == []
+    return Report({check: replay(check, folder) for check in CHECKS})
+
+
+@pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.name)
+def test_direct_solver_keeps_its_gates(fast_report: Report, check: Check) -> None:
+    results = fast_report.findings[check].results
+    assert any(result.gate is not None for result in results) or all(result.reason for result in results)
+    assert [result for result in results if result.passed is False] == []
+
+
+def test_report_has_a_line_for_every_result(fast_report: Report) -> None:
+    lines = as_csv(fast_report).splitlines()
+    assert len(lines) == 1 + len(fast_report.results)
+    text = as_markdown(fast_report)
+    passed, failed, shown, silent = fast_report.counts
+    assert failed == 0 and f"{passed} lines passed, 0 failed, {shown} have no gate" in text
+    reasons = [result.reason for _, result in fast_report.results if result.reason]
+    assert len(reasons) == silent and all(f": {reason} |" in text for reason in reasons)
+    assert all(f"![{check.title}]" in text for check in CHECKS)
+
+
+def _adaptive():
+    """Asks for a second run whose number of elements follows from the first."""
+    runs = yield [Case("first", {"numberRodElements": 4})]
+    n = int(runs["first"].number("numberRodElements"))
+    runs = yield [Case("second", {"numberRodElements": 2 * n}, repeats=2)]
+    value = runs["second"].number("numberRodElements")
+    return Finding((Result("elements", "direct", value, 8.0, abs(value - 8.0), 0.0),), lambda figure: None, "")
+
+
+def test_later_cases_follow_from_earlier_runs(tmp_path: Path, runner_command: list[str]) -> None:
+    check = Check("adaptive", "Test", "adaptive", _adaptive)
+    done = make([check], tmp_path, runner_command)
+    assert done.made == 4 and done.failures == []
+    assert replay(check, tmp_path).results[0].passed
+
+
+def _wrong():
+    yield [Case("right", {"numberRodElements": 4})]
+    yield [Case("wrong", {"numberRodElements": -1})]
+    raise AssertionError("goes on after a run without a result")
+
+
+def test_check_whose_run_has_no_result_is_dropped_and_reported(tmp_path: Path, runner_command: list[str]) -> None:
+    done = make([Check("wrong", "Test", "wrong", _wrong)], tmp_path, runner_command)
+    (failure,) = done.failures
+    assert failure.exit_code == 2 and "numberRodElements" in failure.message
+
+
+ROUNDED = 1.0 + 1e-9
+_WIRES = {"thin": (BASE, 30), "thick": (Wire(radius=5e-3), 60), "coarse": (Wire(radius=5e-3), 4)}
+
+
+def _slack(wire: Wire, n: int) -> float:
+    """By how much a bound of omega^2 that adds shear against turning, shear against shifting and bending may be too
+    high: the truth is at least what shear does on its own, and what turning elements with resting nodes do."""
+    length = wire.length / n
+    turning = wire.shearing / (wire.density * wire.second_moment)
+    shifting = 4.0 * wire.shear_factor * wire.shear_modulus / (wire.density * length**2)
+    bending = 4.0 * wire.youngs_modulus / (wire.density * length**2)
+    return (turning + shifting + bending) / max(turning + shifting, turning + (1.0 - 1.0 / n) * bending)
+
+
+def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
+    tmp_path: Path, runner_command: list[str]
+) -> None:
+    """It must not be above 2/omega_max, and is below by no more than its bound of omega allows."""
+    stated = {}
+
+    def plan():
+        keys = {name: {**scenes.wire_parameters(wire), "numberRodElements": n, "proximalEnd": "free"}
+                for name, (wire, n) in _WIRES.items()}
+        stated.update((yield from scenes.stable_substeps(keys)))
+        return Finding((), lambda figure: None, "")
+
+    make([Check("limits", "Test", "limits", plan)], tmp_path, runner_command)
+    replay(Check("limits", "Test", "limits", plan), tmp_path)
+    for name, (wire, n) in _WIRES.items():
+        limit = limit_explicit(wire, n)
+        assert limit / math.sqrt(_slack(wire, n)) <= stated[name] * ROUNDED, name
+        assert stated[name] <= limit * ROUNDED, name
+
+
+@pytest.mark.skipif(FULL_CAMPAIGNS not in os.environ, reason="it needs the benchmarks, which are built for it alone")
+def test_a_motion_timed_in_turns_is_the_motion_of_its_run(tmp_path: Path, runner_command: list[str]) -> None:
+    """The stopwatch times the very steps that a run makes, and its figure is its own quotient. How large it is, is no
+    matter of a test: other work on the machine would decide."""
+    scene = {"numberRodElements": 8, "timeStep": 0.01, "maxSimulationSteps": 3, "constraintSolverSteps": 20,
+             "displacementDirection": [0, 1, 0], "deltaThreshold": 0}
+
+    def plan():
+        yield [Case("timed", scene, in_turns=True), Case("run", scene)]
+        return Finding((), lambda figure: None, "")
+
+    check = Check("cost", "Test", "cost", plan, "params/default.json")
+    assert make([check], tmp_path, runner_command).failures == []
+    timed, made = (read_runs(tmp_path / "cost")[name] for name in ("timed", "run"))
+    for name in ("outcome", "reason", "steps", "inGameTime", "parameterHash"):
+        assert timed.summary[name] == made.summary[name], name
+    for name in ("elementIterationsPerMillisecond", "wallTimePerSecond", "elementIterationTime"):
+        assert 0.0 < timed.measured(name) < math.inf, name

@@ -1,0 +1,413 @@
+"""Centreline of a lumen: the tree of paths along which the inscribed spheres are largest, with their radii.
+
+The centres of the largest spheres that fit between points of the wall are vertices of the points' Voronoi diagram
+(Amenta, Bern 1999). The paths are the shortest ones through them, where length is weighted with 1/radius (Antiga et
+al. 2003). Their points are then moved, across the path, to where the distance from the triangles is largest.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+
+import numpy as np
+from scipy.ndimage import gaussian_filter1d
+from scipy.sparse.csgraph import dijkstra
+
+from guidewire.anatomy.inspection import narrow_radius
+from guidewire.anatomy.medial_graph import BLIND, MedialGraph, WallDistance, walk_back
+from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, signed_volume
+
+_SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
+_DENSITY = 40.0  # of them on the square of a narrow radius
+_STEP = 0.25  # between points of the centreline, of the radius
+_THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
+_AT_RIM = 3.0  # radii of a rim
+_SMOOTHING = 1.5  # points, of the Gaussian along a branch
+_ROUNDS = 3
+
+
+@dataclass(frozen=True)
+class End:
+    """An end of the centreline: number and name as users give them; centre (3,); radius; direction (3,), into the
+    lumen; is_open : whether it is a rim; point : index of the centreline's point there."""
+
+    number: int
+    name: str
+    centre: np.ndarray
+    radius: float
+    direction: np.ndarray
+    is_open: bool
+    point: int
+
+
+@dataclass(frozen=True)
+class Centreline:
+    """A tree of k points: points (k, 3), radii (k,) of the inscribed spheres, parents (k,), -1 at the root and else
+    smaller than the point's own index; branches (k,), from 1; ends."""
+
+    points: np.ndarray
+    radii: np.ndarray
+    parents: np.ndarray
+    branches: np.ndarray
+    ends: tuple[End, ...]
+
+    def chain(self, point: int) -> np.ndarray:
+        """Indices from a point to the root."""
+        found = [point]
+        while self.parents[found[-1]] >= 0:
+            found.append(int(self.parents[found[-1]]))
+        return np.array(found)
+
+    def path(self, start: int, end: int) -> np.ndarray:
+        """Indices from a point to another one through the tree."""
+        one, other = self.chain(start), self.chain(end)
+        common = np.isin(one, other)
+        meeting = one[np.argmax(common)]
+        return np.r_[one[:np.argmax(common) + 1], other[:np.flatnonzero(other == meeting)[0]][::-1]]
+
+    def length(self, indices: np.ndarray) -> float:
+        """Of the polyline through these points."""
+        return float(np.linalg.norm(np.diff(self.points[indices], axis=0), axis=1).sum())
+
+    def inner(self) -> np.ndarray:
+        """(k,): points farther than a radius from every closed end, where the sphere is bounded by the end as well."""
+        inner = np.ones(len(self.points), dtype=bool)
+        for end in self.ends:
+            if not end.is_open:
+                inner &= np.linalg.norm(self.points - end.centre, axis=1) > 1.2 * end.radius
+        return inner if inner.any() else np.ones(len(self.points), dtype=bool)
+
+    @property
+    def narrowest(self) -> int:
+        """The point with the smallest radius, closed ends apart."""
+        inner = np.flatnonzero(self.inner())
+        return int(inner[np.argmin(self.radii[inner])])
+
+
+def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None) -> Centreline:
+    """The centreline of one lumen between its rims and its blind ends.
+
+    Parameters
+    ----------
+    mesh : one surface, consistently oriented, closed but for the rims.
+    rims : all of them.
+    root : a point near the end that the tree begins at; the widest end where it is not given.
+
+    Raises
+    ------
+    AnatomyError : there is no path between two ends.
+    """
+    closed = close_rims(mesh, rims) if rims else mesh
+    if signed_volume(closed) < 0.0:
+        closed = closed.turned()
+    wall = WallDistance(closed)
+    area = np.linalg.norm(closed.area_vectors(), axis=1).sum()
+    graph = MedialGraph(_sample(closed, int(np.clip(_DENSITY * area / narrow_radius(closed)**2, *_SAMPLES))))
+    nodes = [graph.at_rim(rim) for rim in rims]
+    if not nodes:
+        nodes = graph.two_ends()
+    if root is None:
+        start = nodes[int(np.argmax([rim.radius for rim in rims] if rims else graph.radii_near(nodes)))]
+    else:
+        start = min(nodes, key=lambda node: np.linalg.norm(graph.centres[node] - root))
+    cost, before = dijkstra(graph.weights, directed=False, indices=start, return_predecessors=True)
+    lost = [rim for rim, node in zip(rims, nodes) if not np.isfinite(cost[node])]
+    if lost:
+        raise AnatomyError(f"no path leads to {lost[0].name} at {np.round(lost[0].centre, 4).tolist()}: the lumen is "
+                           "closed in between")
+    known = set(walk_back(before, start)) if len(nodes) == 1 else set().union(*(walk_back(before, n) for n in nodes))
+    blind = graph.blind_ends(known, before, dijkstra(graph.lengths, directed=False, indices=start))
+    return _Builder(graph, wall, WallDistance(mesh) if rims else wall, rims, nodes, blind, start, before).build()
+
+
+class _Builder:
+    """Makes a smooth tree of the paths."""
+
+    def __init__(self, graph: MedialGraph, wall: WallDistance, without_caps: WallDistance, rims: list[Rim],
+                 nodes: list[int], blind: list[int], start: int, before: np.ndarray) -> None:
+        self._graph, self._wall, self._open = graph, wall, without_caps
+        self._start, self._before = start, before
+        self._targets = list(nodes) + blind
+        self._rims: list[Rim | None] = [*rims, *[None] * (len(self._targets) - len(rims))]
+        self._points: list[np.ndarray] = []
+        self._radii: list[float] = []
+        self._parents: list[int] = []
+        self._branches: list[int] = []
+
+    def build(self) -> Centreline:
+        paths = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
+        chains = self._inside(paths)
+        kept = self._apart(chains, [len(chain) < len(path) for chain, path in zip(chains, paths)])
+        chains = [chains[k] for k in kept]
+        self._targets, self._rims = [self._targets[k] for k in kept], [self._rims[k] for k in kept]
+        if self._rims[self._targets.index(self._start)] is None:
+            # The same at the root: all paths begin with the piece out of its corner.
+            longest = max(chains, key=len)
+            corner = len(longest) - len(self._without_corner(longest[::-1]))
+            others = [chain for target, chain in zip(self._targets, chains) if target != self._start]
+            while any(len(chain) <= corner or chain[corner] != longest[corner] for chain in others):
+                corner -= 1
+            chains = [chain[corner:] or longest[corner:corner + 1] for chain in chains]
+        uses: dict[int, int] = {}
+        for chain in chains:
+            for node in chain:
+                uses[node] = uses.get(node, 0) + 1
+        order = sorted(range(len(chains)), key=lambda k: (self._rims[k] is None, k))
+        at: dict[int, int] = {}  # index of the tree's point of a node where branches meet
+        last: dict[int, int] = {}
+        root = self._targets.index(self._start)
+        if len(order) == 1:
+            raise AnatomyError("the lumen has one end only: no path leads through it")
+        for k in order:
+            if k != root:
+                self._lay(chains[k], self._rims[k], uses, at)
+                last[k] = len(self._points) - 1
+        last[root] = 0
+        ends = [self._end(number, k, last[k]) for number, k in enumerate(order, 1)]
+        radii = np.array([self._open.distance(point) for point in self._points])
+        return Centreline(np.array(self._points), radii, np.array(self._parents),
+                          np.array(self._branches), tuple(ends))
+
+    def _inside(self, chains: list[list[int]]) -> list[list[int]]:
+        """Paths to blind ends without what is outside: through a thin or coarse wall the graph may go on there."""
+        is_blind = [rim is None and target != self._start for rim, target in zip(self._rims, self._targets)]
+        nodes = sorted({node for chain, blind in zip(chains, is_blind) if blind for node in chain})
+        outside = set(np.array(nodes)[~self._wall.inside(self._graph.centres[nodes])].tolist()) if nodes else set()
+        kept = []
+        for chain, blind in zip(chains, is_blind):
+            count = len(chain)
+            while blind and count > 1 and chain[count - 1] in outside:
+                count -= 1
+            kept.append(chain[:count])
+        return kept
+
+    def _is_at_rim(self, chain: list[int]) -> bool:
+        """Whether a path ends near a rim: beyond one that is not plane the wall of one side goes on."""
+        tip = self._graph.centres[chain[-1]]
+        return any(np.linalg.norm(tip - rim.centre) < _AT_RIM * rim.radius for rim in self._rims if rim is not None)
+
+    def _apart(self, chains: list[list[int]], is_cut: list[bool]) -> list[int]:
+        """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before, nor cut off
+        at the wall near a rim."""
+        graph, kept = self._graph, []
+        typical = float(np.median(graph.radii[np.concatenate(chains)]))
+        for k, chain in enumerate(chains):
+            if is_cut[k] and self._is_at_rim(chain):
+                continue
+            others = [node for j in kept for node in chains[j]]
+            if self._rims[k] is None and self._targets[k] != self._start and others:
+                away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
+                beside = graph.radii[others[int(np.argmin(away))]]
+                if (away < (1.0 + BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
+                        beside, typical):
+                    continue
+            kept.append(k)
+        return kept
+
+    def _trim(self, chain: list[int], rim: Rim | None) -> list[int]:
+        """A path from the root; without its last piece, into the corner of a blind end."""
+        return chain if rim is not None else self._without_corner(chain)
+
+    def _without_corner(self, chain: list[int]) -> list[int]:
+        radii = self._graph.radii[chain]
+        keep = len(chain)
+        while keep > 2 and radii[keep - 1] < 0.9 * radii[max(0, keep - 6):keep].max():
+            keep -= 1
+        return chain[:keep]
+
+    def _lay(self, chain: list[int], rim: Rim | None, uses: dict[int, int], at: dict[int, int]) -> None:
+        """Append the pieces of a path that the tree does not have yet."""
+        cuts = [k for k in range(1, len(chain)) if uses[chain[k]] != uses[chain[k - 1]]]
+        borders = sorted({0, *(k - 1 for k in cuts), len(chain) - 1})
+        if len(borders) == 1:
+            borders = [0, 0]
+        for low, high in zip(borders[:-1], borders[1:]):
+            if chain[high] in at:
+                continue
+            nodes = chain[low:high + 1]
+            is_last = high == len(chain) - 1
+            tail = rim if is_last else None
+            head = self._rims[self._targets.index(self._start)] if low == 0 and not at else None
+            line, radii = self._smooth(self._graph.centres[nodes], self._graph.radii[nodes], tail, head,
+                                       is_free=(low == 0 and not at, is_last), is_root=low == 0 and not at)
+            if low == 0 and not at:
+                self._append(line[0], radii[0], -1, 1)
+                at[chain[0]] = 0
+            parent = at[chain[low]]
+            branch = max(self._branches) + (1 if len(self._points) > 1 else 0)
+            for point, radius in zip(line[1:], radii[1:]):
+                self._append(point, radius, parent, branch)
+                parent = len(self._points) - 1
+            at[chain[high]] = parent
+
+    def _append(self, point: np.ndarray, radius: float, parent: int, branch: int) -> None:
+        self._points.append(point)
+        self._radii.append(radius)
+        self._parents.append(parent)
+        self._branches.append(branch)
+
+    def _smooth(self, line: np.ndarray, radii: np.ndarray, tail: Rim | None, head: Rim | None,
+                is_free: tuple[bool, bool], is_root: bool) -> tuple[np.ndarray, np.ndarray]:
+        """The points of a piece in even steps, each where the inscribed sphere is largest, and their radii."""
+        step = _STEP * float(np.median(radii))
+        # A rim bounds no sphere, so its piece is centred with the others; a blind end's wall is met afterwards.
+        if is_free[1] and tail is not None:
+            line = np.vstack([line, tail.centre])
+        if is_root and is_free[0] and head is not None:
+            line = np.vstack([head.centre, line])
+        line = resample(line, step)
+        for _ in range(_ROUNDS):
+            line = _filtered(line)
+            tangents = np.gradient(line, axis=0) if len(line) > 1 else np.zeros_like(line)
+            for k in range(1, len(line) - 1):
+                size = np.linalg.norm(tangents[k])
+                if size > 0.0:
+                    radius = self._open.distance(line[k])
+                    line[k] = self._open.centre(line[k], tangents[k] / size, max(radius, 1e-3 * step), 0.5 * radius)
+            line = resample(_filtered(line), step)
+        if is_free[1] and tail is None:
+            line = np.concatenate([line, self._to_wall(line, step)])
+        if is_root and is_free[0] and head is None:
+            line = np.concatenate([self._to_wall(line[::-1], step)[::-1], line])
+        return line, np.array([self._wall.distance(point) for point in line])
+
+    def _to_wall(self, line: np.ndarray, step: float) -> np.ndarray:
+        """From the end of a line straight on to the wall of a blind end."""
+        back = line[-1] - line[max(0, len(line) - 6)]
+        direction = back / max(np.linalg.norm(back), 1e-300)
+        # Sphere tracing: the distance from the wall is free to go. One radius on is the wall of a round end.
+        end, most = line[-1], 2.0 * self._wall.distance(line[-1])
+        for _ in range(60):
+            free = 0.99 * self._wall.distance(end)
+            end = end + free * direction
+            if free < 1e-3 * step or np.linalg.norm(end - line[-1]) > most:
+                break
+        gap = float(np.linalg.norm(end - line[-1]))
+        count = max(1, int(round(gap / step)))
+        return line[-1] + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - line[-1])
+
+    def _widest_after(self, point: int) -> int:
+        """Of the points after one, away from the root, that beyond which there is most of the vessel, its radii summed
+        along the tree; -1 at an end."""
+        after = np.flatnonzero(np.asarray(self._parents) == point)
+        if len(after) < 2:
+            return int(after[0]) if len(after) else -1
+        beyond = np.array(self._radii, dtype=float)
+        for k in range(len(beyond) - 1, 0, -1):  # parents come first
+            beyond[self._parents[k]] += beyond[k]
+        return int(after[np.argmax(beyond[after])])
+
+    def _end(self, number: int, k: int, point: int) -> End:
+        rim = self._rims[k]
+        points, parents = self._points, self._parents
+        path = [point]
+        reach = 0.0
+        radius = rim.radius if rim else 0.0
+        # The direction is that of the centreline over the first radius, or two where the sphere grows on; at branchings
+        # into most of the vessel.
+        while reach < 2.0 * max(radius, self._radii[path[-1]]):
+            after = parents[path[-1]] if point != 0 else self._widest_after(path[-1])
+            if after < 0:
+                break
+            reach += float(np.linalg.norm(points[after] - points[path[-1]]))
+            path.append(after)
+        if rim is None:
+            radius = max(self._radii[i] for i in path)
+        direction = self._into_lumen(path, radius)
+        if direction is None:
+            direction = rim.normal
+        name = rim.name if rim else f"end {number}"
+        return End(number, name, points[point], radius, direction, rim is not None, point)
+
+    def _into_lumen(self, path: list[int], radius: float) -> np.ndarray | None:
+        """Direction of a path's chord from its first point; None where it has no length. Where the place one radius
+        along the longest chord is in no inscribed sphere of the path (a bend), the chord with the most clearance
+        there."""
+        points, radii = np.array([self._points[k] for k in path]), np.array([self._radii[k] for k in path])
+        chords = points[1:] - points[0]
+        sizes = np.linalg.norm(chords, axis=1)
+        chords = chords[sizes > 0.0] / sizes[sizes > 0.0, None]
+        if not len(chords):
+            return None
+        places = points[0] + radius * chords
+        clearance = (radii - np.linalg.norm(places[:, None] - points, axis=2)).max(axis=1)
+        return chords[-1] if clearance[-1] > 0.0 else chords[int(np.argmax(clearance))]
+
+
+def resample(line: np.ndarray, step: float) -> np.ndarray:
+    """A polyline (k, 3) in even steps, its ends kept; two points at least."""
+    steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
+    arc = np.r_[0.0, np.cumsum(steps)]
+    if not arc[-1] > 0.0:
+        return line[[0, -1]] if len(line) > 1 else np.repeat(line, 2, axis=0)
+    count = max(2, int(round(arc[-1] / step)) + 1)
+    stations = np.linspace(0.0, arc[-1], count)
+    return np.stack([np.interp(stations, arc, line[:, k]) for k in range(3)], axis=1)
+
+
+def _filtered(line: np.ndarray) -> np.ndarray:
+    """A line smoothed along itself, its ends kept."""
+    if len(line) < 5:
+        return line
+    # Reflected through its ends, so that a line keeps its direction there.
+    pad = min(len(line) - 1, 8)
+    before, after = 2.0 * line[0] - line[pad:0:-1], 2.0 * line[-1] - line[-2:-pad - 2:-1]
+    smooth = gaussian_filter1d(np.concatenate([before, line, after]), _SMOOTHING, axis=0)[pad:-pad]
+    smooth[0], smooth[-1] = line[0], line[-1]
+    return smooth
+
+
+def _sample(mesh: Mesh, count: int) -> Mesh:
+    """The same surface with triangles cut, until there are about so many vertices; or with fewer of them."""
+    area = np.linalg.norm(mesh.area_vectors(), axis=1).sum()
+    limit = np.sqrt(2.3 * area / count)
+    if len(mesh.vertices) > 2 * count:
+        return thinned(mesh, limit)
+    for _ in range(12):
+        edges = Edges.of(mesh)
+        ends = mesh.vertices[edges.ends]
+        long = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 1.5 * limit
+        if not long.any():
+            break
+        mesh = cut_edges(mesh, edges, long)
+    return mesh
+
+
+def thinned(mesh: Mesh, size: float) -> Mesh:
+    """One vertex a cell of a lattice; triangles that lose a corner are dropped."""
+    cells = np.floor((mesh.vertices - mesh.vertices.min(axis=0)) / size).astype(np.int64)
+    shape = cells.max(axis=0) + 1
+    key = (cells[:, 0] * shape[1] + cells[:, 1]) * shape[2] + cells[:, 2]
+    _, first, inverse = np.unique(key, return_index=True, return_inverse=True)
+    triangles = inverse[mesh.triangles]
+    whole = (triangles[:, 0] != triangles[:, 1]) & (triangles[:, 1] != triangles[:, 2]) & (
+        triangles[:, 2] != triangles[:, 0])
+    return Mesh(mesh.vertices[first], triangles[whole])
+
+
+def cut_edges(mesh: Mesh, edges: Edges, long: np.ndarray) -> Mesh:
+    """Every triangle cut at the middles of its long edges."""
+    middle = np.full(len(edges.ends), -1)
+    middle[long] = len(mesh.vertices) + np.arange(long.sum())
+    vertices = np.concatenate([mesh.vertices, mesh.vertices[edges.ends[long]].mean(axis=1)])
+    parts = []
+    halves = middle[edges.of_triangles]
+    marked = halves >= 0
+    count = marked.sum(axis=1)
+    parts.append(mesh.triangles[count == 0])
+    for k in range(3):
+        # Corners a, b, c with the edge a-b first.
+        turn = [k, (k + 1) % 3, (k + 2) % 3]
+        one = (count == 1) & marked[:, k]
+        a, b, c = mesh.triangles[one][:, turn].T
+        m = halves[one, k]
+        parts += [np.stack([a, m, c], 1), np.stack([m, b, c], 1)]
+        two = (count == 2) & ~marked[:, k]
+        a, b, c = mesh.triangles[two][:, turn].T
+        m, n = halves[two, (k + 1) % 3], halves[two, (k + 2) % 3]
+        parts += [np.stack([a, b, m], 1), np.stack([a, m, n], 1), np.stack([n, m, c], 1)]
+    three = count == 3
+    a, b, c = mesh.triangles[three].T
+    p, q, r = halves[three].T
+    parts += [np.stack([a, p, r], 1), np.stack([p, b, q], 1), np.stack([r, q, c], 1), np.stack([p, q, r], 1)]
+    return Mesh(vertices, np.concatenate(parts))

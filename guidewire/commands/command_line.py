@@ -1,0 +1,280 @@
+"""The command line of guidewire.py: its commands, their arguments and help."""
+
+from __future__ import annotations
+
+import argparse
+import os
+from pathlib import Path
+
+from guidewire.anatomy.formats import is_anatomy
+from guidewire.commands.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
+from guidewire.installed import version
+from guidewire.prepare import ANATOMY, DRAWING, INSTALLED, SWEEPING, TESTING, VIEWING
+from guidewire.studies.builtin import STUDIES
+
+_DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
+
+
+def parse(argv: list[str]) -> argparse.Namespace:
+    """Read the command line. `command` of the result is the command's name, `packages` what it imports.
+
+    Exits with 2 and one line on stderr where it cannot be read.
+    """
+    parser = Parser(prog="guidewire" if INSTALLED else "guidewire.py", description=_DESCRIPTION)
+    parser.add_argument("--version", action="version", version=f"guidewire {version()}")
+    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=Parser,
+                                     dest="command")
+
+    demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
+    demo.add_argument("--out", type=path, default=Path("results/demo"), help="folder for the run and the pictures")
+    demo.set_defaults(packages=DRAWING + SWEEPING)
+
+    test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
+    test.add_argument("--all", action="store_true", help="random campaigns in full instead of a seeded fraction")
+    test.set_defaults(packages=TESTING)
+
+    run = commands.add_parser("run", help="one run of one parameter file")
+    run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
+    _add_overrides(run)
+    run.add_argument("--out", type=path, help="folder of the run (results/<name of FILE>); a complete run there is not "
+                                               "repeated, nor replaced by one with other parameters")
+    run.add_argument("--force", action="store_true",
+                     help="replace a complete run that the folder holds, once this one is complete")
+    _add_runner(run)
+    run.set_defaults(packages=())
+
+    sweep = commands.add_parser("sweep", help="the runs of a study; completed runs are not repeated")
+    sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
+    sweep.add_argument("--out", type=path, default=Path("results"), help="parent of the study's folder (results)")
+    sweep.add_argument("--logs", action="store_true", help="write the log of every run, whatever the study's file says")
+    sweep.add_argument("--yes", action="store_true", help="make the runs even if there are more than 100,000")
+    _add_workers(sweep)
+    _add_runner(sweep)
+    sweep.set_defaults(packages=SWEEPING)
+
+    figures = commands.add_parser("figures", help="draw the figures of the thesis and of this project, making "
+                                                  "missing runs; exit code 1 if a check exceeds its limit")
+    figures.add_argument("ids", metavar="ID", nargs="*", help="such as 4.5; default: all")
+    figures.add_argument("--out", type=path, default=Path("results"),
+                         help="parent of the studies' folders (results); pictures are written to its 'figures'")
+    figures.add_argument("--quick", action="store_true",
+                         help="few values of each study and few checks, into its subfolder 'quick', as a smoke test")
+    _add_workers(figures)
+    figures.set_defaults(packages=DRAWING + SWEEPING)
+
+    advise = commands.add_parser("advise", help="find the cheapest settings of a scene for a given error")
+    advise.add_argument("file", metavar="SCENE", type=Path, help="parameter file, such as params/insertion.json")
+    _add_overrides(advise)
+    asked = advise.add_mutually_exclusive_group(required=True)
+    asked.add_argument("--error", type=error_part, metavar="E",
+                       help="largest error against a finer run, such as 1%% or 0.01: RMS distance over the wire's "
+                            "displacement, or relative error of the quantity given by --of")
+    asked.add_argument("--budget", type=above_zero, metavar="MS_PER_STEP",
+                       help="largest wall time of a step, ms: find the most accurate settings within it")
+    advise.add_argument("--of", metavar="QUANTITY", default="position",
+                        help="quantity of the error: position, tip, hubForce, hubTorque, twist, largestCurvature, "
+                             "contactForce, or a number of summary.json such as extremes.axialForce (position)")
+    advise.add_argument("--at", choices=("run", "end"), default="run",
+                        help="over the whole run, or at the end only (run)")
+    advise.add_argument("--chart", action="store_true", help="draw error against cost of the settings: chart.png")
+    advise.add_argument("--out", type=path, default=Path("results"),
+                        help="parent of the runs' folders (results); the file and advice.md go to advice/SCENE")
+    _add_workers(advise)
+    advise.set_defaults(packages=DRAWING + SWEEPING)
+
+    render = commands.add_parser("render", help="picture or film of a run, with its vessel and obstacles")
+    render.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
+    render.add_argument("--out", type=path, metavar="FILE", help="FILE.png or FILE.gif (RUN/render.png)")
+    render.add_argument("--times", type=finite, nargs="+", metavar="T", default=[],
+                        help="of a .png: times in s, drawn in one picture, one colour each (default: the end, coloured "
+                             "by curvature)")
+    render.add_argument("--frames", type=positive, default=40, metavar="K", help="of a .gif: largest number of "
+                                                                                 "frames (40)")
+    middle = render.add_mutually_exclusive_group()
+    middle.add_argument("--target", type=finite, nargs=3, metavar=("X", "Y", "Z"), help="point at the centre, units")
+    middle.add_argument("--follow", choices=("tip",), help="keep the tip at the centre, at four times the zoom")
+    render.add_argument("--zoom", type=above_zero, metavar="F", help="zoom factor")
+    render.add_argument("--view", choices=("side", "front", "top", "back"),
+                        help="instead of --yaw and --pitch: along -x, along z, along -y, or along x")
+    render.add_argument("--distance", type=above_zero, metavar="D", help="of the camera from the target, units")
+    render.add_argument("--yaw", type=finite, metavar="DEGREES", help="0 looks along z, -90 along -x (-90)")
+    render.add_argument("--pitch", type=finite, metavar="DEGREES", help="90 looks down, along -y (15)")
+    render.add_argument("--radius", type=above_zero, metavar="R",
+                        help="radius of the drawn wire, units (the true one, or larger where it would not be visible)")
+    fluoroscopy = render.add_argument_group("fluoroscopy", "an X-ray picture, or film, in place of the drawn one")
+    fluoroscopy.add_argument("--fluoroscopy", action="store_true", help="as a C-arm sees it")
+    fluoroscopy.add_argument("--lao", type=finite, metavar="DEGREES", help="left anterior oblique, RAO is negative (0)")
+    fluoroscopy.add_argument("--cranial", type=finite, metavar="DEGREES", help="caudal is negative (0)")
+    fluoroscopy.add_argument("--field", type=above_zero, metavar="MM", help="side of the picture (the whole vessel)")
+    fluoroscopy.add_argument("--vessel", choices=("roadmap", "contrast", "none"), help="how the vessel is shown "
+                                                                                       "(roadmap)")
+    fluoroscopy.add_argument("--pixels", type=positive, metavar="N", help="of a side (512)")
+    fluoroscopy.add_argument("--noise", type=finite, metavar="F", help="standard deviation of the noise over "
+                                                                       "brightness (0.03)")
+    fluoroscopy.add_argument("--blur", type=finite, metavar="MM", help="standard deviation of the focal spot (0.15)")
+    render.set_defaults(packages=DRAWING)
+
+    _add_anatomy(commands)
+
+    steer = commands.add_parser("steer", help="find a drive that brings a wire to its target in a vessel, and run it")
+    steer.add_argument("file", metavar="SCENE", type=Path, help="scene.json that 'anatomy' wrote")
+    steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
+    steer.add_argument("--attempts", type=positive, default=200, metavar="N",
+                       help="largest number of failed attempts with each tip (200)")
+    steer.set_defaults(packages=("numpy",))
+
+    view = commands.add_parser("view", help="in the browser: open a scene interactively, replay one or two runs, or "
+                                              "look at a vessel")
+    view.add_argument("what", metavar="FILE|RUN", nargs="+", type=Path,
+                      help="a parameter file: interactive; folder of a run: replay; two folders: side by side or "
+                           "superimposed; a mesh, mask or centreline: its ends and defects, a click on an end makes "
+                           "it the inlet")
+    view.add_argument("--html", type=path, metavar="FILE", help="write the replay into a self-contained file")
+    view.add_argument("--frames", type=positive, metavar="K", help="largest number of frames (5000; 300 with --html)")
+    view.add_argument("--open", action="store_true", help="open the page in a browser")
+    view.set_defaults(packages=("numpy", *VIEWING))
+
+    plot = commands.add_parser("plot", help="plot a quantity of a study's runs against one of its parameters")
+    plot.add_argument("table", metavar="TABLE", type=Path, help="runs.csv of a study, or the study's folder")
+    plot.add_argument("--x", required=True, metavar="KEY", help="parameter, or any column of the table")
+    plot.add_argument("--y", required=True, metavar="QUANTITY",
+                      help="any column, such as hub.force, extremes.axialForce (the peak of the run), "
+                           "largestContactForce, hub.tipPosition[2]; the last part of the name will do if unique")
+    plot.add_argument("--by", metavar="KEY", help="parameter shown by colour")
+    plot.add_argument("--log", choices=("x", "y", "xy"), default="", help="logarithmic axes")
+    plot.add_argument("--out", type=path, metavar="FILE", help="FILE.png (QUANTITY-over-KEY.png beside the table)")
+    plot.set_defaults(packages=DRAWING)
+
+    keys = commands.add_parser("keys", help="list the keys of parameter files, --set and axes of studies")
+    keys.add_argument("word", metavar="WORD", nargs="?", default="",
+                      help="only keys related to it, such as friction")
+    keys.add_argument("--solver", choices=("pbd", "xpbd", "direct", "explicit"), default="",
+                      help="only keys that this solver takes")
+    keys.set_defaults(packages=())
+
+    stress = commands.add_parser("stress", help="plot stresses and strains along the wire of a run (logStrains)")
+    stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains, for stress.png too")
+    stress.set_defaults(packages=DRAWING)
+
+    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub over time (logHub)")
+    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub, for hub.png too")
+    hub.set_defaults(packages=DRAWING)
+
+    compare = commands.add_parser("compare", help="draw a run beside a measured force of the hub or shape of the wire")
+    compare.add_argument("folder", type=Path, metavar="RUN", help="folder of a run, for compare.png too")
+    compare.add_argument("measured", type=Path, metavar="MEASURED",
+                         help="CSV file with the first line time,force (s, N; the run needs logHub) or time,x,y,z (s, "
+                              "units: points of the centreline, those of one shape with the same time)")
+    compare.set_defaults(packages=DRAWING)
+
+    modes = commands.add_parser("modes", help="lowest natural frequencies and mode shapes of a wire with a material")
+    modes.add_argument("file", type=Path, metavar="FILE",
+                       help="parameter file; the modes are about its rest shape")
+    modes.add_argument("--count", type=positive, default=6, metavar="K", help="number of modes (6)")
+    modes.add_argument("--out", type=path, default=Path("results"), metavar="DIR",
+                       help="folder for NAME-modes.png (results)")
+    modes.set_defaults(packages=DRAWING)
+
+    instrument = commands.add_parser("instrument", help="all instruments, or one: sources of its numbers, bench tests, "
+                                                        "picture; exit code 1 if an error exceeds its limit")
+    instrument.add_argument("name", metavar="NAME", nargs="?", help="such as amplatz-super-stiff-0.035")
+    instrument.add_argument("--out", type=path, default=Path("results/instruments"), metavar="DIR",
+                            help="folder for NAME.png (results/instruments)")
+    instrument.set_defaults(packages=DRAWING)
+
+    tasks = commands.add_parser("tasks", help="tasks to train on: list them, score a policy, steer one by hand")
+    tasks.add_argument("task", metavar="TASK", nargs="?", help="name, or a scene.json with anatomy and target")
+    tasks.add_argument("--policy", choices=("retry", "random"), default="retry", help="policy that steers (retry)")
+    tasks.add_argument("--episodes", type=positive, default=50, metavar="N", help="number of episodes (50)")
+    tasks.add_argument("--seed", type=positive, default=1, metavar="S", help="seed of the first episode; the next "
+                                                                             "has S + 1 (1)")
+    tasks.add_argument("--jobs", type=positive, default=1, metavar="N", help="number of parallel environments (1)")
+    by_hand = tasks.add_mutually_exclusive_group()
+    by_hand.add_argument("--record", type=path, metavar="FILE",
+                         help="open the page of the task, and save the steering when the command ends (Ctrl-C)")
+    by_hand.add_argument("--replay", type=Path, metavar="FILE", help="repeat a recorded episode")
+    tasks.add_argument("--open", action="store_true", help="open the page in a browser")
+    tasks.set_defaults(packages=(*DRAWING, *VIEWING))
+
+    python = commands.add_parser("python", help="run a script that imports guidewire, with a Python that has the "
+                                                "packages it needs")
+    python.add_argument("script", metavar="SCRIPT", type=Path, help="Python file: 'from guidewire import Session'")
+    python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
+    python.set_defaults(packages=DRAWING)
+
+    native = commands.add_parser("native", help="build the native library (needs gcc), with which short calls of "
+                                                "sessions take two thirds of the time")
+    native.set_defaults(packages=())
+
+    package = commands.add_parser("package", help="build the Python wheel and the NuGet packages (needs gcc)")
+    package.add_argument("kinds", metavar="KIND", nargs="*", choices=("wheel", "nuget", []),
+                         help="wheel or nuget; default: both")
+    package.add_argument("--out", type=path, default=Path("dist"), metavar="DIR", help="folder of the files (dist)")
+    package.set_defaults(packages=())
+
+    scenes = commands.add_parser("scenes", help="list the scenes that come with the program, or copy them")
+    scenes.add_argument("--copy", type=path, metavar="DIR", help="copy them into DIR/params")
+    scenes.set_defaults(packages=())
+
+    bench = commands.add_parser("bench", help="cost of a step, part by part, or overhead of short runs")
+    bench.add_argument("--runs", type=positive, metavar="N",
+                       help="overhead of N short runs of a sweep, beyond their steps")
+    bench.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N", help="simultaneous runs")
+    bench.set_defaults(packages=SWEEPING)
+
+    check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
+    check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
+    check.set_defaults(packages=())
+    arguments = parser.parse_args(argv)
+    if arguments.command == "view" and is_anatomy(arguments.what[0]):
+        arguments.packages = (*arguments.packages, *ANATOMY)
+    return arguments
+
+
+def _add_overrides(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
+                        help="override a parameter of the file; may be given several times")
+
+
+def _add_anatomy(commands: argparse._SubParsersAction) -> None:
+    anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one "
+                                                  "generated: inspected, repaired, with its centreline and a scene")
+    source = anatomy.add_mutually_exclusive_group(required=True)
+    source.add_argument("file", metavar="FILE", type=Path, nargs="?",
+                        help=".stl, .obj, .ply, .vtp; masks .nii, .nii.gz, .nrrd; centrelines .csv, .vtp, .mrk.json")
+    source.add_argument("--make", choices=("arch", "iliac", "siphon", "coronary"), help="make a vessel instead")
+    anatomy.add_argument("--type", type=positive, default=1, metavar="K", help="of the arch: 1, 2 or 3 (1)")
+    anatomy.add_argument("--seed", type=positive, default=1, metavar="N", help="of what is made (1)")
+    anatomy.add_argument("--stenosis", type=above_zero, metavar="F", help="made with a stenosis that leaves F of the "
+                                                                          "diameter, such as 0.4")
+    anatomy.add_argument("--aneurysm", type=above_zero, metavar="F", help="made with an aneurysm of F diameters")
+    anatomy.add_argument("--out", type=path, help="folder of the results (results/anatomy/<name of FILE>)")
+    anatomy.add_argument("--look", action="store_true", help="report and picture only")
+    anatomy.add_argument("--open", action="store_true", help="cut closed ends open")
+    anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="unit of the coordinates (guessed from the size)")
+    anatomy.add_argument("--label", type=finite, metavar="N", help="of a mask: value of the vessel's voxels")
+    anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
+    anatomy.add_argument("--region", type=positive, metavar="K",
+                         help="among the voxels of --label or --threshold: the K-th largest connected region "
+                              "(default 1)")
+    anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
+                                                                        "(a tenth of a voxel)")
+    anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")
+    anatomy.add_argument("--target", metavar="END",
+                         help="number or name of the end that it is pushed to (of those about as far as the farthest, the "
+                         "one with the widest path)")
+    anatomy.add_argument("--wire", type=above_zero, default=0.36, metavar="MM", help="diameter of the wire (0.36)")
+    anatomy.set_defaults(packages=ANATOMY)
+
+
+def _add_workers(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--jobs", type=positive, default=os.cpu_count() or 1, metavar="N",
+                        help="simultaneous untimed runs (one per processor); timed runs are made one at a time")
+    parser.add_argument("--cluster", metavar="ADDRESS",
+                        help="dask scheduler, such as tcp://host:8786, whose workers make the runs")
+
+
+def _add_runner(parser: argparse.ArgumentParser) -> None:
+    parser.add_argument("--runner", choices=("headless", "unity"), default="headless",
+                        help="program that makes the runs: the console program (default), or Unity in batch mode")
+    parser.add_argument("--unity", metavar="PATH", help="Unity editor or player (or the environment's GUIDEWIRE_UNITY)")

@@ -1,0 +1,36 @@
+"""Catheters and the sheath in the pictures of `guidewire.py render`."""
+
+from __future__ import annotations
+
+import numpy as np
+
+from guidewire.figures.render import Instrument, instruments_of
+from guidewire.logs.logs import PositionLog
+from guidewire.logs.runs import PARAMETERS_NAME, Run
+from guidewire.prepare import PreparationError
+from guidewire.sessions.session import SessionError, session_of
+from guidewire.viewer.recording import read_recording
+
+
+def instruments_and_sheath(run: Run, log: PositionLog) -> tuple[tuple[Instrument, ...], np.ndarray | None]:
+    """The wire and the catheters over it, none for a wire alone; and the ends of the sheath, (2, 3), units, or None.
+
+    Raises
+    ------
+    PreparationError : the run's parameters cannot be used any more; one line.
+    LogError : the log cannot be read, or does not have every sphere.
+    """
+    if not log.catheters and run.parameters.get("sheath") is None:
+        return (), None
+    recording = read_recording(run, [], len(log.steps), {})
+    if not log.catheters:
+        return (), recording.sheath
+    values = {channel.name: channel.values[:, 0] for channel in recording.channels if channel.place == "frame"}
+    hubs = [np.stack([values[f"{hub}Insertion"], values[f"{hub}Turn"]], axis=1)
+            if f"{hub}Insertion" in values and len(values["time"]) == len(log.steps) else None
+            for hub in ("hub", *(f"hub{k + 1}" for k in range(len(log.catheters))))]
+    try:
+        with session_of(run.folder / PARAMETERS_NAME) as session:
+            return instruments_of(session.describe()["instruments"], hubs), recording.sheath
+    except SessionError as error:
+        raise PreparationError(str(error)) from error

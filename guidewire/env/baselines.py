@@ -1,0 +1,92 @@
+"""Baseline policies: turn and retry, and random actions."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+
+from guidewire.env.environment import Environment
+
+
+class TurnAndRetry:
+    """Pushes; where the way to the target has become longer, or no shorter for a while, it pulls back until the tip is
+    out of the wrong branch and before its mouth, turns, and pushes again.
+
+    Parameters
+    ----------
+    environment : with continuous actions, and "distance" and "hub" in its observation.
+    wrong : by which the distance has grown in a wrong branch, units, beyond what it grows by at a branch's mouth: its
+        centreline begins on that of its parent, so the place of a tip that enters it, or only passes it, jumps by
+        about the parent's radius; one and a half of the largest radius are allowed for.
+    patience : steps without progress.
+    back : from the mouth, units.
+    turn : between two tries, rad; by the golden angle no two tries have the same side.
+    """
+
+    def __init__(self, environment: Environment, wrong: float = 3.0, patience: int = 6, back: float = 12.0,
+                 turn: float = np.pi * (3.0 - 5.0**0.5)) -> None:
+        self._environment, self._wrong, self._patience = environment, wrong, patience
+        self._back, self._turn = back, turn
+        rate = environment.drive.rotation or environment.task.rotation
+        self._turn_of_step = rate * environment.drive.step_time
+
+    def reset(self, observation: Any) -> None:
+        """Another episode."""
+        self._best, self._waited = float(observation["distance"][0]), 0
+        self._limit = self._wrong + 1.5 * self._environment.widest
+        self._mouth: float | None = None    # least distance on the way back
+        self._to_turn = 0.0
+
+    def act(self, observation: Any) -> np.ndarray:
+        """The next action."""
+        distance, insertion = float(observation["distance"][0]), float(observation["hub"][0])
+        if self._mouth is not None:
+            self._mouth = min(self._mouth, distance)
+            if insertion > 0.5 and distance < self._mouth + self._back:
+                return np.array([-1.0, 0.0], dtype=np.float32)
+            self._mouth, self._to_turn = None, self._turn
+        if self._to_turn > 1e-9:
+            part = min(1.0, self._to_turn / self._turn_of_step)
+            self._to_turn -= part * self._turn_of_step
+            self._best, self._waited = distance, 0
+            return np.array([0.0, part], dtype=np.float32)
+        if distance < self._best - 0.2:
+            self._best, self._waited = distance, 0
+        else:
+            self._waited += 1
+        if distance > self._best + self._limit or self._waited > self._patience:
+            self._mouth = distance
+            return np.array([-1.0, 0.0], dtype=np.float32)
+        return np.array([1.0, 0.0], dtype=np.float32)
+
+
+class Chance:
+    """Even random actions, held for some steps, more forwards than backwards.
+
+    Parameters
+    ----------
+    environment : whose actions.
+    seed : of all of them.
+    """
+
+    def __init__(self, environment: Environment, seed: int = 0) -> None:
+        self._space, self._seed = environment.action_space, seed
+        self._episode = -1
+
+    def reset(self, observation: Any) -> None:
+        """Another episode, with a seed of its own."""
+        self._episode += 1
+        self._random = np.random.default_rng([self._seed, self._episode])
+        self._held = 0
+
+    def act(self, observation: Any) -> Any:
+        """The next action."""
+        if self._held == 0:
+            self._held = int(self._random.integers(1, 12))
+            if hasattr(self._space, "n"):
+                self._action = int(self._random.integers(self._space.n))
+            else:
+                self._action = self._random.uniform([-0.6, -1.0], [1.0, 1.0]).astype(np.float32)
+        self._held -= 1
+        return self._action

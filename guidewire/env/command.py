@@ -1,0 +1,107 @@
+"""`guidewire.py tasks`: lists tasks, scores policies, steers by hand and replays what was steered."""
+
+from __future__ import annotations
+
+import argparse
+import json
+import tempfile
+import time
+from collections.abc import Callable
+from concurrent.futures import ThreadPoolExecutor
+from pathlib import Path
+from typing import Any
+
+from guidewire.env import score
+from guidewire.env.baselines import Chance, TurnAndRetry
+from guidewire.env.environment import Environment
+from guidewire.env.recorded import RecordedDrive, digest_of
+from guidewire.env.spaces import Error
+from guidewire.env.task import all_tasks, find_task
+from guidewire.prepare import PreparationError
+from guidewire.sessions.session import SessionError
+
+POLICIES = {"retry": TurnAndRetry, "random": Chance}
+_BY_HAND = {"nominal": True, "insertion": 0.0}
+
+
+def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) -> int:
+    """List, or play, or steer, or replay; returns the exit code: 1 where an episode is not as it must be.
+
+    Raises
+    ------
+    PreparationError : one line, for a task or a file that cannot be used.
+    """
+    try:
+        if arguments.task is None:
+            for name, task in all_tasks().items():
+                print(f"{name}: {task.summary} ({len(task.targets)} targets, {task.time:g} s)")
+            return 0
+        if arguments.replay is not None:
+            return _replay(arguments.task, arguments.replay)
+        if arguments.record is not None:
+            return _steer(arguments.task, arguments.record, arguments.open, build_runner)
+        return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed, arguments.jobs)
+    except (Error, SessionError) as error:
+        raise PreparationError(str(error)) from error
+
+
+def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
+    began = time.monotonic()
+    seeds = range(seed, seed + episodes)
+    find_task(task)
+
+    def part(k: int) -> list[score.Played]:
+        with Environment(task) as environment:
+            played = []
+            for one in seeds[k::jobs]:
+                actor = POLICIES[policy](environment) if policy != "random" else Chance(environment, one)
+                played.append(score.play(environment, actor, one))
+            return played
+
+    with ThreadPoolExecutor(jobs) as pool:
+        played = sorted((one for own in pool.map(part, range(jobs)) for one in own), key=lambda one: one.seed)
+    print(score.table([policy], [played]))
+    faults = [f"seed {one.seed}: {fault}" for one in played for fault in one.faults]
+    for line in faults[:20]:
+        print(line)
+    ended = [one for one in played if one.report["end"] == "simulation"]
+    print(f"{task}, seeds {seed} to {seed + episodes - 1}: {len(faults)} faults, {len(ended)} ended by the simulation, "
+          f"bits {score.digest(played)}, {time.monotonic() - began:.0f} s")
+    for one in ended[:5]:
+        print(f"seed {one.seed}: {one.report['reason']}")
+    return 1 if faults else 0
+
+
+def _replay(task: str, file: Path) -> int:
+    with Environment(task) as environment:
+        report = environment.replay(RecordedDrive.load(file))
+    shown = {key: value for key, value in report.as_info().items() if key != "forces"}
+    print(json.dumps(shown, indent=2))
+    print("the same bits at the end as where it was recorded")
+    return 0
+
+
+def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[str]]) -> int:
+    from guidewire.viewer.command import serve_scene
+    from guidewire.viewer.held import HeldInstruments
+
+    task = find_task(name)
+    if file.suffix != ".json" or not file.resolve().parent.is_dir():
+        raise PreparationError(f"--record {file}: a file .json in a folder that is there")
+    with Environment(task) as environment:
+        environment.reset(options=_BY_HAND)
+        # The page lets it go on without end; the file's own drive, which nobody follows, stays within the wire.
+        scene: dict[str, Any] = {**environment.scene, "maxSimulationSteps": 1}
+    instruments = HeldInstruments()
+    with tempfile.TemporaryDirectory(prefix="guidewire-") as folder:
+        path = Path(folder) / f"{task.name}.json"
+        path.write_text(json.dumps(scene), encoding="utf-8")
+        serve_scene(path, build_runner, instruments, opens)
+    steered = instruments.steered[0]
+    if steered.problem or steered.state is None:
+        print("nothing recorded: " + (steered.problem or "no step was made"))
+        return 0
+    RecordedDrive(task.name, _BY_HAND, steered.calls, digest_of(steered.state), "by keys, through the page").save(file)
+    print(f"recorded: {file}, {len(steered.calls)} calls; "
+          f"'guidewire.py tasks {name} --replay {file}' does them again")
+    return 0

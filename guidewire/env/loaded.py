@@ -1,0 +1,122 @@
+"""Sessions that stay open between episodes: reading a vessel takes most of a second, restoring a start a few ms."""
+
+from __future__ import annotations
+
+import json
+from collections import OrderedDict
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from guidewire.env.route import Route
+from guidewire.env.spaces import Error
+from guidewire.env.task import Task
+from guidewire.sessions.session import Session, State
+
+_SESSIONS, _STARTS = 6, 64  # kept open, and snapshots kept of each
+_LARGEST_TURN = np.radians(20.0)  # a step of what turns the tip before an episode
+_LARGEST_PUSH = 2.0e-3  # m, a step of what inserts before an episode
+ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What a seed has drawn for an episode; see Task. tip_turn : rad; insertion : m."""
+
+    anatomy: int
+    target: int
+    instrument: str | None
+    friction: float
+    tip_turn: float
+    insertion: float
+
+
+class LoadedScene:
+    """A session with its vessel, and starts of episodes as snapshots.
+
+    Parameters
+    ----------
+    scene : parameters.
+    anatomy : of its vessel.
+    native : as of Session.
+    """
+
+    def __init__(self, scene: Mapping[str, Any], anatomy: Mapping[str, Any], native: bool | None) -> None:
+        if scene.get("catheters"):
+            raise Error("catheters: an environment has one wire and one hub; no scene of several instruments is taken")
+        self.scene, self.anatomy = {**scene, **ENDLESS}, anatomy
+        self.session = Session(None, hand=True, native=native, **self.scene)
+        self.unit = float(self.session.parameters["metresPerUnit"])    # m
+        self.time_step = float(self.session.parameters["timeStep"])
+        if self.session.state.hub is None:
+            self.session.close()
+            raise Error("an environment needs a wire of solver \"direct\"")
+        inside = self.session.state.hub.length_in_body
+        length = float(self.session.parameters["guidewireLength"]) * self.unit
+        # A sheathed wire can be fed until its proximal end is two of its elements from the sheath's exit.
+        step = length / len(self.session.state.orientations)
+        self.longest = float("inf") if inside is None else length - inside - 2.0 * step
+        self._starts: OrderedDict[tuple[float, float], bytes] = OrderedDict()
+        self._routes: dict[str, Route] = {}
+
+    def start(self, tip_turn: float, insertion: float) -> State:
+        """The wire at the start of an episode."""
+        key = (tip_turn, insertion)
+        if key == (0.0, 0.0):
+            return self.session.reset()
+        if key in self._starts:
+            self._starts.move_to_end(key)
+            return self.session.restore(self._starts[key])
+        state = self.session.reset()
+        if tip_turn:
+            state = self.session.step(turn=tip_turn, steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
+        if insertion:
+            state = self.session.step(push=insertion / self.unit, steps=int(np.ceil(insertion / _LARGEST_PUSH)))
+        if state.outcome is not None:
+            raise Error(f"the wire does not come to its start: {state.outcome}: {state.reason}")
+        self._starts[key] = self.session.save()
+        if len(self._starts) > _STARTS:
+            self._starts.popitem(last=False)
+        return state
+
+    def route(self, target: Any) -> Route:
+        """To a target of its vessel."""
+        key = json.dumps(target)
+        if key not in self._routes:
+            self._routes[key] = Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit)
+        return self._routes[key]
+
+
+class LoadedScenes:
+    """The newest scenes of a task.
+
+    Parameters
+    ----------
+    task : whose.
+    native : as of Session.
+    """
+
+    def __init__(self, task: Task, native: bool | None) -> None:
+        self._task, self._native = task, native
+        self._scenes: OrderedDict[tuple[Any, ...], LoadedScene] = OrderedDict()
+
+    def find(self, draw: Draw) -> tuple[LoadedScene, bool]:
+        """The scene of an episode, and whether it was open."""
+        key = (draw.anatomy, draw.instrument, draw.friction)
+        scene = self._scenes.get(key)
+        if scene is not None and scene.session.is_open:
+            self._scenes.move_to_end(key)
+            return scene, True
+        self._scenes[key] = scene = LoadedScene(*self._task.scene_of(*key), self._native)
+        if len(self._scenes) > _SESSIONS:
+            _, oldest = self._scenes.popitem(last=False)
+            oldest.session.close()
+        return scene, False
+
+    def close(self) -> None:
+        """End all sessions."""
+        for scene in self._scenes.values():
+            scene.session.close()
+        self._scenes.clear()

@@ -1,0 +1,68 @@
+"""The motion of the hub in an episode, saved to a file and replayed with the same bits."""
+
+from __future__ import annotations
+
+import hashlib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from guidewire.env.spaces import Error
+from guidewire.runs.whole_files import write_whole
+from guidewire.sessions.session import State
+
+_FORMAT = "guidewire drive 1"
+
+
+@dataclass(frozen=True)
+class RecordedDrive:
+    """Calls of a session, from the start of an episode.
+
+    Attributes
+    ----------
+    task : name.
+    options : of the reset that began it.
+    calls : push (units), turn (rad) and steps of each.
+    digest : of the wire at the end.
+    source : how it was steered.
+    """
+
+    task: str
+    options: Mapping[str, Any]
+    calls: Sequence[tuple[float, float, int]]
+    digest: str
+    source: str = ""
+
+    def save(self, file: str | Path) -> None:
+        """Write it as JSON; numbers read back to the same bits."""
+        write_whole(Path(file), json.dumps({"format": _FORMAT, "task": self.task, "options": self.options,
+                                            "source": self.source, "digest": self.digest, "calls": self.calls}) + "\n")
+
+    @staticmethod
+    def load(file: str | Path) -> RecordedDrive:
+        """Read one.
+
+        Raises
+        ------
+        Error : the file is missing or is no recorded drive.
+        """
+        try:
+            read = json.loads(Path(file).read_text(encoding="utf-8"))
+            if read["format"] != _FORMAT:
+                raise ValueError(f"format is {read['format']!r}")
+            return RecordedDrive(read["task"], read["options"], [tuple(call) for call in read["calls"]],
+                                 read["digest"], read["source"])
+        except OSError as error:
+            raise Error(f"{file}: {error.strerror}") from error
+        except (ValueError, KeyError, TypeError) as error:
+            raise Error(f"{file}: no recorded drive ({error})") from error
+
+
+def digest_of(state: State) -> str:
+    """A sum over the bits of positions, velocities, orientations and spins."""
+    parts = (state.positions, state.velocities, state.orientations, state.angular_velocities)
+    return hashlib.sha256(b"".join(np.ascontiguousarray(part, dtype="<f8").tobytes() for part in parts)).hexdigest()

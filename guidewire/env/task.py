@@ -1,0 +1,182 @@
+"""Definition of a task: scenes, targets, and the ranges from which episodes are drawn by seed."""
+
+from __future__ import annotations
+
+import difflib
+import json
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache
+from pathlib import Path
+from typing import Any
+
+from guidewire.env.spaces import Error, NameNotFound
+from guidewire.env.vessels import made_vessel
+from guidewire.prepare import ROOT
+
+FOLDER = Path(__file__).resolve().parent / "data"
+TASKS_FILE = FOLDER / "tasks.json"
+_WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
+_STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
+_KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
+         "insertion", "time", "tolerance", "speed", "rotation"}
+
+
+@dataclass(frozen=True)
+class Task:
+    """A task. Lengths are units of the scene, mm in those that ship.
+
+    Attributes
+    ----------
+    name, summary : as listed.
+    scene : parameter file; "" where each anatomy has its own.
+    overrides : keys that override the scene's.
+    anatomies : of each vessel an episode may have: path of its anatomy.json beside which, with no `scene`, is its
+        scene.json; or "make", "type", "seed", "inlet" and "target" of one that is generated when it is first needed;
+        in a file, "seeds" for several of a kind.
+    targets : ends by name or number, or branches with the distance from their beginning; an episode has one.
+    instruments : by name; none: the scene's own wire.
+    frictions : coefficients that an episode may have.
+    tip_turns : number of even steps of a turn in which the tip may be turned at the start; 1: as in the scene.
+    insertion : of the hub at the start of an episode, m.
+    time : simulated time after which an episode is truncated, s.
+    tolerance : distance along the centreline at which the target is reached, units.
+    speed, rotation : fastest of the hub, m/s and rad/s.
+    """
+
+    name: str
+    summary: str = ""
+    scene: str = ""
+    overrides: Mapping[str, Any] = field(default_factory=dict)
+    anatomies: Sequence[Any] = ()
+    targets: Sequence[Any] = ()
+    instruments: Sequence[str] = ()
+    frictions: Sequence[float] = (0.0,)
+    tip_turns: int = 1
+    insertion: float = 0.0
+    time: float = 20.0
+    tolerance: float = 3.0
+    speed: float = 0.02
+    rotation: float = 3.141592653589793
+
+    def scene_of(self, anatomy: int, instrument: str | None, friction: float
+                 ) -> tuple[dict[str, Any], Mapping[str, Any]]:
+        """Parameters of an episode's scene, with absolute paths, and its anatomy.
+
+        Raises
+        ------
+        Error : a file is missing, or is no JSON.
+        """
+        which = self.anatomies[anatomy]
+        folder = made_vessel(which) if isinstance(which, Mapping) else None
+        file = folder / "anatomy.json" if folder else Path(which)
+        scene_file = Path(self.scene) if self.scene else file.with_name("scene.json")
+        scene = {**_read(scene_file), **self.overrides}
+        vessel = {**scene["vessel"], "frictionCoefficient": friction}
+        for key in ("file", "anatomy"):
+            if key in vessel:
+                vessel[key] = str((scene_file.parent / vessel[key]).resolve())
+        scene["vessel"] = vessel
+        if instrument is not None:
+            scene = {key: value for key, value in scene.items() if key not in _WIRE} | {"instrument": instrument}
+        return scene, _read(file)
+
+
+@cache
+def all_tasks() -> Mapping[str, Task]:
+    """The tasks that ship, by name."""
+    return {name: _task(name, entry, TASKS_FILE) for name, entry in _read(TASKS_FILE).items()}
+
+
+def find_task(task: str | Path | Task) -> Task:
+    """A task by name, or that of a scene.json which `guidewire.py anatomy` has written, or a JSON file of a task.
+
+    Raises
+    ------
+    NameNotFound : there is no such task.
+    Error : a file cannot be used; one line says why.
+    """
+    if isinstance(task, Task):
+        return task
+    known = all_tasks()
+    if str(task) in known:
+        return known[str(task)]
+    path = Path(task)
+    if path.suffix != ".json":
+        near = difflib.get_close_matches(str(task), known, 1)
+        hint = f"did you mean '{near[0]}'?" if near else f"there are {', '.join(known)}, or a JSON file"
+        raise NameNotFound(f"there is no task '{task}': {hint}")
+    path = path.resolve()
+    entry = _read(path)
+    if not isinstance(entry, dict):
+        raise Error(f"{path}: a task is one JSON object")
+    if "vessel" not in entry:
+        return _task(path.stem, entry, path)
+    if not isinstance(entry["vessel"], dict) or "anatomy" not in entry["vessel"] or "target" not in entry:
+        raise Error(f"{path}: a task needs vessel.anatomy and target: 'guidewire.py anatomy FILE' writes such a scene")
+    time_step, steps = (_number(entry, key, 1e-9, 1e9, path) for key in ("timeStep", "maxSimulationSteps"))
+    return Task(path.stem, f"{path.name} to end {entry['target']}", str(path),
+                overrides={"timeStep": _STEP / max(1, round(_STEP / time_step))},
+                anatomies=(str(path.parent / entry["vessel"]["anatomy"]),), targets=(entry["target"],),
+                frictions=(float(entry["vessel"].get("frictionCoefficient", 0.0)),),
+                time=2.0 * steps * time_step + 10.0)
+
+
+def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
+    unknown = set(entry) - _KEYS
+    if unknown:
+        raise Error(f"{file}: task {name} has no key \"{sorted(unknown)[0]}\": there are {', '.join(sorted(_KEYS))}")
+    if not isinstance(entry.get("overrides", {}), dict) or not isinstance(entry.get("scene", ""), str):
+        raise Error(f"{file}: task {name}: overrides is an object and scene a text")
+    for key in ("anatomies", "targets", "instruments", "frictions"):
+        if not isinstance(entry.get(key, []), list):
+            raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
+    for key, least in (("time", 1e-6), ("tolerance", 1e-9), ("speed", 1e-9), ("rotation", 1e-9), ("insertion", 0.0),
+                       ("tipTurns", 1)):
+        if key in entry:
+            _number(entry, key, least, 1e9, file)
+    given = {{"tipTurns": "tip_turns"}.get(key, key): value for key, value in entry.items()}
+    if "anatomies" in given:
+        given["anatomies"] = [each for one in given["anatomies"] for each in _vessels(one, name, file)]
+    if given.get("scene"):
+        given["scene"] = _beside(file, given["scene"])
+    task = Task(name, **given)
+    if not task.anatomies or not task.targets:
+        raise Error(f"{file}: task {name} needs anatomies and targets")
+    return task
+
+
+def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:
+    """One vessel, or one for each of the "seeds" of a kind that is generated."""
+    if isinstance(anatomy, str):
+        return [_beside(file, anatomy)]
+    if not isinstance(anatomy, dict):
+        return [anatomy]
+    seeds = anatomy.get("seeds", [anatomy.get("seed")])
+    is_list = isinstance(seeds, list) and seeds and all(type(seed) is int and seed >= 0 for seed in seeds)
+    if not is_list or "seeds" in anatomy and "seed" in anatomy or not {"make", "inlet", "target"} <= set(anatomy):
+        raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: a generated vessel needs make, inlet, "
+                    "target, and seed or a list of seeds, whole numbers from 0")
+    kind = {key: value for key, value in anatomy.items() if key != "seeds"}
+    return [{**kind, "seed": seed} for seed in seeds]
+
+
+def _beside(file: Path, name: str) -> str:
+    """A file that a task names: relative to the task's own file, else one that comes with the program."""
+    return str(next((place for place in (file.parent / name, ROOT / name) if place.is_file()), file.parent / name))
+
+
+def _number(entry: Mapping[str, Any], key: str, least: float, most: float, file: Path) -> float:
+    value = entry.get(key)
+    if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
+        raise Error(f"{file}: {key} = {json.dumps(value)} is not allowed: needs a number from {least:g} to {most:g}")
+    return value
+
+
+def _read(file: Path) -> Any:
+    try:
+        return json.loads(file.read_text(encoding="utf-8"))
+    except OSError as error:
+        raise Error(f"{file}: {error.strerror}") from error
+    except ValueError as error:
+        raise Error(f"{file}: no JSON: {error}") from error

@@ -1,0 +1,72 @@
+"""Generated vessels, cached on disk."""
+
+from __future__ import annotations
+
+import hashlib
+import importlib.util
+import json
+import os
+import shutil
+import tempfile
+from collections.abc import Mapping
+from pathlib import Path
+from typing import Any
+
+from guidewire.env.spaces import Error
+
+_MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "output", "mesh", "intersections")
+
+
+def made_vessel(which: Mapping[str, Any]) -> Path:
+    """Folder of a generated vessel with vessel.obj, anatomy.json and scene.json.
+
+    Parameters
+    ----------
+    which : "make", "type" and "seed" as of `guidewire.py anatomy`; "inlet" and "target", numbers of ends.
+
+    Notes
+    -----
+    Made in the user's cache folder, under a name that holds a sum over the generator's sources: other sources, another
+    vessel. Needs vtk, and a minute, when it is made.
+    """
+    generator = Path(__file__).parents[1] / "anatomy"
+    sources = b"".join((generator / f"{name}.py").read_bytes() for name in _MADE_BY)
+    sum_of = hashlib.sha256(sources + json.dumps(which, sort_keys=True).encode()).hexdigest()[:16]
+    name = f"{which['make']}-{which.get('type', 1)}-{which['seed']}-{sum_of}"
+    folder = _cache() / name
+    if not (folder / "scene.json").is_file():
+        folder.parent.mkdir(parents=True, exist_ok=True)
+        partial = Path(tempfile.mkdtemp(prefix=f"{name}.", dir=folder.parent))
+        try:
+            _make(which, partial)
+            os.rename(partial, folder)
+        except OSError:
+            if not (folder / "scene.json").is_file():    # nobody else has made it meanwhile
+                raise
+        finally:
+            shutil.rmtree(partial, ignore_errors=True)
+    return folder
+
+
+def _make(which: Mapping[str, Any], folder: Path) -> None:
+    if importlib.util.find_spec("vtkmodules") is None:
+        raise Error(f"a vessel of kind {which['make']} is made with vtk: pip install vtk, or apt-get install "
+                    "python3-vtk9")
+    from guidewire.anatomy import output, shapes
+    from guidewire.anatomy.centreline import find_centreline
+    from guidewire.anatomy.inspection import inspect
+    from guidewire.anatomy.repair import repair
+
+    mesh, unit, _ = shapes.make(which["make"], which.get("type", 1), which["seed"], None, None)
+    found = inspect(mesh, unit)
+    repaired = repair(mesh)
+    line = find_centreline(repaired.mesh, repaired.rims)
+    inlet, target = (output.find_end(line, str(which[key])) for key in ("inlet", "target"))
+    output.write_vessel(folder, repaired.mesh, line, found.unit, str(which))
+    scene = output.scene(line, found.unit, inlet, target, which.get("diameter", 0.36))
+    (folder / output.SCENE).write_text(json.dumps(scene, indent=2) + "\n", encoding="utf-8")
+
+
+def _cache() -> Path:
+    base = os.environ.get("XDG_CACHE_HOME")
+    return (Path(base) if base else Path.home() / ".cache") / "guidewire" / "vessels"

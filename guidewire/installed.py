@@ -1,0 +1,53 @@
+"""Whether this is the repository or the installed package, and the paths in the latter.
+
+In the package `params`, `instruments` and `docs` lie below `guidewire`, and programs are built already; commands that
+build, check or draw what only the repository has are refused.
+"""
+
+from __future__ import annotations
+
+import importlib.metadata
+import re
+from pathlib import Path
+
+from guidewire.prepare import INSTALLED, ROOT, PreparationError
+
+NATIVE = ROOT / "native"  # folder of the programs, in the package
+RUNNER = "guidewire-runner"
+LIBRARY = {True: "guidewire-x86-64-v3.so", False: "guidewire-x86-64.so"}  # by whether the processor has AVX2
+_NUMBER = re.compile(r'Number = "([^"]+)"')
+_FLAGS = {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "abm"}  # x86-64-v3, for which the library is compiled
+
+
+def version() -> str:
+    """The program's version."""
+    if INSTALLED:
+        return importlib.metadata.version("guidewire")
+    text = (ROOT / "Assets" / "Guidewire" / "Core" / "ProgramVersion.cs").read_text(encoding="utf-8")
+    return _NUMBER.search(text)[1]
+
+
+def has_avx2() -> bool:
+    """Whether this processor is of x86-64-v3; a library that was compiled for it would end the process elsewhere."""
+    try:
+        text = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
+    except OSError:
+        return False
+    flags = next((line.partition(":")[2].split() for line in text.splitlines() if line.startswith("flags")), [])
+    return _FLAGS <= set(flags)
+
+
+def runner() -> list[str]:
+    """The command that starts the package's runner, which takes the library for this processor."""
+    return [str(NATIVE / RUNNER)]
+
+
+def library() -> Path:
+    """The package's library for this processor."""
+    return NATIVE / LIBRARY[has_avx2()]
+
+
+def refuse(what: str) -> None:
+    """Raises PreparationError in the package: what can be done in the repository only."""
+    if INSTALLED:
+        raise PreparationError(f"{what} needs the repository: this is the installed package")

@@ -1,0 +1,88 @@
+"""Quantities at the hub and the tip over time, from a log with ``logHub``."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass, fields
+from pathlib import Path
+
+import numpy as np
+
+from guidewire.logs.logs import LogError, find_log, read_entries
+
+
+@dataclass(frozen=True)
+class HubLog:
+    """All entries of one log, ``k`` of them; SI units but for `tip`.
+
+    Attributes
+    ----------
+    time : (k,), in s.
+    insertion, turn : (k,), displacement of the hub along its axis, m, and rotation about it, rad, since the start.
+    force, torque : (k,), of the hub on the wire, N and N m; a push is positive.
+    twist : (k,), of the wire from hub to tip, rad.
+    largest_curvature : (k,), of any joint, 1/m.
+    tip, tip_direction : (k, 3), in units; a unit vector.
+    """
+
+    time: np.ndarray
+    insertion: np.ndarray
+    turn: np.ndarray
+    force: np.ndarray
+    torque: np.ndarray
+    twist: np.ndarray
+    largest_curvature: np.ndarray
+    tip: np.ndarray
+    tip_direction: np.ndarray
+
+
+_KEYS = {"insertion": "insertion", "turn": "turn", "force": "force", "torque": "torque", "twist": "twist",
+         "largest_curvature": "largestCurvature"}
+
+
+def read_hub(path: Path) -> HubLog:
+    """Reads a log or a run folder's log.
+
+    Raises
+    ------
+    LogError : the log cannot be read, or says nothing of the hub.
+    """
+    rows: dict[str, list] = {field.name: [] for field in fields(HubLog)}
+    for _, entry in read_entries(path):
+        hub = entry.get("hub")
+        if hub is None:
+            raise LogError(f"{find_log(path)}: has no data of the hub: needs a run of solver direct with logHub")
+        rows["time"].append(entry["totalTime"])
+        tip = entry["sphere"][max(entry["sphere"], key=int)]
+        rows["tip"].append([tip[axis] for axis in "xyz"])
+        rows["tip_direction"].append([hub["tipDirection"][axis] for axis in "xyz"])
+        for name, key in _KEYS.items():
+            rows[name].append(hub[key])
+    if not rows["time"]:
+        raise LogError(f"{find_log(path)}: holds no whole step")
+    return HubLog(**{name: np.asarray(values, dtype=float) for name, values in rows.items()})
+
+
+_SUDDEN = math.radians(1.0)  # of turning, within which a snap takes place
+
+
+def snap_turns(turn: np.ndarray, torque: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Between which turns of a hub its instrument has snapped: where, within a degree of turning or between two
+    entries, the torque has changed by more than half of its largest.
+
+    Parameters
+    ----------
+    turn, torque : (k,), in rad and in any unit.
+
+    Returns
+    -------
+    tuple of ndarray
+        Turns of the entries before and after each snap, rad.
+    """
+    turned = np.concatenate(([0.0], np.cumsum(np.abs(np.diff(turn)))))
+    far = np.maximum(np.searchsorted(turned, turned + _SUDDEN, side="right") - 1, np.arange(1, len(turn) + 1))
+    far = np.minimum(far, len(turn) - 1)
+    sudden = np.abs(torque[far] - torque) > 0.5 * np.max(np.abs(torque), initial=0.0)
+    steps = np.abs(np.diff(torque))
+    found = sorted({k + int(np.argmax(steps[k:far[k]])) for k in np.flatnonzero(sudden)})
+    return turn[found], turn[[k + 1 for k in found]]

@@ -1,0 +1,373 @@
+"""A run controlled by a Python script: stepped, saved, restored; any number of them in parallel.
+
+    with Session("params/insertion.json", bendStiffness=0.05) as session:
+        state = session.step(push=1.0, turn=0.1, steps=10)
+        state.positions[-1]   # the tip, units
+
+The native library simulates where it was built (`guidewire.py native`), else a runner process for each session; either
+gives the same bits.
+"""
+
+from __future__ import annotations
+
+import base64
+import json
+import math
+import sys
+import threading
+import warnings
+import weakref
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from types import TracebackType
+from typing import Any
+
+import numpy as np
+
+from guidewire.runs import building
+from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
+from guidewire.sessions.session_state import (
+    Frames, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
+)
+
+_MOST = 1 << 31  # from here on a number does not fit a request of the library's
+
+
+class Session:
+    """A run that goes on step by step, as `step` says.
+
+    Parameters
+    ----------
+    file : parameter file, from the folder where the script runs; None: the defaults count.
+    hand : whether `push` and `turn` of `step` move the first sphere, in place of the file's drive. None: where the
+        wire is gains; a wire with a material has its file's drive.
+    native : whether the native library simulates, in this process. None: where it has been built from these sources.
+    overrides : parameters by key, overriding the file's: numbers, texts, lists, dicts, numpy arrays; parts of them
+        as `**{"vessel.radius": 4.0}`.
+
+    Attributes
+    ----------
+    state : the wire as it is now.
+    parameters : every effective value by key.
+    hand : whether a hand moves the first sphere.
+
+    Raises
+    ------
+    SessionError : the file, a key or a value cannot be used; one line says which and what is allowed.
+    guidewire.prepare.PreparationError : the runner cannot be built.
+
+    Warns
+    -----
+    UserWarning : what is allowed and most likely not meant, such as a key of the file that the solver does not take.
+    """
+
+    def __init__(self, file: str | Path | None = None, hand: bool | None = None, native: bool | None = None,
+                 **overrides: Any) -> None:
+        self._host: Library | Process | None = _host(native)
+        self._lock = threading.RLock()    # one asks it at a time; a state may be read off in another thread
+        self._state: State | None = None    # the newest, once something has been read off
+        self._newest: Callable[[], State | None] = lambda: None    # while somebody has it, the same
+        self._head = (0, 0.0, 0.0)    # of the newest: steps, time, prediction error
+        self._layout: dict[str, tuple[int, ...]] = {}
+        try:
+            asked: dict[str, Any] = {"set": overrides, "hand": hand}
+            if file is not None:
+                asked["parameters"] = str(file)
+            answer = self._ask("open", **asked)
+        except BaseException:
+            self.close()
+            raise
+        self.parameters: Mapping[str, Any] = answer["effective"]
+        self.hand: bool = answer["hand"]
+        self._take(answer)
+        for line in answer["warnings"]:
+            warnings.warn(line, stacklevel=2)
+
+    @property
+    def is_open(self) -> bool:
+        """Whether it can still be asked: not closed, and its runner lives."""
+        return self._host is not None
+
+    @property
+    def state(self) -> State:
+        """The wire as it is now."""
+        state = self._state
+        if state is None:
+            with self._lock:
+                state = self._state or self._newest() or self._unread()
+        return state
+
+    def step(self, push: float = 0.0, turn: float = 0.0, steps: int = 1, hub: int = 0) -> State:
+        """Go on by some steps of `timeStep`, fewer where the run ends before.
+
+        Parameters
+        ----------
+        push : displacement of the first sphere in all of them, units; negative values pull. Along the first element,
+            or along displacementDirection where the drive of a wire with a material is "displace".
+        turn : turn of the first element about its axis in all of them, rad.
+        steps : number of steps, from 1; push and turn are made in equal parts.
+        hub : whose hub push and turn move, along and about its axis: 0 the wire's, k that of catheter k; the others
+            rest. Without a hand it says nothing.
+
+        Raises
+        ------
+        SessionError : a value is not allowed, or the run has ended before (`state.outcome`). What a hand steers is not
+            ended by `maxSimulationSteps`.
+        """
+        push, turn = _number("push", push), _number("turn", turn)
+        steps, hub = _whole("steps", steps, "1"), _whole("hub", hub, "0, the wire's")
+        if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < _MOST):
+            return self._move("step", push=push, turn=turn, steps=steps, hub=hub)
+        with self._lock:
+            self._leave(keeps=steps > STEPS_AT_ONCE)
+            made = self._guarded(lambda host: host.step(push, turn, hub, steps))
+            if isinstance(made, dict):
+                return self._take(_accepted(made))
+            self._state, self._head = None, made
+            return self._unread()
+
+    def record(self, frames: int, steps: int = 1) -> Frames:
+        """Go on, and keep the state as it is now and after each of some numbers of steps.
+
+        Parameters
+        ----------
+        frames : number of states beside the present one, from 1; fewer where the run ends before.
+        steps : steps between two of them, from 1.
+
+        Raises
+        ------
+        SessionError : as `step`.
+        """
+        if isinstance(frames, (bool, np.bool_)) or not isinstance(frames, (int, np.integer)) or frames < 1:
+            raise SessionError(f"frames = {frames!r} is not allowed: needs a whole number from 1")
+        state = self.state
+        times, positions, directors = [state.time], [state.positions], [state.directors]
+        while len(times) <= frames and state.outcome is None:
+            state = self.step(steps=steps)
+            times.append(state.time)
+            positions.append(state.positions)
+            directors.append(state.directors)
+        return Frames(np.array(times), np.stack(positions), np.stack(directors), state.outcome, state.reason)
+
+    def reset(self) -> State:
+        """Go back to the start."""
+        return self._move("reset")
+
+    def change(self, **parameters: Any) -> State:
+        """Change parameters, such as `timeStep`, or parts of them, such as `**{"vessel.frictionCoefficient": 0.1}`; the
+        wire continues from its current state. What takes the place of an override counts after a `reset` too."""
+        with self._lock:
+            self._leave()
+            answer = self._ask("change", set=parameters)
+            self.parameters = answer["effective"]
+            return self._take(answer)
+
+    def save(self) -> bytes:
+        """All that the next steps depend on, for `restore` here or in another session of the same parameters."""
+        return base64.b64decode(self._ask("save")["snapshot"])
+
+    def restore(self, saved: bytes) -> State:
+        """Go on from what was saved: the same steps then give the same bits, but for rounding between walls that are
+        meshes and in a sheath that is not along an axis of the scene."""
+        return self._move("restore", snapshot=base64.b64encode(saved).decode("ascii"))
+
+    def describe(self) -> dict[str, Any]:
+        """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
+        "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
+        element "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
+        to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
+        answer = self._ask("describe")
+        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}
+
+    def picture(self, **view: Any) -> np.ndarray:
+        """A fluoroscopic picture of the wire as it is now: grey levels from 0 to 255, (pixels, pixels) of uint8, the
+        first row above. Rays are parallel; the patient's head is towards +z, the chest towards +x, the left side
+        towards +y.
+
+        Parameters
+        ----------
+        pixels : of a side (256).
+        lao, cranial : angles of the C-arm, degrees (0, 0); RAO and caudal are negative.
+        centre : what is in the middle, units, and
+        field_of_view : side of the picture, mm: so that the vessel is seen, or without one the wire.
+        vessel : "roadmap" (brighter than the background), "contrast" (darker) or "none".
+        contrast : attenuation coefficient of contrast agent, 1/mm (0.1: iodine of 130 mg/ml at 60 keV).
+        attenuation : coefficient of the instruments, 1/mm; by their materials.
+        background : brightness beside all, from 0 to 1 (0.75).
+        noise, seed : standard deviation over brightness, of the background (0), and which of all noises (0).
+        blur : standard deviation of the spot, mm (0).
+
+        Raises
+        ------
+        SessionError : a value is not allowed, or the session is closed; one line.
+        """
+        return self.picture_of(None, **view)
+
+    def picture_of(self, positions: np.ndarray | Sequence[np.ndarray] | None, **view: Any) -> np.ndarray:
+        """As `picture`, of a wire with nodes elsewhere, (n+1, 3), units; with catheters of a list of the wire's and
+        each catheter's, outermost first."""
+        for name, value in view.items():
+            if isinstance(value, (float, np.floating)) and not math.isfinite(value):
+                raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
+        if "field_of_view" in view:
+            view["fieldOfView"] = view.pop("field_of_view")
+        several = positions if isinstance(positions, (list, tuple)) else [positions]
+        nodes = None if positions is None else np.concatenate([np.asarray(one, dtype="<f8").ravel() for one in several])
+        text = json.dumps(view, default=_plain)
+        if isinstance(self._host, Library):
+            made = self._guarded(lambda host: host.picture(text, nodes))
+            if isinstance(made, np.ndarray):
+                return made
+            raise SessionError(_accepted(made)["message"])
+        positions_text = "" if nodes is None else base64.b64encode(nodes.tobytes()).decode("ascii")
+        answer = self._ask("picture", view=view, positions=positions_text)
+        grey = np.frombuffer(base64.b64decode(answer["grey"]), dtype=np.uint8)
+        return grey.reshape(answer["pixels"], answer["pixels"]).copy()
+
+    def read(self, state: State, part: int) -> None:
+        """Read a part of a state of this session off; states ask for it themselves."""
+        with self._lock:
+            if part not in unread(state):    # another thread has done so
+                return
+            arrays = self._guarded(lambda host: host.read(part, self._layout))
+            if arrays is not None:
+                fill(state, part, arrays)
+            else:    # other arrays than before
+                arrays = self._laid_out(self._ask("state"))
+                for other in unread(state):
+                    fill(state, other, arrays)
+            self._state = state
+
+    def close(self) -> None:
+        """End the runner. Nothing but `state` can be asked for afterwards. Steps under way in another thread have ten
+        seconds to end; then they raise SessionError."""
+        if not self._lock.acquire(timeout=SECONDS_TO_END):
+            self.kill()
+            self._lock.acquire()
+        try:
+            if self._host is not None:
+                self._leave()
+                if isinstance(self._host, Library):    # a step that was interrupted may have come further
+                    answer = self._host.last()
+                    if answer["exitCode"] == 0 and (self._state is None or self._state.step != answer["step"]):
+                        self._take(answer)
+                self._end()
+        finally:
+            self._lock.release()
+
+    def kill(self) -> None:
+        """End the runner at once, whatever it is doing; from any thread. A step under way raises SessionError."""
+        host = self._host
+        if host is not None:
+            host.kill()
+
+    def __enter__(self) -> Session:
+        return self
+
+    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: TracebackType | None
+                 ) -> None:
+        self.close()
+
+    def __del__(self) -> None:
+        if getattr(self, "_host", None) is not None:
+            self._leave()
+            self._end()
+
+    def _end(self) -> None:
+        host, self._host = self._host, None
+        host.close()
+
+    def _leave(self, keeps: bool = False) -> None:
+        """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then; all of
+        it where the session `keeps` it, for other threads to see during long steps."""
+        if self._state is None or unread(self._state):
+            newest = self.state if keeps else None
+            self._state = None
+            newest = newest or self._newest()
+            if newest is not None:
+                for part in unread(newest):
+                    self.read(newest, part)
+
+    def _unread(self) -> State:
+        state = unread_state(*self._head, self)
+        self._newest = weakref.ref(state)
+        return state
+
+    def _move(self, what: str, **more: Any) -> State:
+        with self._lock:
+            self._leave()
+            return self._take(self._ask(what, **more))
+
+    def _ask(self, what: str, **more: Any) -> dict[str, Any]:
+        line = json.dumps({"id": 0, "session": what, **more}, default=_plain)
+        return _accepted(self._guarded(lambda host: host.ask(line)))
+
+    def _guarded(self, ask: Callable[[Library | Process], Any]) -> Any:
+        with self._lock:
+            if self._host is None:
+                raise SessionError("this session is closed")
+            try:
+                return ask(self._host)
+            except Ended as end:
+                self.close()
+                raise SessionError(str(end)) from end
+            except BaseException:    # such as Ctrl-C: how far it had come is not known
+                self.close()
+                raise
+
+    def _take(self, answer: Mapping[str, Any]) -> State:
+        state = self._state = state_of(answer, self._laid_out(answer), self)
+        self._newest = weakref.ref(state)
+        return state
+
+    def _laid_out(self, answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
+        arrays = arrays_of(answer)
+        self._layout = {name: array.shape for name, array in arrays.items()}
+        return arrays
+
+
+def session_of(file: Path, native: bool | None = None) -> Session:
+    """A session with the parameters that a run has written, without the warnings shown when it was made."""
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        return Session(file, hand=False, native=native)
+
+
+def _host(native: bool | None) -> Library | Process:
+    reason = "" if native is False else obstacle()
+    if native and reason:
+        raise SessionError(reason)
+    library = None if native is False or reason else building.native_library()
+    if library is None and native:
+        raise SessionError("the native library is not built from these sources: 'guidewire.py native' builds it")
+    if library is not None:
+        return Library(library)
+    return Process(building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True)))
+
+
+def _accepted(answer: dict[str, Any]) -> dict[str, Any]:
+    if answer["exitCode"] != 0:
+        raise SessionError(answer["message"].removeprefix("request: "))
+    return answer
+
+
+def _plain(value: Any) -> Any:
+    """What JSON has for a numpy array or number, and for a path."""
+    if isinstance(value, (np.ndarray, np.generic)):
+        return value.tolist()
+    if isinstance(value, Path):
+        return str(value)
+    raise TypeError(f"a parameter cannot be a {type(value).__name__}")
+
+
+def _whole(name: str, value: Any, least: str) -> int:
+    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
+        raise SessionError(f"{name} = {value!r} is not allowed: needs a whole number from {least}")
+    return int(value)
+
+
+def _number(name: str, value: Any) -> float:
+    is_number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
+    if not is_number or not math.isfinite(value):
+        raise SessionError(f"{name} = {value!r} is not allowed: needs a finite number")
+    return float(value)

@@ -1,0 +1,276 @@
+"""The state of a session's run at one time, with the hub, the catheters and the energies."""
+
+from __future__ import annotations
+
+import base64
+import math
+import weakref
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, fields
+from typing import TYPE_CHECKING, Any, ClassVar
+
+import numpy as np
+
+if TYPE_CHECKING:
+    from guidewire.sessions.session import Session
+
+_COLUMNS = {
+    "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
+    "hub": 14, "catheter": 12, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
+}
+# Parts of a state, each read off once something of it is asked for.
+MOTION, INSTRUMENTS, STRAINS = PARTS = range(3)
+_STRAINS = ("curvature", "couple", "strain", "force", "energy")
+_PART_OF = {
+    **dict.fromkeys(("positions", "velocities", "orientations", "angular_velocities", "contact_forces", "reaction"),
+                    MOTION),
+    **dict.fromkeys(("hub", "catheters"), INSTRUMENTS), **dict.fromkeys(_STRAINS, STRAINS),
+}
+_DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
+
+
+class SessionError(Exception):
+    """A session cannot do what it was asked for. The message is one line."""
+
+
+def _no_session(_: object = None) -> None:
+    """Of a state that has left its session behind."""
+
+
+@dataclass(frozen=True)
+class Hub:
+    """What is read off at the hub and at the tip of a wire with a material, in SI units but for tip_position.
+
+    Attributes
+    ----------
+    insertion, turn : displacement of the hub along its axis and rotation about it since the start, m and rad.
+    force, torque : of the hub on the wire along and about its axis, N and N m; a push is positive.
+    tip_position, tip_direction : (3,), units, and a unit vector.
+    twist : of the wire from hub to tip, rad.
+    largest_curvature : of any joint, 1/m.
+    length_in_body, spheres_in_body : what is out of the sheath, m and spheres; None without a sheath.
+    """
+
+    insertion: float
+    turn: float
+    force: float
+    torque: float
+    tip_position: np.ndarray
+    tip_direction: np.ndarray
+    twist: float
+    largest_curvature: float
+    length_in_body: float | None
+    spheres_in_body: int | None
+
+
+@dataclass(frozen=True)
+class CatheterState:
+    """A catheter over the wire at one moment; m rod elements. SI units but for positions and tip_position.
+
+    Attributes
+    ----------
+    positions : (m+1, 3), units.
+    orientations : (m, 4), quaternions x, y, z, w of the rod elements.
+    insertion, turn, force, torque, tip_position, tip_direction : as of `Hub`, of its own hub and tip.
+    extension : how far the tip of what is inside is beyond its own, m; negative inside.
+    overlap : length over which that is inside, m.
+    """
+
+    positions: np.ndarray
+    orientations: np.ndarray
+    insertion: float
+    turn: float
+    force: float
+    torque: float
+    tip_position: np.ndarray
+    tip_direction: np.ndarray
+    extension: float
+    overlap: float
+
+
+@dataclass(frozen=True)
+class Energy:
+    """Energies of a wire with a material, J.
+
+    Attributes
+    ----------
+    kinetic, elastic : of its motion, and stored in it.
+    potential : of gravity and of the loads that have one.
+    """
+
+    kinetic: float
+    elastic: float
+    potential: float
+
+
+@dataclass(frozen=True)
+class State:
+    """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own. With the
+    native library they are read when first accessed, or before the next step if the state is still referenced: a state
+    always describes its own moment.
+
+    Attributes
+    ----------
+    step, time : steps done, and in-game time in s.
+    outcome, reason : how the run ended, as in summary.json, and why; None and "" while it goes on. Steps after the end
+        change nothing.
+    prediction_error : Delta_p of the last step, units; 0 with a material.
+    positions, velocities : (n+1, 3), units and units/s.
+    orientations : (n, 4), quaternions x, y, z, w of the rod elements.
+    angular_velocities : (n, 3), rad/s, in each element's own frame.
+    contact_forces : (n+1, 3), force of the walls on each sphere in the last step, mass unit * unit/s^2; 0 where there
+        are no walls.
+    reaction : (3,), force of the held first sphere on the wire in the last step; with a material of its support, N.
+        None where the method does not state it (xpbd, and gains without walls).
+    curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
+    strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
+    energy : of a material, J: of its motion, stored in it, and of the loads that have a potential; else None.
+    hub : of solver direct, what is read off at hub and tip; else None.
+    catheters : those over the wire, outermost first.
+    """
+
+    step: int
+    time: float
+    outcome: str | None
+    reason: str
+    prediction_error: float
+    positions: np.ndarray
+    velocities: np.ndarray
+    orientations: np.ndarray
+    angular_velocities: np.ndarray
+    contact_forces: np.ndarray
+    reaction: np.ndarray | None
+    curvature: np.ndarray | None
+    couple: np.ndarray | None
+    strain: np.ndarray | None
+    force: np.ndarray | None
+    energy: Energy | None
+    hub: Hub | None
+    catheters: tuple[CatheterState, ...]
+    _session: ClassVar[Callable[..., Session | None]] = _no_session
+
+    def picture(self, **view: Any) -> np.ndarray:
+        """A fluoroscopic picture of this moment: grey levels from 0 to 255, (pixels, pixels) of uint8. `view` is as of
+        `Session.picture`.
+
+        Raises
+        ------
+        SessionError : as `Session.picture`; or the state has left its session behind (closed, or copied to another
+            process).
+        """
+        session = self._session()
+        if session is None:
+            raise SessionError("this state has no session that could take a picture")
+        return session.picture_of([self.positions, *(one.positions for one in self.catheters)], **view)
+
+    def __getattr__(self, name: str) -> Any:
+        part = _PART_OF.get(name)
+        session = None if part is None else self._session()
+        if session is None:
+            raise AttributeError(f"a state has no {name}")
+        session.read(self, part)
+        return vars(self)[name]
+
+    def __getstate__(self) -> dict[str, Any]:
+        return {field.name: getattr(self, field.name) for field in fields(self)}
+
+    @property
+    def directors(self) -> np.ndarray:
+        """(n, 3, 3): d1, d2 and d3 of each rod element, unit vectors in the world's axes; d3 along the element."""
+        return directors_of(self.orientations)
+
+
+@dataclass(frozen=True)
+class Frames:
+    """A run at several times.
+
+    Attributes
+    ----------
+    times : (f,), s.
+    positions : (f, n+1, 3), units.
+    directors : (f, n, 3, 3), as `State.directors` has them.
+    outcome, reason : those of the last state; a run that ended early has fewer frames.
+    """
+
+    times: np.ndarray
+    positions: np.ndarray
+    directors: np.ndarray
+    outcome: str | None
+    reason: str
+
+
+def directors_of(orientations: np.ndarray) -> np.ndarray:
+    """(n, 3, 3): the images of the three axes under (n, 4) unit quaternions x, y, z, w, one a row."""
+    x, y, z, w = np.asarray(orientations, dtype=float).T
+    rows = [[1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
+            [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
+            [2.0 * (x * z + y * w), 2.0 * (y * z - x * w), 1.0 - 2.0 * (x * x + y * y)]]
+    return np.moveaxis(np.array(rows), 2, 0)
+
+
+def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
+    """The arrays of an answer of the runner or the library, by their names."""
+    columns = {name: _COLUMNS.get(name.rstrip(_DIGITS)) for name in answer}
+    return {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, width).astype(float)
+            for name, width in columns.items() if width is not None}
+
+
+def part_of(array: str) -> int:
+    """Which part of a state an array of an answer belongs to."""
+    return INSTRUMENTS if array == "hub" or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
+
+
+def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
+    """The state of a session whose run goes on, of which nothing else has been read off."""
+    state = object.__new__(State)
+    vars(state).update(step=step, time=time, outcome=None, reason="", prediction_error=prediction_error,
+                       _session=weakref.ref(session))    # not a part of what it says
+    return state
+
+
+def state_of(answer: Mapping[str, Any], arrays: Mapping[str, np.ndarray], session: Session) -> State:
+    """The state of a session that an answer and its arrays say."""
+    state = unread_state(answer["step"], answer["time"], answer["predictionError"], session)
+    vars(state).update(outcome=answer["outcome"], reason=answer["message"])
+    for part in PARTS:
+        fill(state, part, arrays)
+    return state
+
+
+def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
+    """Give a state a part of it."""
+    if part == MOTION:
+        positions = arrays["positions"]
+        vars(state).update(
+            positions=positions, velocities=arrays["velocities"], orientations=arrays["orientations"],
+            angular_velocities=arrays["angularVelocities"],
+            contact_forces=arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
+            reaction=arrays["reaction"][0] if "reaction" in arrays else None)
+    elif part == INSTRUMENTS:
+        vars(state).update(hub=_hub(arrays["hub"][0]) if "hub" in arrays else None, catheters=_catheters(arrays))
+    else:
+        vars(state).update({name: arrays.get(name) for name in _STRAINS},
+                           energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)
+
+
+def unread(state: State) -> list[int]:
+    """The parts of a state that have not been read off."""
+    return [part for part, name in ((MOTION, "positions"), (INSTRUMENTS, "hub"), (STRAINS, "strain"))
+            if name not in vars(state)]
+
+
+def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
+    catheters = []
+    while (positions := arrays.get(f"positions{len(catheters) + 1}")) is not None:
+        number = len(catheters) + 1
+        numbers = arrays[f"catheter{number}"][0]
+        catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
+                                       numbers[7:10], *numbers[10:].tolist()))
+    return tuple(catheters)
+
+
+def _hub(numbers: np.ndarray) -> Hub:
+    insertion, turn, force, torque = numbers[:4].tolist()
+    twist, curvature, length, spheres = numbers[10:].tolist()
+    return Hub(insertion, turn, force, torque, numbers[4:7], numbers[7:10], twist, curvature,
+               *((None, None) if math.isnan(length) else (length, int(spheres))))

@@ -1,0 +1,141 @@
+"""`guidewire.py view`: its arguments, and what the page is given."""
+
+from __future__ import annotations
+
+import os
+import sys
+import webbrowser
+from collections.abc import Callable, Mapping, Sequence
+from pathlib import Path
+from typing import Any
+
+from guidewire.anatomy.formats import is_anatomy
+from guidewire.figures import walls
+from guidewire.logs.logs import LogError, extent, read_log
+from guidewire.logs.runs import PARAMETERS_NAME, read_run
+from guidewire.logs.surfaces import Surface
+from guidewire.prepare import ROOT, PreparationError
+from guidewire.runs import checking
+from guidewire.runs.key_table import read_key_table
+from guidewire.runs.whole_files import write_whole
+from guidewire.sessions.session import SessionError, State, session_of
+from guidewire.viewer.anatomy import read_vessel
+from guidewire.viewer.export import to_html
+from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.live import LiveRun
+from guidewire.viewer.parts import three
+from guidewire.viewer.recording import read_recording
+from guidewire.viewer.server import Server, page_files
+
+MOST_RUNS = 2
+FRAMES_OF_A_FILE = 300
+FRAMES_SERVED = 5000
+
+
+def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: bool,
+         build_runner: Callable[[], list[str]]) -> int:
+    """Show runs that have ended, a run that goes on, or a vessel; or write runs into one file.
+
+    Parameters
+    ----------
+    what : a parameter file, or a mesh, mask or centreline, or folders of one run or two.
+    html : the file to write in place of serving.
+    frames : of a run at most; None: as many as go well.
+    opens : whether the page is opened in a browser.
+    build_runner : returns the command that starts the runner.
+
+    Raises
+    ------
+    PreparationError : with one line, where something cannot be shown.
+    """
+    if is_anatomy(what[0]):
+        if len(what) > 1 or html is not None or frames is not None:
+            raise PreparationError("view takes one vessel alone: --html and --frames are for folders of runs")
+        vessel = read_vessel(what[0])
+        files = page_files(three(_say))
+        return _serve(Server({**files, "index.html": files["anatomy.html"]}, [vessel.to_bytes()], None, vessel.choose),
+                      opens)
+    is_live = not what[0].is_dir()
+    if len(what) > (1 if is_live else MOST_RUNS):
+        raise PreparationError("view takes one parameter file, or the folders of one run or two")
+    if is_live:
+        checking.check_file(what[0])
+        if html is not None or frames is not None:
+            raise PreparationError("--html and --frames are for folders of runs: make one with 'run', and give its "
+                                   "folder")
+    elif html is not None:
+        checking.check_out(html.parent)
+        if html.suffix != ".html" or html.is_dir():
+            raise PreparationError(f"--html {html}: a page's name ends with .html")
+    files = page_files(three(_say))
+    if is_live:
+        return _serve(Server(files, (), _live(what[0], build_runner)), opens)
+    try:
+        most = frames or (FRAMES_SERVED if html is None else FRAMES_OF_A_FILE)
+        recordings = [_read(folder, most, html is None, build_runner) for folder in what]
+    except LogError as error:
+        raise PreparationError(str(error)) from error
+    if html is None:
+        return _serve(Server(files, recordings, None), opens)
+    html.parent.mkdir(parents=True, exist_ok=True)
+    write_whole(html, to_html(files, recordings))
+    print(f"page: {os.path.relpath(html)} ({html.stat().st_size / 1e6:.1f} MB)")
+    return 0
+
+
+def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], list[str]]) -> bytes:
+    run = read_run(folder)
+    middle, diagonal = extent(read_log(folder, "all"))
+    surfaces = walls.read_walls(build_runner, run, middle, max(diagonal, 1.0))
+    return read_recording(run, surfaces, frames, _described(folder)).to_bytes(exact)
+
+
+def _described(folder: Path) -> dict[str, Any]:
+    """What pictures need to know of a run; empty where its parameters cannot be used any more."""
+    try:
+        with session_of(folder / PARAMETERS_NAME, native=False) as session:
+            return session.describe()
+    except SessionError as error:
+        _say(f"no fluoroscopy of {folder.name}: {error}")
+        return {}
+
+
+def serve_scene(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments, opens: bool) -> None:
+    """Show one scene, interactively, and take down how it is steered."""
+    _serve(Server(page_files(three(_say)), (), _live(file, build_runner, instruments)), opens)
+
+
+def _live(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments | None = None) -> LiveRun:
+    command = build_runner()
+    keys = read_key_table(command)
+    own = {} if instruments else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
+    first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
+    run = LiveRun({first: file, **own}, first, lambda *scene: _walls_of(build_runner, *scene),
+                  {name: list(key.words) for name, key in keys.items() if key.words}, instruments)
+    try:
+        run.open()
+    except SessionError as error:
+        raise PreparationError(str(error)) from error
+    return run
+
+
+def _walls_of(build_runner: Callable[[], list[str]], file: Path, parameters: Mapping[str, Any], state: State
+              ) -> list[Surface]:
+    """Walls of a scene as its wire may meet them: as far around its start as it is long."""
+    length = float(parameters["guidewireLength"])
+    middle = 0.5 * (state.positions.min(axis=0) + state.positions.max(axis=0))
+    return walls.walls_of(build_runner, parameters, file, middle, length)
+
+
+def _serve(server: Server, opens: bool) -> int:
+    def ready(address: str) -> None:
+        print(f"open {address} (Ctrl-C ends it)", flush=True)
+        if opens:
+            webbrowser.open(address)
+
+    server.run(ready)
+    return 0
+
+
+def _say(line: str) -> None:
+    print(f"guidewire: {line}", file=sys.stderr, flush=True)

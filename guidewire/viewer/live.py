@@ -1,0 +1,435 @@
+"""A run steered by one page, while others watch. The runner simulates; this module passes requests and states.
+
+A page says what it wants in short JSON messages, `_DO` below lists them, and receives the run's status as JSON where
+that has changed, and each new state as doubles: the number of the page's last message of its hand, the largest size
+that each channel has had (so that the scales of all pages agree), then all channels.
+"""
+
+from __future__ import annotations
+
+import asyncio
+import json
+import math
+import re
+import time
+import warnings
+from collections.abc import Awaitable, Callable, Mapping
+from concurrent.futures import ThreadPoolExecutor
+from contextlib import suppress
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from aiohttp import WSCloseCode, WSMsgType, web
+
+from guidewire.logs.surfaces import Surface
+from guidewire.sessions.session import Session, SessionError, State
+from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.recording import (
+    Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
+)
+
+PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
+TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
+PACES = (0.01, 0.1, 0.5, 1, 2, 5, 10)  # of in-game time against the clock, where the machine is fast enough
+_FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where the machine is fast enough
+_LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
+_BEHIND = 0.1                  # s; what is lost beyond that is not made up for
+_LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
+_PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
+_MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; further ones are left out
+_SMOOTHING = 0.1               # weight of the newest request in the step time shown
+_ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
+_CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
+            "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
+
+
+class _Page:
+    """A page that is open."""
+
+    def __init__(self, socket: web.WebSocketResponse) -> None:
+        self.socket = socket
+        self.on_the_way = 0
+
+
+class LiveRun:
+    """The run that goes on.
+
+    Parameters
+    ----------
+    scenes : name to parameter file; what a page may open.
+    first : name of the one that is opened at first.
+    walls : from a parameter file, its effective values and its start to the walls.
+    choices : name to words, of the parameters that are words.
+    instruments : takes down what is steered; it may be read when the run has ended.
+    """
+
+    def __init__(self, scenes: Mapping[str, Path], first: str,
+                 walls: Callable[[Path, Mapping[str, Any], State], list[Surface]],
+                 choices: Mapping[str, list[str]], instruments: HeldInstruments | None = None) -> None:
+        self._scenes = scenes
+        self._scene = first
+        self._read_walls = walls
+        self._choices = choices
+        self._instruments = instruments or HeldInstruments()
+        self._pages: list[_Page] = []
+        self._hand: _Page | None = None
+        self._session: Session | None = None
+        self._walls: list[Surface] = []
+        self._sheath: np.ndarray | None = None
+        self._largest = np.zeros(0)
+        self._named: dict[str, str] = {}  # instruments by their keys that a page has chosen
+        self._described: dict[str, Any] = {}
+        self._warnings: list[str] = []
+        self._opened = 0
+        self._is_paused = True
+        self._steps_asked = 0
+        self._push = self._turn = 0.0
+        self._mark = 0
+        self._problem = ""
+        self._cost = 0.0  # s of wall time a step, smoothed
+        self._pace = 1.0
+        self._is_over = False
+        self._wake: asyncio.Event | None = None
+        self._asking = ThreadPoolExecutor(1, "session")
+
+    @property
+    def pages(self) -> int:
+        """How many are open."""
+        return len(self._pages)
+
+    def open(self) -> None:
+        """Open the first scene; raises SessionError where it cannot be."""
+        self._open(self._scene)
+
+    async def recording(self) -> bytes:
+        """The run as it is now, one frame of it, with its walls."""
+        return await self._in_thread(lambda: self._record().to_bytes())
+
+    async def go(self) -> None:
+        """Step while a page has the hand and does not pause; to be cancelled."""
+        self._wake = asyncio.Event()
+        due = time.monotonic()
+        while True:
+            if not self._may_step():
+                self._wake.clear()
+                await self._wake.wait()
+                due = time.monotonic()
+                continue
+            session = self._session
+            dt = float(session.parameters["timeStep"])
+            steps = 1 if self._steps_asked else max(1, round(_FRAME / dt))
+            if self._cost > 0.0:
+                steps = max(1, min(steps, int(_LONGEST / self._cost)))
+            steps = 1 << (steps.bit_length() - 1)    # parts of push and turn by a power of two are exact
+            self._steps_asked = max(0, self._steps_asked - steps)
+            mark = self._mark
+            instruments = self._instruments
+            hub = instruments.held
+            push, turn = instruments.in_a_step(PUSH_SPEED * self._push * dt, TURN_SPEED * self._turn * dt)
+            began = time.monotonic()
+            try:
+                state = await self._in_thread(lambda: session.step(push * steps, turn * steps, steps, hub))
+                if self._session is session:
+                    instruments.add(hub, push, turn, steps, state)
+            except SessionError as error:
+                if self._session is session:
+                    await self._fail(error)
+                continue
+            if self._session is not session:    # another scene was opened meanwhile
+                continue
+            cost = (time.monotonic() - began) / steps
+            self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
+            await self._show(mark, session, state)
+            if state.outcome is not None:
+                self._is_paused = True
+                await self._tell()
+            now = time.monotonic()
+            due = min(max(due + steps * dt / self._pace, now - _BEHIND), now + _LONGEST_WAIT)
+            await self._wait_until(due)
+
+    def steered_csv(self, number: int) -> str:
+        """What was steered of an instrument since the start, as a drive table; raises HTTPConflict, with the reason,
+        where none says it, and HTTPNotFound where there is no such instrument."""
+        if self._instruments.problem:
+            raise web.HTTPConflict(text=self._instruments.problem)
+        try:
+            return self._instruments.to_csv(number)
+        except IndexError as error:
+            raise web.HTTPNotFound() from error
+
+    async def _wait_until(self, due: float) -> None:
+        """Until the next step is due, or a page has asked for something that need not wait for it."""
+        self._wake.clear()
+        with suppress(asyncio.TimeoutError):
+            await asyncio.wait_for(self._wake.wait(), max(0.0, due - time.monotonic()))
+
+    async def serve(self, socket: web.WebSocketResponse) -> None:
+        """Talk with a page until it goes away. The first has the hand; a page that has it and goes pauses the run."""
+        page = _Page(socket)
+        self._pages.append(page)
+        if self._hand is None:
+            self._hand = page
+        try:
+            await self._tell()
+            async for message in socket:
+                if message.type != WSMsgType.TEXT or not await self._do(page, message.data):
+                    await socket.close(code=WSCloseCode.POLICY_VIOLATION, message=b"this page said what no page says")
+        finally:
+            if self._is_over:
+                await _say_goodbye(socket)  # before this answer ends, which would close it without a word
+            self._pages.remove(page)
+            if self._hand is page:
+                self._hand = None
+                self._is_paused = True
+                self._push = self._turn = 0.0
+            await self._tell()
+
+    async def close(self) -> None:
+        """End the runner and let go of the pages."""
+        self._is_over = True
+        for page in list(self._pages):
+            await _say_goodbye(page.socket)
+        await self._in_thread(self._close_session)
+        self._asking.shutdown()
+
+    async def _do(self, page: _Page, text: str) -> bool:
+        """Do what a page asks; False for what no page of ours asks."""
+        try:
+            message = json.loads(text)
+            what = message["do"]
+            if what == "shown":
+                page.on_the_way = max(0, page.on_the_way - 1)
+                return True
+            if what == "take":
+                self._hand = self._hand or page
+            elif self._hand is page:
+                await _DO[what](self, message)
+        except SessionError as error:
+            await self._fail(error)
+        except (ValueError, KeyError, TypeError, RecursionError):
+            return False
+        if self._wake is not None:
+            self._wake.set()
+        await self._tell()
+        return True
+
+    async def _do_hand(self, message: Mapping[str, Any]) -> None:
+        push, turn, mark = float(message["push"]), float(message["turn"]), int(message["mark"])
+        if not (abs(push) <= 1.0 and abs(turn) <= 1.0):
+            raise ValueError("steering takes push and turn from -1 to 1")
+        self._push, self._turn, self._mark = push, turn, mark
+
+    async def _do_hold(self, message: Mapping[str, Any]) -> None:
+        self._instruments.hold(message["instrument"])
+
+    async def _do_name(self, message: Mapping[str, Any]) -> None:
+        number, name = message["instrument"], message["name"]
+        key = self._instruments.key_of(number, name)
+        await self._stop_step()
+        self._problem = ""
+        named, by_hand = {**self._named, key: name}, self._session.hand
+        await self._in_thread(lambda: self._open(self._scene, by_hand, named))
+
+    async def _do_pause(self, message: Mapping[str, Any]) -> None:
+        self._is_paused = bool(message["value"])
+
+    async def _do_step(self, _: Mapping[str, Any]) -> None:
+        self._is_paused = True
+        self._steps_asked = 1
+
+    async def _do_reset(self, _: Mapping[str, Any]) -> None:
+        await self._stop_step()
+        if self._session is None or not self._session.is_open:  # it is gone: a new one takes its place
+            await self._in_thread(lambda: self._open(self._scene, named=self._named))
+        else:
+            await self._in_thread(self._session.reset)
+            self._is_paused = not self._session.hand
+            self._opened += 1
+            self._instruments.begin(self._session, self._described, self._instruments.held)
+            self._largest = largest_shown(self._channels(self._session, self._session.state))
+        self._problem = ""
+
+    async def _do_pace(self, message: Mapping[str, Any]) -> None:
+        if message["value"] not in PACES:
+            raise ValueError("no such pace")
+        self._pace = message["value"]
+
+    async def _do_open(self, message: Mapping[str, Any]) -> None:
+        scene = message["scene"]
+        if scene not in self._scenes:
+            raise ValueError("no such scene")
+        by_hand = bool(message.get("hand", True))
+        await self._stop_step()
+        self._problem = ""
+        await self._in_thread(lambda: self._open(scene, by_hand))
+
+    async def _do_set(self, message: Mapping[str, Any]) -> None:
+        key, value = message["key"], message["value"]
+        if key not in _CHANGED or not isinstance(value, (int, float, str)):
+            raise ValueError("no parameter that may be changed")
+        self._problem = ""
+        if isinstance(value, float) and value.is_integer():
+            value = int(value)
+        try:
+            await self._in_thread(lambda: self._session.change(**{key: value}))
+        except SessionError as error:
+            if not self._session.is_open:
+                raise
+            self._problem = _refusal(key, value, str(error))  # nothing has changed, and the wire goes on
+            return
+        self._instruments.invalidate(f"{key} was changed within the run: start anew to record")
+        self._cost = 0.0
+
+    def _open(self, scene: str, by_hand: bool = True, named: Mapping[str, str] | None = None) -> None:
+        with warnings.catch_warnings(record=True) as said:
+            warnings.simplefilter("always")
+            session = _start(self._scenes[scene], by_hand, named or {})
+        self._close_session()
+        self._session, self._scene, self._named = session, scene, dict(named or {})
+        self._described = session.describe()
+        self._instruments.begin(session, self._described)
+        self._is_paused = not session.hand  # a wire that waits for a hand is at rest
+        self._warnings = list(dict.fromkeys(str(one.message) for one in said))
+        self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
+        self._sheath = sheath_of(session.parameters, self._numbers(session, session.state))
+        self._opened += 1
+        self._cost = 0.0
+        self._largest = largest_shown(self._channels(session, session.state))
+
+    def _close_session(self) -> None:
+        session, self._session = self._session, None
+        if session is not None:
+            session.close()
+
+    def _record(self) -> Recording:
+        session = self._session
+        if session is None:
+            raise web.HTTPNotFound()
+        return Recording(
+            self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
+            self._channels(session, session.state), name_walls(session.parameters, self._walls), self._sheath,
+            self._largest, self._described,
+        )
+
+    def _channels(self, session: Session, state: State) -> list[Channel]:
+        return make_channels(units_of(session.parameters), self._numbers(session, state))
+
+    def _numbers(self, session: Session, state: State) -> dict[str, Any]:
+        walls = bool(self._walls)
+        real_time = float(session.parameters["timeStep"]) / self._cost if self._cost > 0.0 else math.nan
+        return {
+            "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
+            "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
+            **{f"positions{k + 1}": one.positions[None] for k, one in enumerate(state.catheters)},
+            "step_time": np.array([1e3 * self._cost]), "real_time": np.array([real_time]),
+            **{name: None if values is None else values[None]
+               for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
+                                    ("reaction", state.reaction))},
+            **read_off(state),
+        }
+
+    def _may_step(self) -> bool:
+        return (self._session is not None and self._hand is not None and not self._ended()
+                and (not self._is_paused or self._steps_asked > 0))
+
+    def _ended(self) -> bool:
+        return self._session is None or self._session.state.outcome is not None
+
+    async def _show(self, mark: int, session: Session, state: State) -> None:
+        channels = self._channels(session, state)
+        self._largest = np.maximum(self._largest, largest_shown(channels))
+        frame = np.concatenate([[float(mark), float(self._opened)], self._largest, *(channel.values.ravel() for channel in channels)])
+        block = frame.astype("<f8").tobytes()
+        for page in list(self._pages):
+            if page.on_the_way < _MOST_IN_FLIGHT:
+                page.on_the_way += 1
+                await _send(page.socket.send_bytes(block))
+
+    async def _tell(self) -> None:
+        for page in list(self._pages):
+            await _send(page.socket.send_str(json.dumps(self._status(page))))
+
+    def _status(self, page: _Page) -> dict[str, Any]:
+        session = self._session
+        values = {} if session is None else {key: session.parameters[key] for key in _CHANGED
+                                             if key in session.parameters}
+        state = None if session is None else session.state
+        return {
+            "hand": self._hand is page, "isFree": self._hand is None, "isPaused": self._is_paused,
+            "isSteered": session is not None and session.hand, "opened": self._opened, "scene": self._scene,
+            "scenes": list(self._scenes), "problem": self._problem, "values": values,
+            "choices": {key: words for key, words in self._choices.items() if key in values},
+            "pace": self._pace, "paces": PACES,
+            "steered": self._instruments.problem, **self._instruments.status(),
+            "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
+        }
+
+    async def _fail(self, error: SessionError) -> None:
+        """Say what the runner could not do. One that is gone is let go of."""
+        self._problem = str(error)
+        self._is_paused = True
+        if self._session is not None and not self._session.is_open:
+            self._session = None
+        await self._tell()
+
+    async def _stop_step(self) -> None:
+        """Wait for a step under way; one that takes too long ends with its runner."""
+        idle = asyncio.ensure_future(self._in_thread(lambda: None))
+        session = self._session
+        try:
+            await asyncio.wait_for(asyncio.shield(idle), _PATIENCE)
+        except asyncio.TimeoutError:
+            if session is not None:
+                session.kill()
+            await idle
+
+    async def _in_thread(self, work: Callable[[], Any]) -> Any:
+        """One thing at a time is asked of the runner."""
+        return await asyncio.get_running_loop().run_in_executor(self._asking, work)
+
+
+_DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
+    "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
+    "hold": LiveRun._do_hold, "name": LiveRun._do_name, "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
+}
+
+
+def _start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
+    """A session that is steered without end, or where that cannot be, or is not asked for, the file's own run."""
+    if by_hand:
+        try:
+            return Session(scene, hand=True, native=False, **_ENDLESS, **named)
+        except SessionError:
+            pass  # what is wrong with the file itself is said below
+    return Session(scene, hand=False, native=False, **named)
+
+
+_NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)
+
+
+def _refusal(key: str, value: Any, message: str) -> str:
+    """Why a field's new value is refused, for who typed it: which value, and what is allowed.
+
+    Parameters
+    ----------
+    key, value : of the field.
+    message : the runner's line. Where the value does not go with another key, it names that key with its file.
+    """
+    said = _NOT_ALLOWED.fullmatch(message)
+    if said is None:
+        return message.removeprefix("command line: ")
+    named, needs = said.groups()
+    asked = f"{key} = {json.dumps(value)}"
+    return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"
+
+
+async def _say_goodbye(socket: web.WebSocketResponse) -> None:
+    await socket.close(code=WSCloseCode.GOING_AWAY, message=b"the server has ended")
+
+
+async def _send(sending: Awaitable[None]) -> None:
+    try:
+        await sending
+    except (ConnectionError, RuntimeError):
+        pass  # the page has been closed; its own loop reports that

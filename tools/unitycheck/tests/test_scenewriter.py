@@ -1,0 +1,34 @@
+"""The scenes in the repository are what the writer writes, and it writes the same every time."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from tools.unitycheck import scenewriter
+from tools.unitycheck.scenetable import SCENES
+from tools.unitycheck.unityyaml import parse
+
+ROOT = Path(__file__).resolve().parents[3]
+
+
+def test_repository_holds_what_is_written() -> None:
+    for path, text in scenewriter.files().items():
+        assert (ROOT / path).read_bytes() == text.encode("utf-8"), f"{path}: run python3 -m tools.unitycheck --write-scenes"
+
+
+def test_parameter_files_exist() -> None:
+    for scene in SCENES:
+        assert (ROOT / scene.parameters).is_file(), scene.name
+
+
+def test_writing_twice_changes_nothing(tmp_path: Path) -> None:
+    assert len(scenewriter.write(tmp_path)) == len(SCENES) + 3
+    assert scenewriter.write(tmp_path) == []
+
+
+def test_fields_arrive() -> None:
+    scene = next(scene for scene in SCENES if scene.overrides)
+    documents = {document.file_id: document for document in parse(scenewriter.scene_text(scene))}
+    assert documents[302].data["_overrides"] == list(scene.overrides)
+    assert documents[302].data["_parameterFile"] == scene.parameters
+    assert documents[103].data["_target"] == {axis: f"{value:g}" for axis, value in zip("xyz", scene.target)}
