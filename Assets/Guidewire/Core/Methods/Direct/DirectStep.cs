@@ -21,9 +21,7 @@ namespace Guidewire.Core
         private HubRecord? _hub;
         private readonly SpinLoss? _spinLoss;  // of a wire that nothing holds
         private long _startFactorisations;  // of the rest shape
-        private readonly HalvedSteps _halved;
         private readonly StepStart _start;
-        private readonly WallSteps? _walls;
         private readonly WallMonitor? _monitor;
         private readonly ElementContactForces? _elementForces;
         private readonly JamReport? _jam;
@@ -44,14 +42,13 @@ namespace Guidewire.Core
             _startFactorisations = report.Factorisations;
             Contacts = record;
             dynamics.Reactions.AreKept = record != null;
-            _halved = new HalvedSteps(dynamics);
             _start = new StepStart(SerializeStep);
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
                 walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
-                _walls = new WallSteps(dynamics, _halved, scene.Schedule, _monitor);
+                dynamics.IntervalDone = EndInterval;
                 _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
                 _jam = new JamReport(dynamics.Terms, scene.Metres);
                 if (record != null)
@@ -99,14 +96,14 @@ namespace Guidewire.Core
         /// <returns>False where it has no solution or has lost the wire.</returns>
         public bool Step()
         {
-            if (_walls != null)
+            if (_monitor != null)
             {
                 _start.Save();
             }
             (double insertion, double turn) = (Drive.Insertion, Drive.Turn);
             Drive.Prepare(Shape, Time);
             bool isDone = Step(TimeStep, insertion, turn);
-            if (!isDone && _walls != null)
+            if (!isDone && _monitor != null)
             {
                 (string? failure, string? divergence) = (Failure, Divergence);
                 _start.Restore();
@@ -139,14 +136,17 @@ namespace Guidewire.Core
             Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(Shape);
             double dissipated = Dissipated;
             long innerSteps = _dynamics.Control.Steps;
-            string? failure = _walls == null ? _halved.Step(length) : _walls.Step(length);
+            _monitor?.BeginStep(Shape);
+            string? failure = _dynamics.Step(length);
             if (failure != null)
             {
                 string time = Time.ToString("G6", CultureInfo.InvariantCulture);
-                if (_walls != null)
+                if (_monitor != null)
                 {
                     // What Newton's method left is no shape of the wire.
-                    _halved.Restore();
+                    _dynamics.GoBack();
+                    failure = Terms.Walls()!.Barrier.Nodes.HasBuckled
+                        ? "the wire buckles at the exit of its sheath and would come out through a wall" : failure;
                 }
                 Failure = "the step to t = " + time + " s has no solution: "
                     + (Scene.Joints.FindTurned(Shape, Time) ?? failure)
@@ -162,7 +162,7 @@ namespace Guidewire.Core
             Failure = Failure == null ? null : Failure + FailureAdvice;
             if (Contacts != null)
             {
-                StageForces mean = _walls == null ? _halved.MeanForces : _walls.MeanForces;
+                StageForces mean = _dynamics.Reactions.Mean;
                 Contacts.Reaction = mean.Proximal;
                 Contacts.ReactionAtEnd = _dynamics.Reactions.End.Proximal;
                 Contacts.MeanTotal = mean.Walls;
@@ -178,6 +178,12 @@ namespace Guidewire.Core
             }
             TakeExtremes(length, dissipated, innerSteps);
             return true;
+        }
+
+        private void EndInterval()
+        {
+            _monitor!.AddPart(Shape);
+            Terms.Walls()!.Barrier.Nodes.HasBuckled = false;
         }
 
         // The force that drives the wire out of a sheath depends on the hub's position, steeply where the exit passes a
@@ -278,7 +284,7 @@ namespace Guidewire.Core
                 : _dynamics.ReactionAt(0);
             _hub.Take(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
                 Schedule.Hub.AheadAt(Time));
-            _hub.Work = _walls == null ? double.NaN : _hubWork;
+            _hub.Work = _monitor == null ? double.NaN : _hubWork;
             return _hub;
         }
 
@@ -308,14 +314,14 @@ namespace Guidewire.Core
                 Results.TimeStepError = _dynamics.Control.LargestError;
                 Results.StepsNotConverged = _dynamics.Control.StepsAbove;
             }
-            if (_walls != null)
+            if (_monitor != null)
             {
                 Barrier barrier = Terms.Walls()!.Barrier.Barrier;
                 Results.WallIterations = _dynamics.WallSolver!.Iterations;
                 Results.ContactDistance = barrier.Distance;
                 Results.ContactStiffness = barrier.Stiffness;
             }
-            Results.HalvedSteps = _halved.Halvings;
+            Results.HalvedSteps = _dynamics.Clock.Halvings;
             Results.InnerSteps = _dynamics.Control.Steps;
             Results.Energy = _dynamics.Energy;
             Results.ProximalForce = _dynamics.ReactionAt(0);
@@ -365,7 +371,7 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref _startFactorisations);
             snapshot.Serialize(ref _hubWork);
-            _halved.Serialize(snapshot);
+            _dynamics.Clock.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             Ends.SerializeWork(snapshot);
             _dynamics.SerializeCounts(snapshot);
@@ -389,7 +395,7 @@ namespace Guidewire.Core
             snapshot.OptionalSection("spin", _spinLoss == null ? (Action<Snapshot>?)null : _spinLoss.Serialize);
             Energy.Serialize(snapshot);
             Drive.Serialize(snapshot);
-            _halved.Serialize(snapshot);
+            _dynamics.Clock.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             SerializeRecord(snapshot);
             Ends.SerializeWork(snapshot);
@@ -399,7 +405,7 @@ namespace Guidewire.Core
 
         private void SerializeRecord(Snapshot snapshot)
         {
-            if (_walls != null)
+            if (_monitor != null)
             {
                 Contacts!.Serialize(snapshot);
             }
@@ -416,7 +422,7 @@ namespace Guidewire.Core
         // would have no length left: then what the drive asks and what walls allow do not go together.
         private string? FindOverdriven()
         {
-            if (_walls == null || !Terms.Walls()!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
+            if (_monitor == null || !Terms.Walls()!.HoldsStart || !(Contacts!.DriveAsked > 0.0))
             {
                 return null;
             }

@@ -24,29 +24,27 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override string? Step(double time, double dt)
+        public override string? Step(in Interval interval)
         {
+            double dt = interval.Length;
             if (dt != _lastStep)
             {
                 _history.Forget();
                 _lastStep = dt;
             }
-            bool isTwoStep = _history.IsComplete;
-            Stage.Reactions.BeginStep();
-            Stage.BeginStep(time, dt);
+            IsTwoStep = _history.IsComplete && dt == interval.StepLength;
+            Stage.BeginStep(interval.Start, dt);
             Stage.BeginStage(_history, dt);
-            string? failure = Stage.Solve(time + dt, double.PositiveInfinity, 0,
+            string? failure = Stage.Solve(interval.Start + dt, double.PositiveInfinity, 0,
                 Stage.HasPast ? StagePredictor.OneStage : StagePredictor.Of(0));
             if (failure == null)
             {
-                Stage.Reactions.AddStage(1.0);
+                Stage.Reactions.AddStage(interval.Fraction);
                 Stage.Accept();
                 Stage.EndStep();
                 Stage.HasPast = true;
                 _history.Complete();
-                Control.Accepts(0.0, dt, dt, true);
             }
-            Stage.Reactions.EndStep(dt, isTwoStep);
             return failure;
         }
 

@@ -4,7 +4,7 @@ namespace Guidewire.Core
     internal abstract class ImplicitStepper
     {
         /// <summary>By these stages.</summary>
-        /// <param name="control">Counts the steps, and divides them where the scheme tells their errors.</param>
+        /// <param name="control">Counts the intervals, and divides them where the scheme tells their errors.</param>
         protected ImplicitStepper(ImplicitStage stage, StepControl control)
         {
             Stage = stage;
@@ -14,8 +14,21 @@ namespace Guidewire.Core
         /// <summary>Solves the stages.</summary>
         public ImplicitStage Stage { get; }
 
-        /// <summary>How steps are subdivided, and their error estimates.</summary>
+        /// <summary>How intervals follow from error estimates.</summary>
         public StepControl Control { get; }
+
+        /// <summary>Whether no interval goes beyond a jump of a load.</summary>
+        public virtual bool StopsAtJumps => false;
+
+        /// <summary>By the scheme's estimate, of the last interval: radians, or displacement over L; 0 where it has
+        /// none.</summary>
+        public double Error { get; protected set; }
+
+        /// <summary>Whether the last interval may be tried by the scheme's start, which it has not used.</summary>
+        public bool MayRestart { get; protected set; }
+
+        /// <summary>Whether the last interval is a whole step and used the step before it.</summary>
+        public bool IsTwoStep { get; protected set; }
 
         /// <summary>Whether the scheme estimates the errors of its steps.</summary>
         public virtual bool HasErrorEstimate => false;
@@ -29,13 +42,11 @@ namespace Guidewire.Core
         /// <summary>The rod begins to move from where it is, as it does.</summary>
         public abstract void Begin();
 
-        /// <summary>One step.</summary>
-        /// <param name="time">At its start, s.</param>
-        /// <param name="dt">s.</param>
+        /// <summary>Takes the rod through an interval.</summary>
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
-        public abstract string? Step(double time, double dt);
+        public abstract string? Step(in Interval interval);
 
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        /// <summary>Writes or restores all that an interval may touch, for a <see cref="StepStart"/>.</summary>
         public virtual void SerializeStep(Snapshot snapshot)
         {
             Stage.SerializeStep(snapshot);

@@ -1,3 +1,4 @@
+using System;
 using System.Globalization;
 
 namespace Guidewire.Core
@@ -15,6 +16,7 @@ namespace Guidewire.Core
         private readonly RodMotion _motion;
         private readonly ImplicitStepper _stepper;
         private readonly ImplicitStage _stage;
+        private readonly StepStart _start;   // of an interval
 
         /// <summary>A rod at rest in this shape.</summary>
         /// <param name="terms">The rod's energies and loads.</param>
@@ -33,6 +35,8 @@ namespace Guidewire.Core
                 : (ImplicitStepper)new RungeKuttaStepper(scheme, terms, schedule, _motion);
             _stage = _stepper.Stage;
             _stage.SetAccuracy(tolerance, tolerance / (2.0 * _stepper.WeightSum), mostIterations);
+            _start = new StepStart(SerializeInterval);
+            Clock = new Clock(_stepper, schedule);
         }
 
         /// <summary>Takes over the velocities of the start.</summary>
@@ -87,8 +91,14 @@ namespace Guidewire.Core
         /// <summary>The forces from outside.</summary>
         public RodReactions Reactions => _stage.Reactions;
 
-        /// <summary>How steps are subdivided, and their error estimates.</summary>
+        /// <summary>Divides steps into intervals.</summary>
+        public Clock Clock { get; }
+
+        /// <summary>How intervals follow from error estimates.</summary>
         public StepControl Control => _stepper.Control;
+
+        /// <summary>Called after each interval that is kept, or null.</summary>
+        public Action? IntervalDone { get; set; }
 
         /// <summary>Whether the scheme estimates the errors of its steps.</summary>
         public bool HasErrorEstimate => _stepper.HasErrorEstimate;
@@ -112,12 +122,36 @@ namespace Guidewire.Core
 
         /// <summary>One step.</summary>
         /// <param name="dt">s.</param>
-        /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
+        /// <returns>Null, or why an interval has no solution, however short; the shape is then not to be
+        /// used.</returns>
         public string? Step(double dt)
         {
-            string? failure = _stepper.Step(Time, dt);
-            Time += dt;
-            return failure;
+            Reactions.BeginStep();
+            Clock.Begin(Time, dt, _terms.Walls() == null ? 1 : BarrierRange.PartsOf(this, _schedule, dt));
+            for (Interval interval = Clock.Next(); interval.Length > 0.0; interval = Clock.Next())
+            {
+                _start.Save();
+                string? failure = Step(interval);
+                while (!Clock.Accepts(interval, failure, Iterations, Solver.MostIterations))
+                {
+                    if (Clock.Failure != null)
+                    {
+                        return Clock.Failure;
+                    }
+                    _start.Restore();
+                    interval = Clock.Shorter;
+                    failure = Step(interval);
+                }
+                IntervalDone?.Invoke();
+            }
+            Reactions.EndStep(dt, _stepper.IsTwoStep);
+            return null;
+        }
+
+        /// <summary>Goes back to the start of the interval without a solution.</summary>
+        public void GoBack()
+        {
+            _start.Restore();
         }
 
         /// <summary>Writes or restores where the rod is and how it moves: what a motion by any scheme goes on
@@ -148,14 +182,14 @@ namespace Guidewire.Core
             snapshot.Section(_stepper.Key + " " + dt.ToString("R", CultureInfo.InvariantCulture), SerializeStages);
         }
 
-        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that <see cref="Step(double)"/> may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {
-            Time = snapshot.Serialize(Time);
             Control.SerializeCounts(snapshot);
             Control.SerializeLength(snapshot);
-            _stepper.SerializeStep(snapshot);
+            Clock.SerializeLength(snapshot);
+            SerializeInterval(snapshot);
         }
 
         /// <summary>Writes or restores what was counted.</summary>
@@ -164,6 +198,26 @@ namespace Guidewire.Core
             Solver.SerializeCounts(snapshot);
             WallSolver?.Serialize(snapshot);
             Control.SerializeCounts(snapshot);
+        }
+
+        private long Iterations => (WallSolver?.Iterations ?? 0) + Solver.Iterations;
+
+        private string? Step(in Interval interval)
+        {
+            if (WallSolver != null)
+            {
+                WallSolver.MostIterations = (int)Math.Min((long)Clock.IterationFactor * Solver.MostIterations,
+                    int.MaxValue);
+            }
+            string? failure = _stepper.Step(interval);
+            Time = interval.End;
+            return failure;
+        }
+
+        private void SerializeInterval(Snapshot snapshot)
+        {
+            Time = snapshot.Serialize(Time);
+            _stepper.SerializeStep(snapshot);
         }
 
         private void SerializeStages(Snapshot snapshot)

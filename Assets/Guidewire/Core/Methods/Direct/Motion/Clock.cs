@@ -1,0 +1,237 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Divides a step into intervals. Each is the least of what limits it: an equal part that the barriers can
+    /// follow, a piece that was halved, the next jump of a load or row of its table, the length by the tolerance.
+    /// </summary>
+    /// <remarks>An interval without a solution is tried by the scheme's start, then halved, down to 1/4096 of a part: in
+    /// a snap or a violent release the wire moves far within a step, and its end depends on the path. Pieces are doubled
+    /// again once some of one length are solved, twice as many after each doubling that failed, half as many after one
+    /// that did not. So where only short pieces have a solution, for many steps as it may be, few longer ones are tried.
+    /// The next step begins with the length with which the last one ended.
+    ///
+    /// A wire that snaps between walls is far from where it was after however short a piece: Newton's method then
+    /// descends far, energy falling in every iteration. So there the shortest piece may take
+    /// <see cref="IterationFactor"/> times as many iterations.
+    ///
+    /// The work is bounded: after the first halving a part may take <see cref="MostSolutions"/> times the iterations
+    /// that one solution may take.</remarks>
+    internal sealed class Clock
+    {
+        private const int Whole = 1 << 12;        // ticks of a part
+        private const int MostPatience = 256;
+        private const int MoreIterations = 10;    // as a rest shape has
+        private const int MostSolutions = 200;
+        private const double SameTime = 1e-9;     // of a piece
+
+        private readonly ImplicitStepper _stepper;
+        private readonly RodSchedule _schedule;
+        private double _stepLength;   // s
+        private double _length;       // of a part, s
+        private int _parts;           // with the present one
+        private int _tick;            // of the present part, where its present piece begins
+        private double _time;         // the same, s
+        private int _ticks;           // of that piece
+        private double _done;         // of it, s
+        private double _until;        // where the interval that was proposed has to end, s after the piece's start
+        private long _mostIterations; // of the run, in this part
+        private string _halvedFor = "";   // why an interval of this part was halved last
+        private int _size = Whole;    // of a piece, ticks
+        private int _patience = 1;    // pieces of one length before a longer one is tried
+        private int _solved;          // of this length
+        private bool _isDoubled;      // the next piece is the first of this length
+
+        /// <summary>What is to be tried instead of an interval that was not kept.</summary>
+        public Interval Shorter { get; private set; }
+
+        /// <summary>For steps of this scheme under this schedule.</summary>
+        public Clock(ImplicitStepper stepper, RodSchedule schedule)
+        {
+            _stepper = stepper;
+            _schedule = schedule;
+        }
+
+        /// <summary>Pieces that were halved so far.</summary>
+        public long Halvings { get; private set; }
+
+        /// <summary>How many times the usual iterations the next interval may take between walls.</summary>
+        public int IterationFactor => _size == 1 ? MoreIterations : 1;
+
+        /// <summary>Why an interval has no solution however short, or null.</summary>
+        public string? Failure { get; private set; }
+
+        /// <summary>A step begins.</summary>
+        /// <param name="time">Of its start, s.</param>
+        /// <param name="length">s.</param>
+        /// <param name="parts">Equal parts into which it is divided at least.</param>
+        public void Begin(double time, double length, int parts)
+        {
+            _time = time;
+            _stepLength = length;
+            _length = length / parts;
+            _parts = parts;
+            Failure = null;
+            BeginPart();
+        }
+
+        /// <summary>The interval after those that were accepted; of length 0 where the step is done.</summary>
+        public Interval Next()
+        {
+            if (_tick == Whole)
+            {
+                _parts--;
+                BeginPart();
+            }
+            return _parts == 0 ? default : Propose();
+        }
+
+        /// <summary>Whether an interval is kept. If not, <see cref="Failure"/> says why there is no other try, or
+        /// <see cref="Shorter"/> is the next one.</summary>
+        /// <param name="failure">Why it has no solution, or null.</param>
+        /// <param name="iterations">Newton iterations of the run so far.</param>
+        /// <param name="mostIterations">That one solution may take.</param>
+        public bool Accepts(in Interval tried, string? failure, long iterations, int mostIterations)
+        {
+            bool isSolved = failure == null;
+            bool isKept = _stepper.Control.Accepts(isSolved ? _stepper.Error : 0.0, tried.Length, LengthOf(_ticks), isSolved);
+            if (isKept && isSolved)
+            {
+                Advance(tried);
+                BoundWork(iterations);
+                return Failure == null;
+            }
+            if (isKept && _stepper.MayRestart)
+            {
+                Interval restarted = tried;
+                restarted.IsRestarted = true;
+                Shorter = restarted;
+                return false;
+            }
+            if (isKept && _size == 1)
+            {
+                Failure = failure;
+            }
+            else if (isKept)
+            {
+                Halve(tried);
+                _halvedFor = failure!;
+                _mostIterations = Math.Min(_mostIterations, iterations + (long)MostSolutions * mostIterations);
+                BoundWork(iterations);
+            }
+            Shorter = Propose();
+            return false;
+        }
+
+        /// <summary>Writes or restores the count, and how long the next piece is.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            Halvings = snapshot.Serialize(Halvings);
+            SerializeLength(snapshot);
+        }
+
+        /// <summary>Writes or restores how long the next piece is.</summary>
+        public void SerializeLength(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _size);
+            snapshot.Serialize(ref _patience);
+            snapshot.Serialize(ref _solved);
+            snapshot.Serialize(ref _isDoubled);
+        }
+
+        private void BeginPart()
+        {
+            _tick = 0;
+            _done = 0.0;
+            _mostIterations = long.MaxValue;
+        }
+
+        private Interval Propose()
+        {
+            _ticks = Ticks();
+            double piece = LengthOf(_ticks);
+            double nearly = SameTime * piece;
+            double jump = _stepper.StopsAtJumps ? _schedule.NextBreak(_time + _done + nearly) : double.PositiveInfinity;
+            _until = jump - _time < piece - nearly ? jump - _time : piece;
+            double length = _stepper.Control.Propose(_until - _done);
+            double end = length == _until - _done ? _until : _done + length;
+            return new Interval
+            {
+                Start = _time + _done,
+                Length = length,
+                End = _time + end,
+                Jump = jump,
+                Nearly = nearly,
+                StepLength = _stepLength,
+            };
+        }
+
+        // Of the present piece: a jump may have ended an interval beyond where one of the present size ends.
+        private int Ticks()
+        {
+            int ticks = _size;
+            while (LengthOf(ticks) * (1.0 - SameTime) <= _done)
+            {
+                ticks += _size;
+            }
+            return ticks;
+        }
+
+        private double LengthOf(int ticks)
+        {
+            return _length * ticks / Whole;
+        }
+
+        private void Advance(in Interval interval)
+        {
+            bool isEnd = interval.Length == _until - _done;
+            _done = isEnd ? _until : _done + interval.Length;
+            double piece = LengthOf(_ticks);
+            if (isEnd && _until == piece)
+            {
+                _time += piece;
+                _tick += _ticks;
+                _done = 0.0;
+                Grow();
+            }
+        }
+
+        // So that the next try ends earlier.
+        private void Halve(in Interval tried)
+        {
+            _patience = _isDoubled ? Math.Min(2 * _patience, MostPatience) : _patience;
+            _solved = 0;
+            _isDoubled = false;
+            do
+            {
+                Halvings++;
+                _size /= 2;
+            }
+            while (_size > 1 && LengthOf(Ticks()) >= _done + tried.Length);
+        }
+
+        // Longer again where the pieces done make up whole ones.
+        private void Grow()
+        {
+            _patience = _isDoubled ? Math.Max(_patience / 2, 1) : _patience;
+            _solved = Math.Min(_solved + 1, MostPatience);
+            _isDoubled = _size < Whole && _tick % (2 * _size) == 0 && _solved >= _patience;
+            if (_isDoubled)
+            {
+                _size *= 2;
+                _solved = 0;
+            }
+        }
+
+        private void BoundWork(long iterations)
+        {
+            if (iterations > _mostIterations && _tick < Whole)
+            {
+                Failure = _halvedFor + string.Format(CultureInfo.InvariantCulture,
+                    "; halved to pieces of {0:G3} s the step took more than {1} times maxNewtonIterations",
+                    LengthOf(_size), MostSolutions);
+            }
+        }
+    }
+}
