@@ -11,7 +11,6 @@ from __future__ import annotations
 
 import argparse
 import json
-import os
 import statistics
 import tempfile
 from collections.abc import Iterator
@@ -23,7 +22,8 @@ from guidewire.runs.runner import Request, Runner
 
 ROOT = Path(__file__).resolve().parent.parent
 COUNTS = ("factorisations", "wallIterations", "innerSteps", "halvedSteps")
-BENCH = ("sheath", "insertion-accurate", "catheter", "guide-catheter", "microcatheter", "catheter-sheath", "cantilever")
+BENCH = ("sheath", "insertion-accurate", "catheter", "guide-catheter", "microcatheter", "catheter-sheath", "torque",
+         "cantilever")
 LOGGED = 20  # entries of a log
 
 
@@ -83,8 +83,8 @@ def processor_time(process: int | None) -> float:
     """Of a process and its threads so far, s."""
     if process is None:
         return 0.0
-    fields = Path(f"/proc/{process}/stat").read_text().rpartition(")")[2].split()
-    return (int(fields[11]) + int(fields[12])) / os.sysconf("SC_CLK_TCK")
+    threads = Path(f"/proc/{process}/task").glob("*/schedstat")
+    return 1e-9 * sum(int(thread.read_text().split()[0]) for thread in threads)
 
 
 def numbers(value: Any, path: str = "") -> Iterator[tuple[str, float]]:

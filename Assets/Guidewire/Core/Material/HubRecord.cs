@@ -77,7 +77,7 @@ namespace Guidewire.Core
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
                 double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
-                LargestCurvature = fraction == 0.0 ? LargestCurvature
+                LargestCurvature = fraction <= CoaxialJoints.LeastFraction ? LargestCurvature
                     : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
             }
             if (terms.Supports.Sheath is SheathWindow window)

@@ -11,38 +11,54 @@ namespace Guidewire.Core
     /// moves on is that of the wire at the cut, wherever the nodes are.</remarks>
     internal sealed class JointPieces
     {
-        private readonly double[] _border;       // of the pieces, m from node 0
-        private readonly CrossSection[] _piece;
+        private readonly InstrumentProfile _profile;
+        private readonly CoaxialPieces _side;
         private readonly double[] _station;      // of the n + 1 nodes, m from node 0
+        private readonly double[] _hub = new double[1];
+        private readonly double[] _end;
 
         /// <summary>Those of a wire.</summary>
-        /// <param name="profile">What it is made of.</param>
-        /// <param name="metres">Metres in one of the profile's units.</param>
         /// <param name="stations">Of its n + 1 nodes, m from node 0.</param>
-        public JointPieces(WireProfile profile, double metres, double[] stations)
+        public JointPieces(InstrumentProfile profile, double[] stations)
         {
-            _border = Array.ConvertAll(profile.Borders, position => metres * position);
-            _piece = profile.Pieces;
+            _profile = profile;
+            _side = new CoaxialPieces(new[] { profile });
             _station = stations;
+            _end = new[] { profile.Length };
         }
 
         /// <summary>n + 1, m from node 0.</summary>
         public double[] Stations => _station;
 
-        /// <summary>What is beyond a cut of the wire that joint k stands for.</summary>
-        /// <param name="cut">m from node 0; what is before it is kept straight.</param>
-        public JointPart Beyond(int k, double cut)
+        /// <summary>The joint at node k with a cut: what is before it is kept straight.</summary>
+        /// <param name="cut">m from node 0.</param>
+        public CoaxialJoint CutAt(int k, double cut)
         {
-            var part = default(JointPart);
-            for (int side = -1; side <= 1; side += 2)
+            var joint = default(CoaxialJoint);
+            for (int other = Math.Max(k - 1, 0); other <= Math.Min(k + 1, _station.Length - 1); other++)
             {
-                int other = k + side;
-                if (other >= 0 && other < _station.Length)
+                if (other != k)
                 {
-                    AddSide(_station[k], _station[other], cut, ref part);
+                    _side.AddSide(ref joint, _station[k], _station[other], 0, 0, cut, _hub, _end);
                 }
             }
-            return part;
+            return joint;
+        }
+
+        /// <summary>The fraction, weighted by its hat function, of the length of joint k that is beyond a cut.</summary>
+        /// <param name="stations">Of the nodes, m, as the cut.</param>
+        public static double FractionBeyond(double[] stations, int k, double cut)
+        {
+            double node = stations[k];
+            if (cut <= (k > 0 ? stations[k - 1] : node))
+            {
+                return 1.0;
+            }
+            double before = k > 0 ? node - stations[k - 1] : 0.0;
+            double after = k < stations.Length - 1 ? stations[k + 1] - node : 0.0;
+            double beyond = cut < node ? after + (node - cut) * (1.0 + (cut - node + before) / before)
+                : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - cut), 2.0) / after : 0.0;
+            return beyond / (before + after);
         }
 
         /// <summary>By how much the energy of joint k falls, J/m, as a cut moves towards node 0: the wire at the cut
@@ -63,12 +79,7 @@ namespace Guidewire.Core
             {
                 return 0.0;
             }
-            int p = 0;
-            while (p < _piece.Length - 1 && _border[p + 1] <= cut)
-            {
-                p++;
-            }
-            CrossSection piece = _piece[p];
+            CrossSection piece = _profile.Pieces[_profile.PieceAt(cut)];
             double full1 = moment1 + piece.BendStiffness1 * piece.RestCurvature.X;
             double full2 = moment2 + piece.BendStiffness2 * piece.RestCurvature.Y;
             return 0.5 * hat * (full1 * full1 / piece.BendStiffness1 + full2 * full2 / piece.BendStiffness2);
@@ -78,7 +89,7 @@ namespace Guidewire.Core
         /// </summary>
         public double NextBreak(double position)
         {
-            return Math.Min(Next(_station, position), Next(_border, position));
+            return Math.Min(Next(_station, position), Next(_profile.Borders, position));
         }
 
         private static double Next(double[] positions, double position)
@@ -86,39 +97,6 @@ namespace Guidewire.Core
             int at = Array.BinarySearch(positions, position);
             at = at < 0 ? ~at : at + 1;
             return at < positions.Length ? positions[at] : double.PositiveInfinity;
-        }
-
-        // Of the element between the joint's node and another; the hat function falls from 1 to 0 between them.
-        private void AddSide(double node, double other, double cut, ref JointPart part)
-        {
-            double from = Math.Min(node, other);
-            double to = Math.Max(node, other);
-            for (int p = 0; p < _piece.Length && _border[p] < to; p++)
-            {
-                double a = p == 0 ? from : Math.Max(from, _border[p]);
-                double b = p == _piece.Length - 1 ? to : Math.Min(to, _border[p + 1]);
-                if (a >= b)
-                {
-                    continue;
-                }
-                CrossSection piece = _piece[p];
-                Vector3d rest = piece.RestCurvature;
-                double middle = Math.Min(Math.Max(cut, a), b);
-                double inside = Weight(a, middle, node, other);
-                double beyond = Weight(middle, b, node, other);
-                part.Length += beyond;
-                part.Compliance1 += beyond / piece.BendStiffness1;
-                part.Compliance2 += beyond / piece.BendStiffness2;
-                part.Rest += beyond * rest;
-                part.Held += 0.5 * inside * (piece.BendStiffness1 * rest.X * rest.X
-                    + piece.BendStiffness2 * rest.Y * rest.Y);
-            }
-        }
-
-        // Integral of the hat function from a to b.
-        private static double Weight(double a, double b, double node, double other)
-        {
-            return (b - a) * (1.0 - Math.Abs(0.5 * (a + b) - node) / Math.Abs(other - node));
         }
     }
 }

@@ -78,7 +78,7 @@ namespace Guidewire.Core
                     : terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
                 Vector3d change = turn - (coaxial != null ? fraction * joints[k].Rest
                     : terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
-                if (fraction <= (coaxial != null ? CoaxialJoints.LeastFraction : 0.0))
+                if (fraction <= CoaxialJoints.LeastFraction)
                 {
                     continue;
                 }

@@ -3,6 +3,9 @@ namespace Guidewire.Core
     /// <summary>The end of a sheath, and the nodes and elements in it.</summary>
     internal class SheathEnd
     {
+        /// <summary>Fraction of its bending compliance that a piece in a sheath retains.</summary>
+        public const double RetainedBend = 1e-8;
+
         /// <summary>An end.</summary>
         /// <param name="exit">m.</param>
         /// <param name="axis">Where it leads, a unit vector.</param>

@@ -38,7 +38,7 @@ namespace Guidewire.Core
             {
                 compliance += 1.0 / joints[k].Twist;
                 rest += joints[k].Rest.Z;
-                HeldBefore += k < first ? pieces.Beyond(k, double.PositiveInfinity).Held : 0.0;
+                HeldBefore += k < first ? pieces.CutAt(k, double.PositiveInfinity).Held : 0.0;
             }
             Joints[0].Twist = 1.0 / compliance;
             Joints[0].Rest = new Vector3d(Joints[0].Rest.X, Joints[0].Rest.Y, rest);

@@ -15,8 +15,6 @@ namespace Guidewire.Core
     /// frame is that of the outermost instrument after the joint: at the tip of one, that one is another.</remarks>
     internal struct CoaxialJoint
     {
-        private const double Retained = 1e-8;   // of the compliance of a piece in a sheath
-
         public double Compliance1;   // A_1, 1/(N m)
         public double Compliance2;
         public double FixedX, FixedY;     // F, rad
@@ -85,8 +83,8 @@ namespace Guidewire.Core
         /// <param name="held">Energy that keeps it straight, J/m.</param>
         public void AddSheathed(double lambda, double bend, double held)
         {
-            Compliance1 += Retained * lambda / bend;
-            Compliance2 += Retained * lambda / bend;
+            Compliance1 += SheathEnd.RetainedBend * lambda / bend;
+            Compliance2 += SheathEnd.RetainedBend * lambda / bend;
             Held += lambda * held;
         }
 

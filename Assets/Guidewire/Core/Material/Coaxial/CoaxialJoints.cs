@@ -59,8 +59,9 @@ namespace Guidewire.Core
             }
             Array.Copy(instruments[0].Stations, _station, _tip[0] + 1);
             _joint = new CoaxialJoint[_station.Length];
-            _before = new CoaxialPieces(instruments);
-            _after = new CoaxialPieces(instruments);
+            InstrumentProfile[] profiles = Array.ConvertAll(instruments, instrument => instrument.Profile);
+            _before = new CoaxialPieces(profiles);
+            _after = new CoaxialPieces(profiles);
             SetHubs(leads, sheathed);
         }
 
@@ -169,16 +170,7 @@ namespace Guidewire.Core
         /// <summary>The fraction of that, weighted by the joint's hat function, that is not in a sheath.</summary>
         public double FractionOutside(int k)
         {
-            double node = _station[k];
-            if (Sheathed <= (k > 0 ? _station[k - 1] : node))
-            {
-                return 1.0;
-            }
-            double before = k > 0 ? node - _station[k - 1] : 0.0;
-            double after = k < _station.Length - 1 ? _station[k + 1] - node : 0.0;
-            double outside = Sheathed < node ? after + (node - Sheathed) * (1.0 + (Sheathed - node + before) / before)
-                : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - Sheathed), 2.0) / after : 0.0;
-            return outside / (before + after);
+            return JointPieces.FractionBeyond(_station, k, Sheathed);
         }
 
         /// <summary>What an instrument is made of at node k.</summary>
@@ -292,28 +284,10 @@ namespace Guidewire.Core
             }
         }
 
-        // Adds the element between node k and another; its hat function falls from 1 to 0 between them.
         private void AddSide(ref CoaxialJoint joint, int k, int other, int frame, CoaxialPieces side)
         {
-            double node = _station[k];
-            double far = _station[other];
-            double from = Math.Min(node, far);
-            double to = Math.Max(node, far);
-            double perLength = 1.0 / (to - from);
-            int carrier = _carrier[Math.Min(k, other)];
-            side.Begin(carrier, from, _lead);
-            for (double at = from; at < to;)
-            {
-                bool isSheathed = at < Sheathed;
-                double next = side.FindNext(at, isSheathed ? Math.Min(to, Sheathed) : to, _lead, _end);
-                if (next > at)
-                {
-                    double lambda = (next - at) * (1.0 - Math.Abs(0.5 * (at + next) - node) * perLength);
-                    side.Add(ref joint, lambda, frame, isSheathed);
-                }
-                at = Math.Max(next, at);
-                side.Advance(at, _lead);
-            }
+            side.AddSide(ref joint, _station[k], _station[other], _carrier[Math.Min(k, other)], frame, Sheathed, _lead,
+                _end);
         }
 
         private void AddLead(int instrument, ref double compliance, ref double rest)

@@ -14,10 +14,10 @@ namespace Guidewire.Core
         private int _presentCount;
 
         /// <summary>Of these instruments, the outermost one first.</summary>
-        public CoaxialPieces(CoaxialInstrument[] instruments)
+        public CoaxialPieces(InstrumentProfile[] instruments)
         {
-            _pieces = Array.ConvertAll(instruments, instrument => instrument.Profile.Pieces);
-            _borders = Array.ConvertAll(instruments, instrument => instrument.Profile.Borders);
+            _pieces = Array.ConvertAll(instruments, profile => profile.Pieces);
+            _borders = Array.ConvertAll(instruments, profile => profile.Borders);
             _piece = new int[instruments.Length];
             _isPresent = new bool[instruments.Length];
             Compliance = new double[instruments.Length];
@@ -45,11 +45,36 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Begins at a position along the chain.</summary>
+        /// <summary>Adds an element on one side of a joint; its hat function falls from 1 at the node to 0 at the other
+        /// end.</summary>
+        /// <param name="node">m along the chain, as are the other end and the following.</param>
         /// <param name="carrier">The outermost instrument there.</param>
-        /// <param name="from">m.</param>
+        /// <param name="frame">The instrument on whose frame the joint stands.</param>
+        /// <param name="sheathed">Where a sheath ends.</param>
         /// <param name="leads">How far each hub is behind the outermost one's, m.</param>
-        public void Begin(int carrier, double from, double[] leads)
+        /// <param name="ends">Where the instruments end.</param>
+        public void AddSide(ref CoaxialJoint joint, double node, double far, int carrier, int frame, double sheathed,
+            double[] leads, double[] ends)
+        {
+            double from = Math.Min(node, far);
+            double to = Math.Max(node, far);
+            double perLength = 1.0 / (to - from);
+            Begin(carrier, from, leads);
+            for (double at = from; at < to;)
+            {
+                bool isSheathed = at < sheathed;
+                double next = FindNext(at, isSheathed ? Math.Min(to, sheathed) : to, leads, ends);
+                if (next > at)
+                {
+                    double lambda = (next - at) * (1.0 - Math.Abs(0.5 * (at + next) - node) * perLength);
+                    Add(ref joint, lambda, frame, isSheathed);
+                }
+                at = Math.Max(next, at);
+                Advance(at, leads);
+            }
+        }
+
+        private void Begin(int carrier, double from, double[] leads)
         {
             _carrier = carrier;
             for (int i = carrier; i < _piece.Length; i++)
@@ -65,11 +90,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Finds the next border of a piece.</summary>
-        /// <param name="at">Where the pieces begin, m along the chain.</param>
-        /// <param name="to">It is no farther than this, m.</param>
-        /// <param name="ends">Of the instruments, m.</param>
-        public double FindNext(double at, double to, double[] leads, double[] ends)
+        // The next border of a piece; the pieces begin at a position, and it is no farther than 'to'.
+        private double FindNext(double at, double to, double[] leads, double[] ends)
         {
             double next = to;
             _presentCount = 0;
@@ -89,10 +111,8 @@ namespace Guidewire.Core
             return next;
         }
 
-        /// <summary>Adds the pieces up to that border to a joint.</summary>
-        /// <param name="lambda">Integral of its hat function, m.</param>
-        /// <param name="frame">The instrument on whose frame it stands.</param>
-        public void Add(ref CoaxialJoint joint, double lambda, int frame, bool isSheathed)
+        // Adds the pieces up to that border to a joint, with the integral of its hat function, m.
+        private void Add(ref CoaxialJoint joint, double lambda, int frame, bool isSheathed)
         {
             double bend = 0.0;
             double held = 0.0;
@@ -124,8 +144,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Advances to a position along the chain, m.</summary>
-        public void Advance(double at, double[] leads)
+        private void Advance(double at, double[] leads)
         {
             for (int i = _carrier; i < _piece.Length; i++)
             {

@@ -9,12 +9,9 @@ namespace Guidewire.Core
     /// of what is before it, a joint has |theta - f|^2/(2 a) + W. The exit lies at a position along the wire that
     /// follows from the hub's, not from the nodes: so the energy depends on the hub, and its slope, -sum over joints of
     /// the hat function at the exit times |m + B kappa|^2/(2 B), is the force by which a bent wire is driven out of a
-    /// sheath without friction. It acts on the hub, at any speed. A joint wholly inside retains 1e-6 of its
-    /// compliance.</remarks>
+    /// sheath without friction. It acts on the hub, at any speed.</remarks>
     internal sealed class SheathEnergy : EnergyTerm
     {
-        private const double LeastFraction = 1e-6;
-
         private readonly SheathWindow _window;
         private readonly BendTwistTerm _bending;
         private readonly Joint[] _cutJoint;     // of the first joints, as they are cut
@@ -161,13 +158,13 @@ namespace Guidewire.Core
 
         private Joint Cut(int k, Joint joint)
         {
-            JointPart part = _window.Pieces.Beyond(_window.First + k, _exit);
+            CoaxialJoint part = _window.Pieces.CutAt(_window.First + k, _exit);
             _held += part.Held;
-            joint.Bend1 = 1.0 / (part.Compliance1 + LeastFraction / joint.Bend1);
-            joint.Bend2 = 1.0 / (part.Compliance2 + LeastFraction / joint.Bend2);
-            joint.Rest = new Vector3d(part.Rest.X, part.Rest.Y, joint.Rest.Z);
+            joint.Bend1 = 1.0 / part.Compliance1;
+            joint.Bend2 = 1.0 / part.Compliance2;
+            joint.Rest = new Vector3d(part.FixedX, part.FixedY, joint.Rest.Z);
             _cutJoint[k] = joint;
-            _outside[k] = part.Length > 0.0 ? LeastFraction + part.Length / _window.JointLengths[k] : 0.0;
+            _outside[k] = JointPieces.FractionBeyond(_window.Pieces.Stations, _window.First + k, _exit);
             return joint;
         }
 

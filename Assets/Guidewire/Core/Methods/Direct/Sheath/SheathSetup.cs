@@ -28,8 +28,8 @@ namespace Guidewire.Core
             var even = new RodSupports { Clamp = ClampRule.HalfElement };
             Joints = whole.Rod.Joints(even);
             _jointLengths = whole.Rod.JointLengths(even);
-            _pieces = new JointPieces(new WireProfile(parameters.Material, parameters.Scene.GuidewireLength),
-                whole.Metres, Stations);
+            _pieces = new JointPieces(new InstrumentProfile(
+                new WireProfile(parameters.Material, parameters.Scene.GuidewireLength), whole.Metres), Stations);
             _barrier = BarrierDefaults.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres,
                 parameters.Drive.LargestMove(parameters.Method.TimeStep, whole.Metres));
             _support = new SupportSpring(whole.Rod, parameters.Drive.HubForceLimit);
