@@ -154,6 +154,12 @@ def test_the_table_of_keys_is_the_runners_own(runner_command):
     assert block.group(1) == keys, "put the output of the runner's --keys between the two marks of docs/parameters.md"
 
 
+def test_the_table_of_warnings_is_the_runners_own(runner_command):
+    warnings = subprocess.run([*runner_command, "--warnings"], capture_output=True, text=True, check=True).stdout
+    block = re.search(r"<!-- warnings -->\n(.*)<!-- /warnings -->", RUNS, re.DOTALL)
+    assert block.group(1) == warnings, "put the output of the runner's --warnings between the two marks of docs/runs.md"
+
+
 @pytest.mark.parametrize("parameters, nested", [
     ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions", "hub", "extremes"}),
 ])

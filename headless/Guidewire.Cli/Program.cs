@@ -27,6 +27,7 @@ namespace Guidewire.Cli
             + " end\n"
             + "           what is within REACH of (X, Y, Z)\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
+            + "       Guidewire.Cli --warnings  the warnings as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";
 
@@ -57,7 +58,11 @@ namespace Guidewire.Cli
                         return 0;
                     case "--keys":
                     case "-keys":
+                    case "keys":
                         Console.Out.Write(ParameterTable.ToMarkdown());
+                        return 0;
+                    case "--warnings":
+                        Console.Out.Write(WarningTable.ToMarkdown());
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);

@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using static System.FormattableString;
 
 namespace Guidewire.Core
 {
@@ -10,7 +9,6 @@ namespace Guidewire.Core
     {
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
         private const double OddStrain = 0.2;       // of the outermost fibre: bent to five times its own radius
-        private const double OddShortfall = 1e-3;   // of what the drive asked
 
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
@@ -26,34 +24,45 @@ namespace Guidewire.Core
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
 
-        /// <summary>One line for each, and one where the tip left a wall by an open rim, which is no error.</summary>
+        /// <summary>All of a state.</summary>
         /// <param name="contacts">Null where there are no walls.</param>
         /// <param name="extremes">Null where the method has none.</param>
         /// <param name="coaxial">Null without a catheter.</param>
-        public IReadOnlyList<string> Of(RodState state, ContactRecord? contacts, RunExtremes? extremes,
+        public IEnumerable<RunWarning> Of(RodState state, ContactRecord? contacts, RunExtremes? extremes,
             CoaxialRecord? coaxial)
         {
-            List<string> lines = CollectWarnings(state, contacts, extremes);
+            if (contacts != null && contacts.Passages > 0)
+            {
+                yield return WarningTable.Passages.With(contacts.Passages);
+            }
+            if (contacts != null && contacts.MaxPenetration > _depth)
+            {
+                yield return WarningTable.Penetration.With(contacts.MaxPenetration, _depth);
+            }
+            double change = LengthOf(state) / _length - 1.0;
+            if (Math.Abs(change) > OddStretch)
+            {
+                yield return WarningTable.Length.With(100.0 * Math.Abs(change), change < 0.0 ? "shorter" : "longer");
+            }
+            if (extremes != null && extremes.Strain > OddStrain)
+            {
+                yield return WarningTable.Strain.With(100.0 * extremes.Strain);
+            }
+            if (contacts != null && Shortfall.Counts(contacts.DriveShortfall, contacts.DriveAsked, _length))
+            {
+                yield return WarningTable.DriveShortfall.With(contacts.DriveAsked, contacts.DriveShortfall);
+            }
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                string? play = one.PlayWarning;
-                if (play != null)
+                if (one.PlayWarning is RunWarning play)
                 {
-                    lines.Add(play);
+                    yield return play;
                 }
             }
-            string? exit = _rims.Line;
-            if (exit != null)
+            if (_rims.Warning is RunWarning exit)
             {
-                lines.Add(exit);
+                yield return exit;
             }
-            return lines;
-        }
-
-        /// <summary>Whether there is none but that of a rim.</summary>
-        public bool IsTrustworthy(RodState state, ContactRecord? contacts, RunExtremes? extremes)
-        {
-            return CollectWarnings(state, contacts, extremes).Count == 0;
         }
 
         /// <summary>The wire starts in this state.</summary>
@@ -74,37 +83,6 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot, RodState state)
         {
             _rims.Serialize(snapshot, state);
-        }
-
-        private List<string> CollectWarnings(RodState state, ContactRecord? contacts, RunExtremes? extremes)
-        {
-            var lines = new List<string>();
-            if (contacts != null && contacts.Passages > 0)
-            {
-                lines.Add(Invariant($"{contacts.Passages} points of the wire passed a wall"));
-            }
-            if (contacts != null && contacts.MaxPenetration > _depth)
-            {
-                lines.Add(Invariant($"the wire penetrated a wall by {contacts.MaxPenetration:G3} units, ")
-                    + Invariant($"{_depth:G3} units are allowed"));
-            }
-            double change = LengthOf(state) / _length - 1.0;
-            if (Math.Abs(change) > OddStretch)
-            {
-                string than = change < 0.0 ? "shorter" : "longer";
-                lines.Add(Invariant($"the wire is {100.0 * Math.Abs(change):0.0} % {than} than at rest"));
-            }
-            if (extremes != null && extremes.Strain > OddStrain)
-            {
-                lines.Add(Invariant($"the outermost fibre was strained by up to {100.0 * extremes.Strain:0} %: a ")
-                    + "real instrument would have kinked");
-            }
-            if (contacts != null && contacts.DriveShortfall > OddShortfall * contacts.DriveAsked)
-            {
-                lines.Add(Invariant($"the drive fell short: of {contacts.DriveAsked:G4} units that it asked of the ")
-                    + Invariant($"first sphere {contacts.DriveShortfall:G3} are missing"));
-            }
-            return lines;
         }
 
         private static double LengthOf(RodState state)

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -17,7 +18,7 @@ namespace Guidewire.Core
         private readonly RodStart _start;    // a state in which the wire may be built, which not every later one is
         private bool _isWritten = true;
         private string? _ownReason;
-        private string? _warning;
+        private readonly List<RunWarning> _accuracy = new List<RunWarning>();    // of the method, at the run's end
 
         private Simulation(MethodStart start, SimulationParameters parameters, in Quaterniond proximalFrame,
             in Quaterniond distalFrame)
@@ -57,18 +58,17 @@ namespace Guidewire.Core
 
         /// <summary>One line that says why the run ended, and what is not accurate in it; empty while it
         /// runs.</summary>
-        public string Reason => (_ownReason ?? _stopRule.Reason) + (_warning == null ? "" : ", but " + _warning);
+        public string Reason => (_ownReason ?? _stopRule.Reason)
+            + (_accuracy.Count == 0 ? "" : ", but " + string.Join("; ", _accuracy));
 
         /// <summary>Warnings at the run's end, one line each; empty while it runs, and without a step if the start is
         /// no rest shape: there pbd's first sphere has moved ahead of the wire.</summary>
-        public IReadOnlyList<string> Warnings => !HasResult ? Array.Empty<string>()
-            : _warnings.Of(State, Contacts, Report()?.Extremes, Coaxial());
+        public IReadOnlyList<string> Warnings => WarningsOfResult().Select(warning => warning.Text).ToArray();
 
-        /// <summary>Whether the result can be trusted, as far as the run can tell: it has converged or finished, its
-        /// reason has no "but", nothing passed a wall or penetrated one more than the method allows, the wire has kept
-        /// its length and was bent no more than instruments bear, and the drive did not fall short.</summary>
-        public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished) && _warning == null
-            && (!HasResult || _warnings.IsTrustworthy(State, Contacts, Report()?.Extremes));
+        /// <summary>Whether the result can be trusted, as far as the run can tell: it has converged or finished, and it
+        /// has no warning that speaks against its result (<see cref="WarningTable"/>).</summary>
+        public bool IsReliable => (Outcome == Outcome.Converged || Outcome == Outcome.Finished)
+            && _accuracy.Concat(WarningsOfResult()).All(warning => warning.Kind.IsReliable);
 
         /// <summary>Whether the state is that after <see cref="StepCount"/> steps, all of it finite: a step that lost
         /// the wire may have left none.</summary>
@@ -208,7 +208,7 @@ namespace Guidewire.Core
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {
-                _warning = _stepper.AccuracyWarning;
+                _stepper.AddWarnings(_accuracy);
             }
         }
 
@@ -262,7 +262,12 @@ namespace Guidewire.Core
             Contacts?.Serialize(snapshot);    // of the last step, as the error before: shown, not used
             snapshot.Serialize((int)Outcome);
             snapshot.Serialize(Outcome == Outcome.Running ? "" : _ownReason ?? _stopRule.Reason);
-            snapshot.Serialize(_warning ?? "");
+            snapshot.Serialize(_accuracy.Count);
+            foreach (RunWarning warning in _accuracy)
+            {
+                snapshot.Serialize(warning.Kind.Name);
+                snapshot.Serialize(warning.Text);
+            }
             return snapshot.ToBytes();
         }
 
@@ -289,11 +294,15 @@ namespace Guidewire.Core
                 simulation.Contacts?.Serialize(snapshot);
                 var outcome = (Outcome)snapshot.Serialize(0);
                 string reason = snapshot.Serialize("");
-                string warning = snapshot.Serialize("");
                 if (outcome != Outcome.Running)
                 {
                     simulation.End(outcome, reason);
-                    simulation._warning = warning.Length == 0 ? null : warning;
+                }
+                simulation._accuracy.Clear();
+                for (int count = snapshot.Serialize(0); count > 0; count--)
+                {
+                    WarningKind kind = WarningTable.Find(snapshot.Serialize(""));
+                    simulation._accuracy.Add(new RunWarning(kind, snapshot.Serialize("")));
                 }
                 return simulation;
             }
@@ -308,7 +317,11 @@ namespace Guidewire.Core
         /// <param name="reason">One line.</param>
         public void End(Outcome outcome, string reason)
         {
-            _warning = outcome == Outcome.Interrupted ? _stepper.AccuracyWarning : null;
+            _accuracy.Clear();
+            if (outcome == Outcome.Interrupted)
+            {
+                _stepper.AddWarnings(_accuracy);
+            }
             Outcome = outcome;
             _ownReason = reason;
         }
@@ -323,6 +336,12 @@ namespace Guidewire.Core
             Simulation next = Create(continued);
             next.Serialize(snapshot);
             return next;
+        }
+
+        private IEnumerable<RunWarning> WarningsOfResult()
+        {
+            return HasResult ? _warnings.Of(State, Contacts, Report()?.Extremes, Coaxial())
+                : Array.Empty<RunWarning>();
         }
 
         private bool HasResult => Outcome != Outcome.Running && (StepCount > 0 || Outcome == Outcome.Converged);

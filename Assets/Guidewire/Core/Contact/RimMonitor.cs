@@ -1,5 +1,3 @@
-using System.Globalization;
-
 namespace Guidewire.Core
 {
     /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
@@ -20,10 +18,9 @@ namespace Guidewire.Core
             _isInside = new bool[walls.Length];
         }
 
-        /// <summary>Where and when the tip left first, in one line, or null.</summary>
-        public string? Line => !_hasLeft ? null : string.Format(CultureInfo.InvariantCulture,
-            "the tip left the vessel by an open rim at ({0:G4}, {1:G4}, {2:G4}) at t = {3:G6} s",
-            _position.X, _position.Y, _position.Z, _time);
+        /// <summary>Where and when the tip left first, or null.</summary>
+        public RunWarning? Warning => _hasLeft
+            ? WarningTable.OpenRim.With(_position.X, _position.Y, _position.Z, _time) : (RunWarning?)null;
 
         /// <summary>The wire is in this state.</summary>
         public void Begin(RodState state)

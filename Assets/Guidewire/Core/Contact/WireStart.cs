@@ -22,7 +22,8 @@ namespace Guidewire.Core
 
         /// <summary>One line that gives the sizes of vessel and wire where they hardly belong together, or
         /// null.</summary>
-        public static string? FindOddSizes(SimulationParameters parameters)
+        /// <param name="source">Who said what the vessel is.</param>
+        public static string? FindOddSizes(SimulationParameters parameters, string source)
         {
             if (parameters.Scene.Walls.Length == 0)
             {
@@ -44,11 +45,7 @@ namespace Guidewire.Core
                 double width = DistanceFrom(wall, tip);
                 if (fraction > OddLengths || fraction < 1.0 / OddLengths || width > OddRadii * radius)
                 {
-                    return string.Format(CultureInfo.InvariantCulture,
-                        "vessel and wire differ implausibly in size: the vessel is {0:G3} units long and its"
-                        + " wall {1:G3} units from the wire's tip, the wire {2:G3} units long with a radius of {3:G3};"
-                        + " scale and metresPerUnit change a vessel's size", box.Value.LargestSide, width, length,
-                        radius);
+                    return WarningTable.OddSizes.Text(source, box.Value.LargestSide, width, length, radius);
                 }
             }
             return null;

@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private double _leastInsertion = double.NegativeInfinity;  // m
         private double _mostInsertion = double.PositiveInfinity;   // m
         private double? _given;              // of the next step, m
+        private readonly double _length;     // of the instrument, m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
         /// <summary>The drive of this scene.</summary>
@@ -29,6 +30,7 @@ namespace Guidewire.Core
             Hub = scene.Schedule.Hub;
             _timeStep = parameters.Method.TimeStep;
             _metres = scene.UnitLength;
+            _length = scene.UnitLength * parameters.Scene.GuidewireLength;
             _speed = drive.InsertionSpeed != 0.0 ? drive.InsertionSpeed
                 : scene.UnitLength * drive.DisplacementPerStep / parameters.Method.TimeStep;
             _steering = scene.Steering;
@@ -49,6 +51,7 @@ namespace Guidewire.Core
             _speed = drive._speed;
             _timeStep = drive._timeStep;
             _metres = drive._metres;
+            _length = drive._length;
             _steering = drive._steering;
             _table = drive._table;
             _followsSpring = true;
@@ -81,6 +84,12 @@ namespace Guidewire.Core
 
         /// <summary>The displacement asked for in the present step, m, never negative.</summary>
         public double Asked { get; private set; }
+
+        /// <summary>The displacement asked for in all steps, m, there and back both counted.</summary>
+        public double TotalAsked { get; private set; }
+
+        /// <summary>Whether so much was lost that the hub has not done what it was asked.</summary>
+        public bool FallsShort => Shortfall.Counts(Slip, TotalAsked, _length);
 
         /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
         public double BeyondLimit => Insertion - _mostInsertion;
@@ -121,6 +130,7 @@ namespace Guidewire.Core
             double asked = speed * _timeStep;
             _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
             Asked = Math.Abs(asked);
+            TotalAsked += Asked;
             double goes = Limited(_given ?? asked);
             if (goes != asked)
             {
@@ -169,6 +179,7 @@ namespace Guidewire.Core
             Insertion = snapshot.Serialize(Insertion);
             Turn = snapshot.Serialize(Turn);
             Slip = snapshot.Serialize(Slip);
+            TotalAsked = snapshot.Serialize(TotalAsked);
             snapshot.Serialize(ref _sense);
         }
 

@@ -28,9 +28,7 @@ namespace Guidewire.Core
         private double _play;             // where the play angle has been the largest, m
         private double _mismatch;         // 1/m
         private double _reduced;          // B_r, N m^2
-        private double _asked;            // of the catheter's hub, m
-        private double _gone;
-        private double _wireAsked;
+        private double _gone;             // of the catheter's hub, m
         private double _wireGone;
 
         /// <param name="elements">n of the catheter.</param>
@@ -71,7 +69,7 @@ namespace Guidewire.Core
         public double Torque { get; private set; }
 
         /// <summary>Displacement that the catheter's hub was asked, there and back both counted, m.</summary>
-        public double Asked => _asked;
+        public double Asked { get; private set; }
 
         /// <summary>What it went of that, m.</summary>
         public double Gone => _gone;
@@ -80,7 +78,7 @@ namespace Guidewire.Core
         public double Shortfall { get; private set; }
 
         /// <summary>Displacement that the wire's hub was asked, there and back both counted, m.</summary>
-        public double WireAsked => _wireAsked;
+        public double WireAsked { get; private set; }
 
         /// <summary>What it went of that, m.</summary>
         public double WireDisplacement => _wireGone;
@@ -131,21 +129,11 @@ namespace Guidewire.Core
         /// <summary>Angle by which the centreline turns along the overlap, rad.</summary>
         public double OverlapAngle { get; private set; }
 
-        /// <summary>What is not to be trusted for the play that is left out, in one line; or null.</summary>
-        public string? PlayWarning
-        {
-            get
-            {
-                bool isSharp = PlayAngle > LargePlay;
-                bool isLong = PlayLength > LargeLength * Overlap;
-                return isSharp || isLong ? string.Format(System.Globalization.CultureInfo.InvariantCulture,
-                    "the {4} has {0:G3} mm of play in the {5}, which is not simulated: at the tip their axes may "
-                    + "differ by up to {1:G3} degrees, and {2:G3} mm of {3:G3} mm of overlap are not coupled",
-                    1e3 * _play, PlayAngle, 1e3 * LengthLost, 1e3 * Overlap,
-                    Inside == null ? "wire" : "inner catheter or wire",
-                    Inside != null ? "outer catheter" : _instrument > 0 ? "inner catheter" : "catheter") : null;
-            }
-        }
+        /// <summary>That the play left out is not small, or null.</summary>
+        internal RunWarning? PlayWarning => PlayAngle <= LargePlay && PlayLength <= LargeLength * Overlap
+            ? (RunWarning?)null : WarningTable.Play.With(Inside == null ? "wire" : "inner catheter or wire",
+                1e3 * _play, Inside != null ? "outer catheter" : _instrument > 0 ? "inner catheter" : "catheter",
+                PlayAngle, 1e3 * LengthLost, 1e3 * Overlap);
 
         /// <summary>Takes the largest play angle of a shape.</summary>
         internal void TakePlay(CoaxialJoints joints, RodShape shape)
@@ -225,9 +213,7 @@ namespace Guidewire.Core
         /// <param name="wireFrom">The same for the wire's.</param>
         internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
         {
-            _asked += drive.Asked;
             _gone += drive.DisplacementSince(from);
-            _wireAsked += wireDrive.Asked;
             _wireGone += wireDrive.DisplacementSince(wireFrom);
             _friction.Slide(wireDrive.Insertion - wireFrom - (drive.Insertion - from));
         }
@@ -237,9 +223,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _play);
             snapshot.Serialize(ref _mismatch);
             snapshot.Serialize(ref _reduced);
-            snapshot.Serialize(ref _asked);
             snapshot.Serialize(ref _gone);
-            snapshot.Serialize(ref _wireAsked);
             snapshot.Serialize(ref _wireGone);
             _friction.Serialize(snapshot);
         }
@@ -256,6 +240,8 @@ namespace Guidewire.Core
             Array.Copy(own.Q, Orientations, Orientations.Length);
             Insertion = drive.Insertion;
             Turn = drive.Turn;
+            Asked = drive.TotalAsked;
+            WireAsked = wireDrive.TotalAsked;
             Shortfall = drive.Slip;
             WireShortfall = wireDrive.Slip;
             Torque = torque;

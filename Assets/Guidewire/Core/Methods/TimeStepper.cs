@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+
 namespace Guidewire.Core
 {
     /// <summary>Advances a wire in time by steps of one method, and reports their success. One implementation per
@@ -21,9 +23,11 @@ namespace Guidewire.Core
         /// <summary>How many steps, up to the last, make that state.</summary>
         public int SteadySteps { get; protected set; } = 1;
 
-        /// <summary>What is not accurate in the steps so far, and what helps, in one line, or null: small steps or few
-        /// iterations may leave a wire wrong without losing it.</summary>
-        public virtual string? AccuracyWarning => null;
+        /// <summary>Adds what is not accurate in the steps so far: long steps or few iterations may leave a wire wrong
+        /// without losing it.</summary>
+        public virtual void AddWarnings(List<RunWarning> warnings)
+        {
+        }
 
         /// <summary>The forces that act on the wire from outside, and the results of contact; null where nobody asked
         /// for them.</summary>

@@ -45,10 +45,7 @@ namespace Guidewire.Io
             int count = vessel is MeshShape mesh ? mesh.CountSelfIntersections(out position) : 0;
             if (count > 0)
             {
-                warnings.Add(string.Format(CultureInfo.InvariantCulture,
-                    "{0}: the mesh intersects itself: {1} edges pierce a triangle, the first at ({2:G6}, {3:G6},"
-                    + " {4:G6}); there the inside is not defined", file, count, position.X, position.Y,
-                        position.Z));
+                warnings.Add(WarningTable.SelfIntersection.Text(file, count, position.X, position.Y, position.Z));
             }
         }
 

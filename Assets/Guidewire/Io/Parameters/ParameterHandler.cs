@@ -95,7 +95,7 @@ namespace Guidewire.Io
                 {
                     handler._given.Remove(length);
                 }
-                handler._given.Take(pair.Key, pair.Value, CommandLineHandler.Source);
+                handler._given.Take(pair.Key, pair.Value, from.OverridesFrom);
                 WireStiffness.Replace(handler._given, pair.Key, file);
             }
             handler._given.RefuseUnknown();
@@ -232,7 +232,7 @@ namespace Guidewire.Io
                     throw new ParameterException(given.Source, entry.Key, given.Value.ToString(Formatting.None),
                         entry.Allowed);
                 }
-                if (given.Source == CommandLineHandler.Source
+                if (CommandLineHandler.IsOverride(given.Source)
                     || (entry.IsRefusedElsewhere && HasEffect(entry, given)))
                 {
                     throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
@@ -244,7 +244,7 @@ namespace Guidewire.Io
             }
             if (_ignored.Count > 0)
             {
-                AddWarning("solver {0} does not take {1}: ignored", ChoiceEntry<Solver>.Word(Method.ToString()),
+                AddWarning(WarningTable.IgnoredKeys, ChoiceEntry<Solver>.Word(Method.ToString()),
                     string.Join(", ", _ignored));
             }
         }
@@ -283,10 +283,10 @@ namespace Guidewire.Io
                     Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles");
                 throw new ParameterException(source + ": " + problem);
             }
-            string? sizes = WireStart.FindOddSizes(simulation);
+            string? sizes = WireStart.FindOddSizes(simulation, vessel);
             if (sizes != null)
             {
-                AddWarning("{0}: {1}", vessel, sizes);
+                _warnings.Add(sizes);
             }
         }
 
@@ -323,7 +323,7 @@ namespace Guidewire.Io
                 }
                 if (shear != null)
                 {
-                    AddWarning("{0}: {1}", name, shear);    // pbd stiffness may be that soft
+                    AddWarning(WarningTable.ShearedStart, name, shear);    // pbd stiffness may be that soft
                 }
                 simulation.Scene.Start = start;
             }
@@ -386,7 +386,7 @@ namespace Guidewire.Io
             {
                 if (_given.TryGet(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
                 {
-                    AddWarning("{0}: {1} = {2} is an older name and means \"{3}\"", given.Source, entry.Key,
+                    AddWarning(WarningTable.OlderName, given.Source, entry.Key,
                         given.Value.ToString(Formatting.None), newer);
                 }
             }
@@ -395,15 +395,12 @@ namespace Guidewire.Io
             WarnOfSections(simulation);
             if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
-                AddWarning("{0}: rodElementLength = {1} is not guidewireLength / numberRodElements = {2}; the latter "
-                    + "is used",
-                    length.Source, (double)length.Value, l);
+                AddWarning(WarningTable.ElementLength, length.Source, (double)length.Value, l);
             }
             if (Method == Solver.Direct && _given.TryGet("frictionSpeed", out var speed)
                 && (double)speed.Value != ContactEntries.DefaultFrictionSpeed)
             {
-                AddWarning("{0}: frictionSpeed has no effect: contacts stick at any speed, elastically up to "
-                    + "elasticSlip", speed.Source);
+                AddWarning(WarningTable.FrictionSpeed, speed.Source);
             }
             if (Method != Solver.Pbd)
             {
@@ -411,13 +408,11 @@ namespace Guidewire.Io
             }
             if (simulation.Pbd.StretchStiffness >= 2.0)
             {
-                AddWarning("stretchStiffness = {0} is at or beyond 2, where transversal motion becomes unstable",
-                    simulation.Pbd.StretchStiffness);
+                AddWarning(WarningTable.StretchStiffness, simulation.Pbd.StretchStiffness);
             }
             if (simulation.Pbd.BendStiffness > l)
             {
-                AddWarning("bendStiffness = {0} is beyond the element length {1}, where bending becomes unstable",
-                    simulation.Pbd.BendStiffness, l);
+                AddWarning(WarningTable.BendStiffness, simulation.Pbd.BendStiffness, l);
             }
         }
 
@@ -429,21 +424,18 @@ namespace Guidewire.Io
                 double fraction = ElementLayout.FractionOfAnElement(simulation, sections[k]);
                 if (fraction == 0.0)
                 {
-                    AddWarning("wireSections[{0}] from {1} to {2} lies beyond the wire's end: it has no effect", k,
-                        sections[k].From, sections[k].To);
+                    AddWarning(WarningTable.SectionBeyond, k, sections[k].From, sections[k].To);
                 }
                 else if (fraction < 0.5)
                 {
-                    AddWarning("wireSections[{0}] from {1} to {2} is {3:G3} of an element long and only contributes "
-                        + "to the average of that element; give it a numberRodElements of its own", k, sections[k].From,
-                        sections[k].To, fraction);
+                    AddWarning(WarningTable.SectionShort, k, sections[k].From, sections[k].To, fraction);
                 }
             }
         }
 
-        private void AddWarning(string format, params object[] values)
+        private void AddWarning(WarningKind kind, params object[] values)
         {
-            _warnings.Add(string.Format(CultureInfo.InvariantCulture, format, values));
+            _warnings.Add(kind.Text(values));
         }
     }
 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
@@ -92,7 +93,10 @@ namespace Guidewire.Core
         protected override double Time => _time;
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => _convergence.Warning;
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            _convergence.AddWarnings(warnings);
+        }
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts => _walls?.Record;

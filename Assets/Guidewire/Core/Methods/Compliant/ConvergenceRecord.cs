@@ -1,5 +1,5 @@
 using System;
-using System.Globalization;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -64,16 +64,13 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>How many steps had not converged and what is wrong by how much, in one line; null where all
-        /// have.</summary>
-        public string? Warning
+        /// <summary>Adds how many steps had not converged and what is wrong by how much.</summary>
+        public void AddWarnings(List<RunWarning> warnings)
         {
-            get
+            long above = StepsAbove;
+            if (above > 0)
             {
-                long above = StepsAbove;
-                return above == 0 ? null : string.Format(CultureInfo.InvariantCulture,
-                    "{0} of {1} steps had not converged ({2} up to {3:0.#} % off); raise substeps or"
-                    + " constraintSolverSteps", above, _steps, Names[Worst()], 100.0 * LargestError);
+                warnings.Add(WarningTable.NotConverged.With(above, _steps, Names[Worst()], 100.0 * LargestError));
             }
         }
 

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
@@ -290,17 +291,22 @@ namespace Guidewire.Core
 
         /// <summary>A hub that slips moves less than asked; a free wire that spins fast loses angular
         /// momentum.</summary>
-        public override string? AccuracyWarning => Drive.Slip != 0.0 ? string.Format(
-            CultureInfo.InvariantCulture,
-            "the hub fell short by {0:G3} m: it slipped at hubForceLimit, or the wire reached an end of its"
-            + " sheath", Drive.Slip)
-            : _dynamics.Solver.RoundingOfSupports > 0.0 ? string.Format(CultureInfo.InvariantCulture,
-            "rounding of positions makes the forces at both ends uncertain by {0:G2} N: the wire is too stiff "
-            + "(youngsModulus, wireRadius) for such short elements", _dynamics.Solver.RoundingOfSupports)
-            : _spinLoss == null || _spinLoss.Expected <= MostSpinLoss ? null : string.Format(
-            CultureInfo.InvariantCulture, "the free wire turned by up to {0:G2} rad a step, which changes its"
-            + " angular momentum by some {1:G2} % (docs/verification.md); a shorter timeStep or another integrator "
-            + "conserves it better", _spinLoss.LargestTurn, 100.0 * _spinLoss.Expected);
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            if (Drive.FallsShort)
+            {
+                warnings.Add(WarningTable.HubShortfall.With("the hub", Drive.Slip,
+                    "it slipped at hubForceLimit, or the wire reached an end of its sheath"));
+            }
+            if (_dynamics.Solver.RoundingOfSupports > 0.0)
+            {
+                warnings.Add(WarningTable.Rounding.With(_dynamics.Solver.RoundingOfSupports));
+            }
+            if (_spinLoss != null && _spinLoss.Expected > MostSpinLoss)
+            {
+                warnings.Add(WarningTable.SpinLost.With(_spinLoss.LargestTurn, 100.0 * _spinLoss.Expected));
+            }
+        }
 
         /// <inheritdoc/>
         public override SolverReport? Report()

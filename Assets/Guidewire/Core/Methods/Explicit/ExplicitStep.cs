@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
@@ -43,8 +44,13 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => TimeStep / _substeps <= _stable ? null
-            : Text("the substep of {0:G4} s is above {1:G4} s, where explicit steps become unstable; raise substeps");
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            if (!(TimeStep / _substeps <= _stable))
+            {
+                warnings.Add(WarningTable.SubstepUnstable.With(TimeStep / _substeps, _stable));
+            }
+        }
 
         /// <inheritdoc/>
         protected override double Time => _time;

@@ -58,8 +58,8 @@ namespace Guidewire.Core
         /// <summary>What made the steady state, in one line, or null.</summary>
         public string? SteadyState { get; private set; }
 
-        /// <summary>Which turn the wire has lost, in one line, or null.</summary>
-        public string? LostTurn => _turns.Warning;
+        /// <summary>Which turn the wire has lost, or null.</summary>
+        public RunWarning? LostTurn => _turns.Warning;
 
         /// <summary>Takes the wire after one more step.</summary>
         public void Update(RodState state, double predictionError)

@@ -1,4 +1,4 @@
-using System.Globalization;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -36,10 +36,17 @@ namespace Guidewire.Core
         public override ContactRecord? Contacts { get; }
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => Contacts == null || Contacts.StuckSteps < StepsThatAreStuck
-            ? _monitor?.LostTurn
-            : "the drive is stuck: in the last " + Contacts.StuckSteps.ToString(CultureInfo.InvariantCulture)
-                + " steps the walls gave sphere 0 less than 1 % of its displacement";
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            if (Contacts != null && Contacts.StuckSteps >= StepsThatAreStuck)
+            {
+                warnings.Add(WarningTable.DriveStuck.With(Contacts.StuckSteps));
+            }
+            if (_monitor?.LostTurn is RunWarning lost)
+            {
+                warnings.Add(lost);
+            }
+        }
 
         /// <summary>Sets what ends the run before its last step; without it nothing does.</summary>
         public void EndBy(PbdMonitor monitor)

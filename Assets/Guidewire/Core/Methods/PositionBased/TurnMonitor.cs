@@ -1,5 +1,3 @@
-using System.Globalization;
-
 namespace Guidewire.Core
 {
     /// <summary>Detects a joint of a pbd wire that has rotated beyond half a turn: it then unwinds in the other
@@ -24,10 +22,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The first joint that lost a turn, when, and what would help, in one line; or null.</summary>
-        public string? Warning => _joint < 0 ? null : string.Format(CultureInfo.InvariantCulture,
-            "joint {0} was turned over half a turn in step {1}, and the wire lost a turn: more constraintSolverSteps, "
-            + "or less twistPerStep, avoid that", _joint, _step);
+        /// <summary>The first joint that lost a turn, and when; or null.</summary>
+        public RunWarning? Warning => _joint < 0 ? (RunWarning?)null : WarningTable.LostTurn.With(_joint, _step);
 
         /// <summary>Takes the wire after a step.</summary>
         /// <param name="state">The wire.</param>

@@ -107,7 +107,7 @@ namespace Guidewire.Core.Tests
             p.Scene.Walls = new ContactShape[] { new TubeShape(
                 new[] { Vector3d.Zero, 300.0 * factor * Vector3d.UnitZ }, new[] { 5.0 * factor, 5.0 * factor }, true,
                 true) };
-            string? line = WireStart.FindOddSizes(p);
+            string? line = WireStart.FindOddSizes(p, "vessel.json");
             Assert.That(line != null, Is.EqualTo(isOdd), line);
             if (isOdd)
             {
@@ -123,10 +123,11 @@ namespace Guidewire.Core.Tests
             p.Scene.GuidewireOffset = 1000.0;
             p.Scene.Walls = new ContactShape[] { new TubeShape(
                 new[] { 990.0 * Vector3d.UnitZ, 1600.0 * Vector3d.UnitZ }, new[] { 5.0, 5.0 }, true, true) };
-            Assert.That(WireStart.FindOddSizes(p), Is.Null);
+            Assert.That(WireStart.FindOddSizes(p, "vessel.json"), Is.Null);
             p.Scene.Walls = new ContactShape[] { new TubeShape(
                 new[] { 990.0 * Vector3d.UnitZ, 1600.0 * Vector3d.UnitZ }, new[] { 90.0, 90.0 }, true, true) };
-            Assert.That(WireStart.FindOddSizes(p), Does.Contain("its wall 90 units from the wire's tip"));
+            Assert.That(WireStart.FindOddSizes(p, "vessel.json"),
+                Does.Contain("its wall 90 units from the wire's tip"));
         }
 
         private static SimulationParameters Wire(double radius)

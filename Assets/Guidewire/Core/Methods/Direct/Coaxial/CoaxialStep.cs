@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -97,7 +98,10 @@ namespace Guidewire.Core
         public CoaxialRod Rod => _rod;
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => HubSlip.WarningOf(_slips, _setup.Sheath != null);
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            HubSlip.AddWarnings(_slips, _setup.Sheath != null, warnings);
+        }
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
@@ -269,6 +273,10 @@ namespace Guidewire.Core
             {
                 _drives[i].Hub.Serialize(snapshot, time);
                 _drives[i].Serialize(snapshot);
+            }
+            foreach (HubSlip slip in _slips)
+            {
+                slip.Serialize(snapshot);
             }
             foreach (CoaxialRecord record in _records)
             {

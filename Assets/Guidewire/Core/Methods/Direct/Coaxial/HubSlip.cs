@@ -1,5 +1,5 @@
 using System;
-using System.Globalization;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -14,10 +14,8 @@ namespace Guidewire.Core
     /// the least of those that were found.</remarks>
     internal sealed class HubSlip
     {
-        private const double Nothing = 1e-12;   // m, a shortfall left by rounding where a hub just comes to its end
         private const double Close = 0.02;      // of the limit
         private const int MostTrials = 24;
-        private const string Separator = "; ";
         private const double Exact = 1e-3;      // of the limit
 
         private readonly MaterialDrive _drive;
@@ -110,12 +108,11 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>What is not as asked of the hubs, in one line; or null.</summary>
+        /// <summary>Adds what is not as asked of the hubs.</summary>
         /// <param name="hubs">The outermost one first, the wire's last.</param>
         /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
-        public static string? WarningOf(HubSlip[] hubs, bool isSheathed)
+        public static void AddWarnings(HubSlip[] hubs, bool isSheathed, List<RunWarning> warnings)
         {
-            string text = "";
             int last = hubs.Length - 1;
             for (int k = last; k >= 0; k--)
             {
@@ -126,25 +123,31 @@ namespace Guidewire.Core
                     : last == 1 ? "it met the wire's hub, or its first element came to the wire's tip"
                     : "it met the next hub, or its first element came to a tip inside";
                 stops += k < last && isSheathed ? ", or its hub to the exit of the sheath" : "";
-                text += hubs[k].TextOf(name, stops);
+                if (hubs[k]._drive.FallsShort)
+                {
+                    warnings.Add(WarningTable.HubShortfall.With(name, hubs[k]._drive.Slip,
+                        (hubs[k].IsLimited ? "it slipped at its hubForceLimit, or " : "") + stops));
+                }
+                if (hubs[k].FindExcess(name) is RunWarning excess)
+                {
+                    warnings.Add(excess);
+                }
             }
-            return text == "" ? null : text.Substring(Separator.Length);
         }
 
-        /// <summary>That it had more than its limit, after a separator; or nothing.</summary>
-        /// <param name="name">What the phrase calls the hub.</param>
-        public string TextOfExcess(string name)
+        /// <summary>That it had more than its limit, or null.</summary>
+        /// <param name="name">What the warning calls the hub.</param>
+        public RunWarning? FindExcess(string name)
         {
-            return _stepsBeyond == 0 ? "" : string.Format(CultureInfo.InvariantCulture, Separator
-                + "{0} had up to {1:G3} N, above its hubForceLimit of {2:G3} N, in {3} of the steps: every "
-                + "displacement that was tried needed more", name, _mostBeyond, _limit, _stepsBeyond);
+            return _stepsBeyond == 0 ? (RunWarning?)null
+                : WarningTable.HubForce.With(name, _mostBeyond, _limit, _stepsBeyond);
         }
 
-        private string TextOf(string name, string stops)
+        /// <summary>Writes or restores what the steps had beyond the limit.</summary>
+        public void Serialize(Snapshot snapshot)
         {
-            return (Math.Abs(_drive.Slip) > Nothing ? string.Format(CultureInfo.InvariantCulture,
-                Separator + "{0} fell short by {1:G3} m: {2}{3}", name, _drive.Slip,
-                IsLimited ? "it slipped at its hubForceLimit, or " : "", stops) : "") + TextOfExcess(name);
+            snapshot.Serialize(ref _stepsBeyond);
+            snapshot.Serialize(ref _mostBeyond);
         }
 
         private void Take(in Trial trial)

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -66,7 +67,10 @@ namespace Guidewire.Core
         public DirectStep Inner => _inner;
 
         /// <inheritdoc/>
-        public override string? AccuracyWarning => _inner.AccuracyWarning;
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            _inner.AddWarnings(warnings);
+        }
 
         /// <inheritdoc/>
         public override void Advance(RodState state)

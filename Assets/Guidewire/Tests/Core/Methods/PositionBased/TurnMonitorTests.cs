@@ -17,7 +17,7 @@ namespace Guidewire.Core.Tests
                 watch.Update(state, step);
             }
             Assert.That(watch.Warning != null, Is.EqualTo(start.Length > 0));
-            Assert.That(watch.Warning ?? "", Does.StartWith(start));
+            Assert.That(watch.Warning?.Text ?? "", Does.StartWith(start));
         }
 
         [Test]
@@ -29,7 +29,7 @@ namespace Guidewire.Core.Tests
             watch.Update(state, 1);
             TurnDistalPart(state, -1.1 * Math.PI);
             watch.Update(state, 2);
-            Assert.That(watch.Warning, Does.Contain("in step 1,"));
+            Assert.That(watch.Warning!.Value.Text, Does.Contain("in step 1,"));
         }
 
         [Test]

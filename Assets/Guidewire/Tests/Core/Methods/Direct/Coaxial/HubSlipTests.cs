@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
             Assert.That(trials, Is.LessThan(MostTrials));
             Assert.That(moved, Is.EqualTo(right).Within(0.0201 * Limit / stiffness));
             Assert.That(Math.Abs(Force(moved)), Is.LessThanOrEqualTo(Limit));
-            Assert.That(slip.TextOfExcess("a hub"), Is.Empty);
+            Assert.That(slip.FindExcess("a hub"), Is.Null);
         }
 
         // Of the two forces on either side of the jump it has the smaller one, whichever the search ends at.
@@ -59,9 +59,9 @@ namespace Guidewire.Core.Tests
                 Assert.That(Math.Abs(moved > 1e-4 ? ahead : behind), Is.EqualTo(least));
                 slip.EndStep(moved > 1e-4 ? ahead : behind);
             }
-            Assert.That(slip.TextOfExcess("the wire's hub"), Does.Contain("the wire's hub had up to")
+            Assert.That(slip.FindExcess("the wire's hub")!.Value.Text, Does.Contain("the wire's hub had up to")
                 .And.Contain("hubForceLimit of 0.05 N"));
-            Assert.That(slip.TextOfExcess("a hub"), Does.Contain("in 2 of the steps"));
+            Assert.That(slip.FindExcess("a hub")!.Value.Text, Does.Contain("in 2 of the steps"));
         }
     }
 }

@@ -1,0 +1,71 @@
+using System;
+using System.Globalization;
+using System.Text.RegularExpressions;
+
+namespace Guidewire.Core
+{
+    /// <summary>A kind of warning: its line, what that means, and whether the result of a run with it can be
+    /// trusted.</summary>
+    public sealed class WarningKind
+    {
+        // "*name*" or "*name:format*"
+        private static readonly Regex Placeholder = new Regex(@"\*(?<name>[^:*]+)(:(?<format>[^*]+))?\*");
+
+        private readonly string _line;
+
+        /// <param name="name">Unique, in one word.</param>
+        /// <param name="line">With placeholders: *name*, or *name:format* with a .NET format.</param>
+        /// <param name="meaning">Markdown.</param>
+        internal WarningKind(string name, WarningPlace place, bool isReliable, string line, string meaning)
+        {
+            Name = name;
+            Place = place;
+            IsReliable = isReliable;
+            _line = line;
+            Meaning = meaning;
+        }
+
+        /// <summary>Its name, in one word.</summary>
+        public string Name { get; }
+
+        /// <summary>Where it is told.</summary>
+        public WarningPlace Place { get; }
+
+        /// <summary>Whether the result of a run with this warning can be trusted.</summary>
+        public bool IsReliable { get; }
+
+        /// <summary>What it means, in Markdown.</summary>
+        public string Meaning { get; }
+
+        /// <summary>The line with names in place of its values, such as *k*.</summary>
+        public string Line => Placeholder.Replace(_line, "*${name}*");
+
+        /// <summary>The line of one run.</summary>
+        /// <param name="values">One for each placeholder, in order.</param>
+        /// <exception cref="ArgumentException">There are more or fewer.</exception>
+        public string Text(params object[] values)
+        {
+            int next = 0;
+            string text = Placeholder.Replace(_line, match =>
+            {
+                object value = next < values.Length ? values[next] : throw Miscounted(values);
+                next++;
+                string format = match.Groups["format"].Value;
+                return value is IFormattable number
+                    ? number.ToString(format.Length == 0 ? null : format, CultureInfo.InvariantCulture)
+                    : value.ToString()!;
+            });
+            return next == values.Length ? text : throw Miscounted(values);
+        }
+
+        internal RunWarning With(params object[] values)
+        {
+            return new RunWarning(this, Text(values));
+        }
+
+        private ArgumentException Miscounted(object[] values)
+        {
+            return new ArgumentException(Name + " does not have " + values.Length + " values");
+        }
+    }
+}

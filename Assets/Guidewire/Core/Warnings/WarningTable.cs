@@ -1,0 +1,202 @@
+using System.Collections.Generic;
+using System.Text;
+
+namespace Guidewire.Core
+{
+    /// <summary>Every warning of the program, once: its line and what it means for <see
+    /// cref="Simulation.IsReliable"/>.</summary>
+    public static class WarningTable
+    {
+        private static readonly List<WarningKind> Kinds = new List<WarningKind>();
+
+        /// <summary>Keys that the solver ignores.</summary>
+        public static readonly WarningKind IgnoredKeys = AtStart("ignoredKeys",
+            "solver *s* does not take *keys*: ignored", "`ignored`; the keys are those of another solver");
+
+        /// <summary>An older word of a key.</summary>
+        public static readonly WarningKind OlderName = AtStart("olderName",
+            "*file*: *key* = *value* is an older name and means \"*newer*\"", "the run is that of the newer name");
+
+        /// <summary>rodElementLength is not L/n.</summary>
+        public static readonly WarningKind ElementLength = AtStart("elementLength",
+            "*file*: rodElementLength = *l* is not guidewireLength / numberRodElements = *m*; the latter is used",
+            "remove the key, or correct the one that is wrong");
+
+        /// <summary>frictionSpeed with direct.</summary>
+        public static readonly WarningKind FrictionSpeed = AtStart("frictionSpeed",
+            "*file*: frictionSpeed has no effect: contacts stick at any speed, elastically up to elasticSlip",
+            "a key of older files");
+
+        /// <summary>A pbd stiffness for stretching that is unstable.</summary>
+        public static readonly WarningKind StretchStiffness = AtStart("stretchStiffness",
+            "stretchStiffness = *k* is at or beyond 2, where transversal motion becomes unstable",
+            "pbd: the run may end as `diverged`");
+
+        /// <summary>A pbd stiffness for bending that is unstable.</summary>
+        public static readonly WarningKind BendStiffness = AtStart("bendStiffness",
+            "bendStiffness = *k* is beyond the element length *l*, where bending becomes unstable",
+            "pbd: the run may end as `diverged`");
+
+        /// <summary>A section beyond the wire.</summary>
+        public static readonly WarningKind SectionBeyond = AtStart("sectionBeyond",
+            "wireSections[*i*] from *a* to *b* lies beyond the wire's end: it has no effect",
+            "positions are counted from the hub, in units");
+
+        /// <summary>A section shorter than half an element.</summary>
+        public static readonly WarningKind SectionShort = AtStart("sectionShort",
+            "wireSections[*i*] from *a* to *b* is *f:G3* of an element long and only contributes to the average of "
+            + "that element; give it a numberRodElements of its own", "the section is coarser than it was given");
+
+        /// <summary>An element of a start file that is sheared by much.</summary>
+        public static readonly WarningKind ShearedStart = AtStart("shearedStart",
+            "*file*: *which element of the start is sheared*",
+            "pbd: an element of the start is not along its orientation; with a material it is an error");
+
+        /// <summary>Sizes of vessel and wire that hardly belong together.</summary>
+        public static readonly WarningKind OddSizes = AtStart("oddSizes",
+            "*file*: vessel and wire differ implausibly in size: the vessel is *a:G3* units long and its wall *b:G3* "
+            + "units from the wire's tip, the wire *c:G3* units long with a radius of *r:G3*; scale and metresPerUnit "
+            + "change a vessel's size", "often a mesh in other units than the wire");
+
+        /// <summary>A mesh that goes through itself.</summary>
+        public static readonly WarningKind SelfIntersection = AtStart("selfIntersection",
+            "*file*: the mesh intersects itself: *k* edges pierce a triangle, the first at (*x:G6*, *y:G6*, *z:G6*); "
+            + "there the inside is not defined", "a wire may pass where the sheets cross; if it does, `passages` or "
+            + "`maxPenetration` says so, and the run is not reliable. `anatomy repair` mends such a mesh");
+
+        /// <summary>xpbd: steps that have not converged.</summary>
+        public static readonly WarningKind NotConverged = AfterReason("notConverged",
+            "*a* of *b* steps had not converged (*kind* up to *p:0.#* % off); raise substeps or "
+            + "constraintSolverSteps",
+            "xpbd: the error that the iterations left is above 0.5 % of the largest bending, twist, or stretch and "
+            + "shear, or another iteration would move a contact by 0.5 % of the wire's radius");
+
+        /// <summary>pbd: a drive that does not get on.</summary>
+        public static readonly WarningKind DriveStuck = AfterReason("driveStuck",
+            "the drive is stuck: in the last *k* steps the walls gave sphere 0 less than 1 % of its displacement",
+            "pbd: for the last ten steps or more; the drive asks for more displacement than the walls allow, and "
+            + "`driveShortfall` says how much");
+
+        /// <summary>pbd: a joint beyond half a turn.</summary>
+        public static readonly WarningKind LostTurn = AfterReason("lostTurn",
+            "joint *j* was turned over half a turn in step *k*, and the wire lost a turn: more constraintSolverSteps, "
+            + "or less twistPerStep, avoid that", "pbd: the correction of a joint is proportional to the sine of its "
+            + "angle, so beyond half a turn it unwinds in the opposite direction");
+
+        /// <summary>direct: a hub that did not move as far as asked.</summary>
+        public static readonly WarningKind HubShortfall = AfterReason("hubShortfall",
+            "*hub* fell short by *s:G3* m: *why*", "direct: by more than a thousandth of the motion asked of it. The "
+            + "hub slipped at `hubForceLimit`, as a torque device slides along a wire that is stuck. Or the hub or the "
+            + "tip reached an end of the `sheath`. With `catheters`: hubs met, or a tip was withdrawn to the first "
+            + "element of the catheter around it");
+
+        /// <summary>direct: a hub that exceeded its limit.</summary>
+        public static readonly WarningKind HubForce = AfterReason("hubForce",
+            "*hub* had up to *F:G3* N, above its hubForceLimit of *L:G3* N, in *k* of the steps: every displacement "
+            + "that was tried needed more", "with `catheters`: the force jumps past the limit, often in the first "
+            + "step, when bent tips that start straight spring to the walls");
+
+        /// <summary>direct: a wire too stiff for its elements.</summary>
+        public static readonly WarningKind Rounding = AfterReason("rounding",
+            "rounding of positions makes the forces at both ends uncertain by *F:G2* N: the wire is too stiff "
+            + "(youngsModulus, wireRadius) for such short elements", "direct: a wire held at both ends whose EA/l is "
+            + "so large that one unit in the last place of its length is a force above 1e-7 N");
+
+        /// <summary>direct: a free wire that spins too fast for its steps.</summary>
+        public static readonly WarningKind SpinLost = AfterReason("spinLost",
+            "the free wire turned by up to *a:G2* rad a step, which changes its angular momentum by some *p:G2* % "
+            + "(docs/verification.md); a shorter timeStep or another integrator conserves it better",
+            "direct: by more than 1 %");
+
+        /// <summary>explicit: substeps beyond stability.</summary>
+        public static readonly WarningKind SubstepUnstable = AfterReason("substepUnstable",
+            "the substep of *h:G4* s is above *s:G4* s, where explicit steps become unstable; raise substeps",
+            "explicit: above 2 over the wire's highest angular frequency");
+
+        /// <summary>Points that passed a wall.</summary>
+        public static readonly WarningKind Passages = AtEnd("passages", "*k* points of the wire passed a wall",
+            "`passages`");
+
+        /// <summary>Penetration beyond what the method allows.</summary>
+        public static readonly WarningKind Penetration = AtEnd("penetration",
+            "the wire penetrated a wall by *d:G3* units, *r:G3* units are allowed",
+            "`maxPenetration`; pbd allows the radius, xpbd a twentieth of it, direct nothing");
+
+        /// <summary>A wire of another length.</summary>
+        public static readonly WarningKind Length = AtEnd("length",
+            "the wire is *p:0.0* % *shorter or longer* than at rest", "by more than 1 %, more than a metal wire can "
+            + "withstand; with pbd too soft, or compressed between walls");
+
+        /// <summary>Bent to less than five times its radius.</summary>
+        public static readonly WarningKind Strain = AtEnd("strain",
+            "the outermost fibre was strained by up to *p:0* %: a real instrument would have kinked",
+            "direct: `strain` of `extremes` above 20 %: the instrument was bent to less than five times its own "
+            + "radius. The wire's law is linear, while metals leave their elastic range at 1 to 8 %. Twist does not "
+            + "count. "
+            + "`stress` shows where");
+
+        /// <summary>A drive that the walls kept back.</summary>
+        public static readonly WarningKind DriveShortfall = AtEnd("driveShortfall",
+            "the drive fell short: of *a:G4* units that it asked of the first sphere *b:G3* are missing",
+            "`driveShortfall`, above a thousandth of `driveAsked` and above a millionth of the wire's length, the give "
+            + "of a hub that rests");
+
+        /// <summary>Play of instruments in one another.</summary>
+        public static readonly WarningKind Play = AtEnd("play",
+            "the *inner* has *d:G3* mm of play in the *outer*, which is not simulated: at the tip their axes may "
+            + "differ by up to *a:G3* degrees, and *l:G3* mm of *o:G3* mm of overlap are not coupled",
+            "with `catheters`: the play neglected by the shared centreline is not small: 15 degrees or more, or a "
+            + "tenth of the overlap ([coaxial.md](coaxial.md)). The direction of such a tip is not that of a real one");
+
+        /// <summary>A tip that left by an open rim.</summary>
+        public static readonly WarningKind OpenRim = Add("openRim", WarningPlace.End, true,
+            "the tip left the vessel by an open rim at (*x:G4*, *y:G4*, *z:G4*) at t = *t:G6* s",
+            "where and when the tip was first outside; there is no wall beyond the rim. This is not an error");
+
+        /// <summary>All of them, in the order of the docs.</summary>
+        public static IReadOnlyList<WarningKind> All => Kinds;
+
+        /// <summary>The kind of a name.</summary>
+        internal static WarningKind Find(string name)
+        {
+            return Kinds.Find(kind => kind.Name == name)!;
+        }
+
+        /// <summary>The table as Markdown, as docs/runs.md shows it.</summary>
+        public static string ToMarkdown()
+        {
+            var text = new StringBuilder("| line | told | `reliable` | meaning |\n|---|---|---|---|\n");
+            foreach (WarningKind kind in Kinds)
+            {
+                text.Append("| ").Append(kind.Line).Append(" | ")
+                    .Append(kind.Place == WarningPlace.Start ? "before the run" : kind.Place == WarningPlace.Reason
+                        ? "after the reason" : "at the end")
+                    .Append(kind.IsReliable ? " | is not changed | " : " | is false | ").Append(kind.Meaning)
+                    .Append(" |\n");
+            }
+            return text.ToString();
+        }
+
+        private static WarningKind AtStart(string name, string line, string meaning)
+        {
+            return Add(name, WarningPlace.Start, true, line, meaning);
+        }
+
+        private static WarningKind AfterReason(string name, string line, string meaning)
+        {
+            return Add(name, WarningPlace.Reason, false, line, meaning);
+        }
+
+        private static WarningKind AtEnd(string name, string line, string meaning)
+        {
+            return Add(name, WarningPlace.End, false, line, meaning);
+        }
+
+        private static WarningKind Add(string name, WarningPlace place, bool isReliable, string line, string meaning)
+        {
+            var kind = new WarningKind(name, place, isReliable, line, meaning);
+            Kinds.Add(kind);
+            return kind;
+        }
+    }
+}
