@@ -3,7 +3,7 @@ using System.Collections.Generic;
 
 namespace Guidewire.Io
 {
-    /// <summary>The physical quantity of a number in an instrument's file.</summary>
+    /// <summary>The physical quantity of a number in a file.</summary>
     internal enum Dimension
     {
         /// <summary>A length, m.</summary>
@@ -11,6 +11,9 @@ namespace Guidewire.Io
 
         /// <summary>An angle, rad.</summary>
         Angle,
+
+        /// <summary>A time, s.</summary>
+        Time,
 
         /// <summary>A modulus, Pa.</summary>
         Modulus,
@@ -25,7 +28,7 @@ namespace Guidewire.Io
         Number,
     }
 
-    /// <summary>The units in which instruments are described, and their size in SI: a French is a third of a
+    /// <summary>The units of instruments' files and of tables, and their size in SI: a French is a third of a
     /// millimetre, an inch 25.4 mm.</summary>
     internal static class UnitTable
     {
@@ -39,6 +42,8 @@ namespace Guidewire.Io
             ("F", Dimension.Length, 1e-3 / 3.0),
             ("deg", Dimension.Angle, Math.PI / 180.0),
             ("rad", Dimension.Angle, 1.0),
+            ("s", Dimension.Time, 1.0),
+            ("ms", Dimension.Time, 1e-3),
             ("Pa", Dimension.Modulus, 1.0),
             ("MPa", Dimension.Modulus, 1e6),
             ("GPa", Dimension.Modulus, 1e9),
@@ -77,7 +82,24 @@ namespace Guidewire.Io
             return Words(dimension).Noun + " in a known unit, not '" + unit + "': allowed are " + Of(dimension);
         }
 
-        private static string Of(Dimension dimension)
+        /// <summary>The size of a unit in SI.</summary>
+        /// <param name="dimension">What it must measure.</param>
+        /// <returns>False where it is no unit of that.</returns>
+        public static bool TrySize(string unit, Dimension dimension, out double size)
+        {
+            (string Unit, Dimension Of, double Size) known = Array.Find(Units, one => one.Unit == unit);
+            size = known.Size;
+            return known.Unit != null && known.Of == dimension;
+        }
+
+        /// <summary>The SI unit of a dimension.</summary>
+        public static string SIUnitOf(Dimension dimension)
+        {
+            return Array.Find(Units, one => one.Of == dimension && one.Size == 1.0).Unit;
+        }
+
+        /// <summary>The units of a dimension, with commas between.</summary>
+        public static string Of(Dimension dimension)
         {
             var words = new List<string>();
             foreach ((string unit, Dimension of, double _) in Units)
@@ -98,6 +120,8 @@ namespace Guidewire.Io
                     return ("a length", "0.035 in");
                 case Dimension.Angle:
                     return ("an angle", "45 deg");
+                case Dimension.Time:
+                    return ("a time", "1.5 s");
                 case Dimension.Modulus:
                     return ("a modulus", "60.3 GPa");
                 case Dimension.Stiffness:

@@ -19,8 +19,9 @@ namespace Guidewire.Io
             }
             values.DriveFile = NamedFile.Find(values.DriveFile, source);
             string where = source + ": driveFile: ";
-            List<double>[] columns = TableReader.Read(values.DriveFile, where, 3,
-                "a time (s), an insertion (m) and a rotation (rad), with commas between");
+            List<double>[] columns = TableReader.Read(values.DriveFile, where,
+                new TableColumn("time", Dimension.Time), new TableColumn("insertion", Dimension.Length),
+                new TableColumn("rotation", Dimension.Angle));
             try
             {
                 double[] times = columns[0].ToArray();

@@ -8,8 +8,13 @@ namespace Guidewire.Io
     /// in m and a rotation vector in rad, x, y, z each.</summary>
     internal static class EndMotionReader
     {
-        private const string Columns = "seven numbers with commas between: a time (s), a displacement x, y, z (m) and a"
-            + " rotation vector x, y, z (rad)";
+        private static readonly TableColumn[] Columns =
+        {
+            new TableColumn("time", Dimension.Time), new TableColumn("x", Dimension.Length),
+            new TableColumn("y", Dimension.Length), new TableColumn("z", Dimension.Length),
+            new TableColumn("rx", Dimension.Angle), new TableColumn("ry", Dimension.Angle),
+            new TableColumn("rz", Dimension.Angle),
+        };
 
         /// <summary>Sets the motions of a scene; the files' names are replaced by those that were found.</summary>
         /// <param name="values">Its parameters.</param>
@@ -32,7 +37,7 @@ namespace Guidewire.Io
             }
             string found = NamedFile.Find(file, sourceOf(key));
             string where = sourceOf(key) + ": " + key + ": ";
-            List<double>[] columns = TableReader.Read(found, where, 7, Columns);
+            List<double>[] columns = TableReader.Read(found, where, Columns);
             try
             {
                 set(new EndMotion(columns[0].ToArray(), Vectors(columns, 1), Vectors(columns, 4)));

@@ -62,7 +62,8 @@ namespace Guidewire.Io
 
         private static TimeTable Table(string file, string where)
         {
-            List<double>[] columns = TableReader.Read(file, where, 2, "a time (s) and a factor, with a comma between");
+            List<double>[] columns = TableReader.Read(file, where, new TableColumn("time", Dimension.Time),
+                new TableColumn("factor", Dimension.Number));
             try
             {
                 return new TimeTable(columns[0].ToArray(), columns[1].ToArray());

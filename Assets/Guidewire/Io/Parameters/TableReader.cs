@@ -1,20 +1,22 @@
 using System;
 using System.Collections.Generic;
-using System.Globalization;
+using System.Linq;
+using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>Reads a CSV file of numbers in columns. A first line of words and lines that begin with # are passed
-    /// over.</summary>
+    /// <summary>Reads a CSV file of numbers in columns. Lines that begin with # are passed over. A first line of words
+    /// names the columns, in any order and with units: time,rotation_deg,insertion_mm. Without one they are in the
+    /// order asked for, in SI.</summary>
     internal static class TableReader
     {
-        /// <summary>The columns, each with a number for every row.</summary>
+        private static readonly char[] Separators = { ';', '\t', ' ' };
+
+        /// <summary>The columns asked for, each with a number for every row, in SI.</summary>
         /// <param name="file">Its full name.</param>
         /// <param name="where">Parameter file and key, for what is refused; ends in ": ".</param>
-        /// <param name="count">Of columns.</param>
-        /// <param name="needed">What a line needs, as a noun phrase.</param>
         /// <exception cref="ParameterException">The file cannot be read, or a line holds something else.</exception>
-        public static List<double>[] Read(string file, string where, int count, string needed)
+        public static List<double>[] Read(string file, string where, params TableColumn[] columns)
         {
             string[] lines;
             try
@@ -25,55 +27,104 @@ namespace Guidewire.Io
             {
                 throw new ParameterException(where + error.Message);
             }
-            var columns = new List<double>[count];
-            for (int c = 0; c < count; c++)
-            {
-                columns[c] = new List<double>();
-            }
+            List<double>[] read = Array.ConvertAll(columns, _ => new List<double>());
+            int[] order = Enumerable.Range(0, columns.Length).ToArray();
+            double[] sizes = Array.ConvertAll(columns, _ => 1.0);
             bool mayBeHead = true;
             for (int i = 0; i < lines.Length; i++)
             {
-                if (lines[i].Trim().Length == 0 || lines[i].StartsWith("#", StringComparison.Ordinal))
+                string line = lines[i].Trim();
+                if (line.Length == 0 || line[0] == '#')
                 {
                     continue;
                 }
-                if (!TryRow(lines[i].Split(','), columns) && (!mayBeHead || !IsHead(lines[i], count)))
+                string[] cells = Array.ConvertAll(line.Split(','), cell => cell.Trim().Trim('"').Trim());
+                string? problem = mayBeHead && IsHead(cells) ? FindProblemOfHead(cells, columns, order, sizes)
+                    : FindProblemOfRow(cells, columns, order, sizes, read);
+                if (problem != null)
                 {
-                    throw new ParameterException(where + file + ": line " + (i + 1) + " needs " + needed);
+                    throw new ParameterException(where + file + ": line " + (i + 1) + " " + problem);
                 }
                 mayBeHead = false;
             }
-            return columns;
+            return read;
+        }
+
+        // Words alone.
+        private static bool IsHead(string[] cells)
+        {
+            return Array.TrueForAll(cells, cell => cell.Length > 0 && (char.IsLetter(cell[0]) || cell[0] == '_'));
         }
 
         // Adds a row, whole or not at all.
-        private static bool TryRow(string[] cells, List<double>[] columns)
+        private static string? FindProblemOfRow(string[] cells, TableColumn[] columns, int[] order, double[] sizes,
+            List<double>[] read)
         {
-            var row = new double[columns.Length];
-            if (cells.Length != columns.Length)
-            {
-                return false;
-            }
-            for (int c = 0; c < row.Length; c++)
+            var row = new double[cells.Length];
+            for (int c = 0; c < cells.Length; c++)
             {
                 if (!NumberText.TryRead(cells[c], out row[c]))
                 {
-                    return false;
+                    return "needs " + Needed(columns) + "; it has '" + cells[c] + "'"
+                        + (cells[c].IndexOfAny(Separators) < 0 ? "" : ": commas separate columns, and numbers have a "
+                            + "decimal point");
                 }
+            }
+            if (row.Length != columns.Length)
+            {
+                return "needs " + Needed(columns) + "; it has " + row.Length + " numbers"
+                    + (row.Length > columns.Length ? ": numbers have a decimal point, not a comma" : "");
             }
             for (int c = 0; c < row.Length; c++)
             {
-                columns[c].Add(row[c]);
+                read[order[c]].Add(sizes[c] * row[c]);
             }
-            return true;
+            return null;
         }
 
-        // Words, one for each column.
-        private static bool IsHead(string line, int count)
+        // Where the columns are, and the size of their units in SI.
+        private static string? FindProblemOfHead(string[] cells, TableColumn[] columns, int[] order, double[] sizes)
         {
-            string[] cells = line.Split(',');
-            return cells.Length == count && Array.TrueForAll(cells, cell => cell.Trim().Length > 0
-                && !double.TryParse(cell, NumberStyles.Float, CultureInfo.InvariantCulture, out _));
+            var found = new HashSet<int>();
+            for (int c = 0; c < cells.Length; c++)
+            {
+                string name = cells[c].Split(' ', '_', '(', '[')[0];
+                string unit = cells[c].Substring(name.Length).Trim(' ', '_', '(', ')', '[', ']');
+                int column = Array.FindIndex(columns, one => string.Equals(one.Name, name,
+                    StringComparison.OrdinalIgnoreCase));
+                if (column < 0)
+                {
+                    return "has a column '" + cells[c] + "': allowed are " + Names(columns) + ", with commas between"
+                        + (cells[c].Contains(';') ? ", no semicolons" : "");
+                }
+                if (!found.Add(column))
+                {
+                    return "has the column '" + columns[column].Name + "' twice";
+                }
+                double size = 1.0;
+                if (unit.Length > 0 && !UnitTable.TrySize(unit, columns[column].Of, out size))
+                {
+                    return "has the column '" + cells[c] + "' in an unknown unit: allowed are "
+                        + UnitTable.Of(columns[column].Of);
+                }
+                if (c < order.Length)
+                {
+                    (order[c], sizes[c]) = (column, size);
+                }
+            }
+            int missing = Enumerable.Range(0, columns.Length).FirstOrDefault(k => !found.Contains(k));
+            return found.Count == columns.Length ? null
+                : "has no column '" + columns[missing].Name + "': needed are " + Names(columns);
+        }
+
+        private static string Names(TableColumn[] columns)
+        {
+            return string.Join(", ", columns.Select(column => column.Name));
+        }
+
+        private static string Needed(TableColumn[] columns)
+        {
+            return string.Join(", ", columns.Select(column => column.Words)) + " with commas between";
         }
     }
 }
