@@ -65,11 +65,12 @@ namespace Guidewire.Core
         /// <exception cref="ArgumentException">A method that is not known.</exception>
         public static MethodTraits Of(Solver solver)
         {
-            foreach (MethodTraits method in All)
+            // By index: views ask in each frame, and an enumerator would be garbage.
+            for (int k = 0; k < All.Count; k++)
             {
-                if (method.Solver == solver)
+                if (All[k].Solver == solver)
                 {
-                    return method;
+                    return All[k];
                 }
             }
             throw new ArgumentException("unknown solver " + solver);
