@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.prepare import PreparationError
+from guidewire.prepare import DOOR, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.whole_files import write_whole
 from guidewire.sessions.session import Session, SessionError
@@ -259,7 +259,7 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
         raise PreparationError(f"{scene}: is no JSON: {error}") from error
     missing = [key for key in ("inlet", "target", "insertionSpeed", "timeStep", "guidewireLength") if key not in asked]
     if missing:
-        raise PreparationError(f"{scene}: has no {missing[0]}: needs the scene.json that 'guidewire.py anatomy' wrote")
+        raise PreparationError(f"{scene}: has no {missing[0]}: needs the scene.json that '{DOOR} anatomy' wrote")
     if not all(isinstance(asked[key], int) for key in ("inlet", "target")):
         raise PreparationError(f"{scene}: inlet and target need to be numbers of ends, as 'anatomy' wrote them")
     try:

@@ -62,7 +62,7 @@ class Bench:
         out = self._folder / str(self._count)
         answer = self._runner.run(Request(out.name, None, out, dict(parameters)))
         if answer.exit_code != 0:
-            raise PreparationError(answer.message.removeprefix("command line: "))
+            raise PreparationError(answer.message.removeprefix("set: "))
         return out
 
     def wire(self, name: str) -> Wire:

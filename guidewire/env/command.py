@@ -17,7 +17,7 @@ from guidewire.env.environment import Environment
 from guidewire.env.recorded import RecordedDrive, digest_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import all_tasks, find_task
-from guidewire.prepare import PreparationError
+from guidewire.prepare import DOOR, PreparationError
 from guidewire.sessions.session import SessionError
 
 POLICIES = {"retry": TurnAndRetry, "random": Chance}
@@ -103,5 +103,5 @@ def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[s
         return 0
     RecordedDrive(task.name, _BY_HAND, steered.calls, digest_of(steered.state), "by keys, through the page").save(file)
     print(f"recorded: {file}, {len(steered.calls)} calls; "
-          f"'guidewire.py tasks {name} --replay {file}' does them again")
+          f"'{DOOR} tasks {name} --replay {file}' does them again")
     return 0

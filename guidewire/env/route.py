@@ -34,7 +34,7 @@ class Route:
             numbers = unit * np.array(line["points"], dtype=float).reshape(-1, 4)
             parents = np.array(line["parents"], dtype=int)
         except (KeyError, TypeError, ValueError) as error:
-            raise Error("an anatomy needs a centreline of points and parents, as 'guidewire.py anatomy' writes it"
+            raise Error("an anatomy needs a centreline of points and parents, as the command anatomy writes it"
                         ) from error
         self.points, self._radii = np.ascontiguousarray(numbers[:, :3]), numbers[:, 3]
         self.widest = float(self._radii.max())

@@ -12,7 +12,8 @@ from typing import Any
 
 from guidewire.env.spaces import Error, NameNotFound
 from guidewire.env.vessels import made_vessel
-from guidewire.prepare import ROOT
+from guidewire.prepare import DOOR, ROOT
+from guidewire.studies.json_text import problem_of, without_notes
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"
@@ -113,7 +114,7 @@ def find_task(task: str | Path | Task) -> Task:
     if "vessel" not in entry:
         return _task(path.stem, entry, path)
     if not isinstance(entry["vessel"], dict) or "anatomy" not in entry["vessel"] or "target" not in entry:
-        raise Error(f"{path}: a task needs vessel.anatomy and target: 'guidewire.py anatomy FILE' writes such a scene")
+        raise Error(f"{path}: a task needs vessel.anatomy and target: '{DOOR} anatomy FILE' writes such a scene")
     time_step, steps = (_number(entry, key, 1e-9, 1e9, path) for key in ("timeStep", "maxSimulationSteps"))
     return Task(path.stem, f"{path.name} to end {entry['target']}", str(path),
                 overrides={"timeStep": _STEP / max(1, round(_STEP / time_step))},
@@ -175,8 +176,11 @@ def _number(entry: Mapping[str, Any], key: str, least: float, most: float, file:
 
 def _read(file: Path) -> Any:
     try:
-        return json.loads(file.read_text(encoding="utf-8"))
+        text = file.read_text(encoding="utf-8-sig")
+        return without_notes(json.loads(text))
     except OSError as error:
         raise Error(f"{file}: {error.strerror}") from error
+    except json.JSONDecodeError as error:
+        raise Error(f"{file}: no JSON: {problem_of(text, error)}") from error
     except ValueError as error:
         raise Error(f"{file}: no JSON: {error}") from error

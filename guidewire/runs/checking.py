@@ -16,6 +16,7 @@ from typing import Any
 
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs.key_table import Key, parse_key_table
+from guidewire.studies.json_text import problem_of
 
 _TABLE = ROOT / "docs" / "parameters.md"
 _PART = re.compile(r"[.\[]")  # behind a key: what follows names a part of it, which the runner looks for
@@ -27,12 +28,13 @@ _LONGEST = 80  # characters of a value or a path that a line shows
 def check_file(file: Path) -> None:
     """Raises PreparationError, one line, where a parameter file cannot be read or holds what no run takes."""
     try:
-        content = json.loads(file.read_text(encoding="utf-8-sig"))
+        text = file.read_text(encoding="utf-8-sig")
+        content = json.loads(text)
     except OSError as error:
         raise PreparationError(f"{file}: {error.strerror}: give a parameter file, such as params/default.json"
                                ) from error
     except json.JSONDecodeError as error:
-        raise PreparationError(f"{file}: not JSON: {error.msg} in line {error.lineno}, column {error.colno}") from error
+        raise PreparationError(f"{file}: not JSON: {problem_of(text, error)}") from error
     except (ValueError, RecursionError) as error:
         raise PreparationError(f"{file}: not JSON: {error}") from error
     if not isinstance(content, dict):

@@ -13,6 +13,7 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.studies.bisection import Bisection, Holds
+from guidewire.studies.json_text import problem_of, without_notes
 from guidewire.studies.keys import Named, Value, checked_key, value_text
 from guidewire.studies.sampling import METHODS, Range, sample
 from guidewire.studies.table import RUN_SECONDS, Axis, Grid, Rows, Study
@@ -94,12 +95,15 @@ class _Reader:
             return dict(pairs)
 
         try:
-            found = json.loads(self._path.read_text(encoding="utf-8-sig"), object_pairs_hook=once)
+            text = self._path.read_text(encoding="utf-8-sig")
+            found = json.loads(text, object_pairs_hook=once)
         except OSError as error:
             raise self._error(f"{error.strerror}") from error
+        except json.JSONDecodeError as error:
+            raise self._error(f"is not JSON ({problem_of(text, error)})") from error
         except ValueError as error:
             raise self._error(f"is not JSON ({error})") from error
-        return self._object("", found)
+        return self._object("", without_notes(found))
 
     def _table(self, found: Mapping[str, Any]) -> Grid | Bisection:
         variants = self._object("variants", found.get("variants", {}))

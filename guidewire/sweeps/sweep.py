@@ -191,7 +191,7 @@ class _Sweep:
                 place = folder_of(self._runs, found, row.repeat, row.case.in_turns)
                 row.job = replace(row.job, request=replace(row.job.request, out=place))
             elif found.exit_code == BAD_INPUT:
-                row.refused = found.message.removeprefix("command line: ")
+                row.refused = found.message.removeprefix("set: ")
             else:
                 raise PreparationError(found.message)
 

@@ -418,7 +418,7 @@ def _refusal(key: str, value: Any, message: str) -> str:
     """
     said = _NOT_ALLOWED.fullmatch(message)
     if said is None:
-        return message.removeprefix("command line: ")
+        return message.removeprefix("set: ")
     named, needs = said.groups()
     asked = f"{key} = {json.dumps(value)}"
     return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"

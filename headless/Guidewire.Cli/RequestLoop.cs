@@ -58,7 +58,7 @@ namespace Guidewire.Cli
                     return answer;
                 }
                 ParameterHandler handler = ParameterHandler.Load(
-                    ParameterSource.OfFile(request.ParameterFile, mesh), request.Overrides, false);
+                    ParameterSource.OfRequest(request.ParameterFile, mesh), request.Overrides, false);
                 if (request.IsCheck)
                 {
                     answer["exitCode"] = 0;

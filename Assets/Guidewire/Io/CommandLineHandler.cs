@@ -14,6 +14,15 @@ namespace Guidewire.Io
         /// <summary>What errors name as their source.</summary>
         public const string Source = "command line";
 
+        /// <summary>What errors name as the source of parameters that a request or a session sets.</summary>
+        public const string RequestSource = "set";
+
+        /// <summary>Whether a source counts instead of files.</summary>
+        internal static bool IsOverride(string source)
+        {
+            return source == Source || source == RequestSource;
+        }
+
         /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -force -KEY VALUE ...</c>.</summary>
         /// <param name="arguments">The arguments.</param>
         /// <param name="logFileIsOurs">Whether the thesis's <c>-logFile DIR</c> stands for <c>-out</c>; in Unity it is

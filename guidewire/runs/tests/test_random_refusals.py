@@ -37,7 +37,7 @@ def test_keys_of_other_methods_are_refused_on_the_command_line(campaign, table, 
         for name in foreign_keys(table, solver):
             value = EXAMPLE_OF_FITTED.get(name) if name in FITTED else data.draw(allowed(table[name]))
             answer = campaign.run({"solver": solver, "maxSimulationSteps": 1}, {name: value})
-            assert_refused(*answer, "command line", name, f"solver {solver}")
+            assert_refused(*answer, "set", name, f"solver {solver}")
 
     check()
 

@@ -43,7 +43,7 @@ namespace Guidewire.Io
             {
                 return;
             }
-            bool replacesFile = named.Source == CommandLineHandler.Source;
+            bool replacesFile = CommandLineHandler.IsOverride(named.Source);
             if (!replacesFile && IsComplete(given))
             {
                 return;    // the effective parameters of a run: it repeats without the instrument's file
@@ -82,7 +82,7 @@ namespace Guidewire.Io
         private static bool Stands(GivenParameters given, string key, bool replacesFile)
         {
             return given.TryGet(key, out (JToken Value, string Source) said)
-                && (!replacesFile || said.Source == CommandLineHandler.Source);
+                && (!replacesFile || CommandLineHandler.IsOverride(said.Source));
         }
 
         private static bool IsComplete(GivenParameters given)

@@ -16,7 +16,7 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">It cannot be read, or holds no instrument.</exception>
         public static Instrument Read(string file)
         {
-            var fields = new InstrumentFields(file, "", JsonText.ReadObject(file), "title", "kind", "note", "diameter",
+            var fields = new InstrumentFields(file, "", JsonText.ReadObject(file), "title", "kind", "diameter",
                 "innerDiameter", "length", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density",
                 "friction", "distalSections", "tip");
             fields.Text("title");

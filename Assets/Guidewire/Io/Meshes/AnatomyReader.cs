@@ -26,7 +26,7 @@ namespace Guidewire.Io
             string file = NamedFile.Find(fields.Text("anatomy"), sourceOf("vessel.anatomy"));
             if (file.Length == 0)
             {
-                throw fields.Wrong("anatomy", "the name of a file that 'guidewire.py anatomy' wrote");
+                throw fields.Wrong("anatomy", "the name of a file that the command anatomy wrote");
             }
             fields.Replace("anatomy", file);
             double unit = values.Simulation.Scene.MetresPerUnit;
@@ -45,7 +45,7 @@ namespace Guidewire.Io
                 || error is ArgumentException || error is FormatException || error is OverflowException
                 || error is InvalidOperationException || error is IndexOutOfRangeException)
             {
-                throw new ParameterException(file + ": holds no anatomy as 'guidewire.py anatomy' writes it: needs"
+                throw new ParameterException(file + ": holds no anatomy as the command anatomy writes it: needs"
                     + " ends, each with number, name, centre, radius, direction, open and point, and centreline with"
                     + " points, parents, branches and names");
             }

@@ -48,7 +48,7 @@ namespace Guidewire.Io
                 _wholes.TryGetValue(ParameterTable.SolverKey, out var given);
                 ParameterHandler.TrySolver(given.Value, out Solver solver);
                 throw new ParameterException(source + ": unknown key '" + key + "': "
-                    + KeyHint.Of(key, "", solver, "--keys lists what is allowed"));
+                    + KeyHint.Of(key, "", solver, "the command keys lists what is allowed"));
             }
         }
 

@@ -1,4 +1,5 @@
 using System.IO;
+using System.Linq;
 using Newtonsoft.Json;
 using Newtonsoft.Json.Linq;
 
@@ -8,6 +9,9 @@ namespace Guidewire.Io
     /// doubles.</summary>
     public static class JsonText
     {
+        /// <summary>May hold a text for readers in any object of any file; nothing else takes notice of it.</summary>
+        public const string NoteKey = "note";
+
         /// <summary>The value that a text holds.</summary>
         internal static JToken Parse(string text)
         {
@@ -24,7 +28,7 @@ namespace Guidewire.Io
             return ParseObject(PlainFile.ReadText(file, "a parameter file"), file);
         }
 
-        /// <summary>The object that a text holds.</summary>
+        /// <summary>The object that a text holds, without its notes.</summary>
         /// <param name="text">The text.</param>
         /// <param name="source">What errors name as its source.</param>
         /// <exception cref="ParameterException">The text is not JSON or holds no object.</exception>
@@ -35,8 +39,16 @@ namespace Guidewire.Io
             {
                 throw new ParameterException(source + ": not JSON: " + error);
             }
-            return Parse(text) as JObject
+            JObject content = Parse(text) as JObject
                 ?? throw new ParameterException(source + ": needs one JSON object, { \"key\": value, ... }");
+            foreach (JObject one in content.DescendantsAndSelf().OfType<JObject>().ToArray())
+            {
+                if (one[NoteKey]?.Type == JTokenType.String)
+                {
+                    one.Remove(NoteKey);
+                }
+            }
+            return content;
         }
     }
 }

@@ -23,11 +23,19 @@ namespace Guidewire.Io
                 ["mass"] = new[] { "density", "totalMass" },
             };
 
+        private const string Note = "a text for readers goes under the key 'note', in any object";
+
         private static readonly Dictionary<string, string> Absent =
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase)
             {
                 ["selfContact"] = "there is no self-contact, and no such key",
                 ["selfCollision"] = "there is no self-contact, and no such key",
+                [JsonText.NoteKey] = "a note needs to be one text",
+                ["comment"] = Note,
+                ["_comment"] = Note,
+                ["comments"] = Note,
+                ["description"] = Note,
+                ["//"] = Note,
             };
 
         /// <summary>The end of a line on a key that is not known.</summary>

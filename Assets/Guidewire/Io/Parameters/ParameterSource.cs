@@ -25,6 +25,9 @@ namespace Guidewire.Io
         /// <summary>Walls in addition to those of the keys, in units of the wire.</summary>
         public ContactShape[] Walls { get; }
 
+        /// <summary>What errors name as the source of overrides.</summary>
+        internal string OverridesFrom { get; private set; } = CommandLineHandler.Source;
+
         /// <summary>Keeps the vessel's mesh for the next run; null where nothing does.</summary>
         internal LastMesh? Mesh { get; }
 
@@ -34,6 +37,17 @@ namespace Guidewire.Io
         public static ParameterSource OfFile(string? file, LastMesh? mesh = null)
         {
             return new ParameterSource(file, null, Array.Empty<ContactShape>(), mesh);
+        }
+
+        /// <summary>The file of a request; its overrides are those that the request sets.</summary>
+        /// <param name="file">Its name; null for the defaults.</param>
+        /// <param name="mesh">Keeps the vessel's mesh where one run follows another.</param>
+        public static ParameterSource OfRequest(string? file, LastMesh? mesh)
+        {
+            return new ParameterSource(file, null, Array.Empty<ContactShape>(), mesh)
+            {
+                OverridesFrom = CommandLineHandler.RequestSource,
+            };
         }
 
         /// <summary>The text of a parameter file.</summary>

@@ -233,6 +233,18 @@ namespace Guidewire.Io
             {
                 return At("ends where " + expected + " is expected");
             }
+            if (Current() == '#' || Current() == '/')
+            {
+                return At("has a comment, and JSON has none: a text under the key \"note\" can say the same");
+            }
+            if (Current() == ';')
+            {
+                return At("has ';' where " + expected + " is expected: JSON separates by commas");
+            }
+            if (char.IsDigit(Current()) && _at > 1 && _text[_at - 1] == ',' && char.IsDigit(_text[_at - 2]))
+            {
+                return At("has a number with a comma: JSON has a decimal point, not a comma");
+            }
             int length = 1;
             while (length < 12 && _at + length < _text.Length && char.IsLetterOrDigit(_text[_at + length]))
             {

@@ -40,7 +40,7 @@ namespace Guidewire.Io
             ParameterConflict? conflict = ParameterConflict.Find(handler.Values.Simulation);
             if (conflict != null)
             {
-                throw new ParameterException((from.Name ?? CommandLineHandler.Source) + ": " + conflict.Key + " needs "
+                throw new ParameterException((from.Name ?? from.OverridesFrom) + ": " + conflict.Key + " needs "
                     + conflict.Needed);
             }
             Simulation = Simulation.Create(handler.Values.Simulation);
@@ -84,13 +84,13 @@ namespace Guidewire.Io
             bool? isSteered)
         {
             var given = new List<KeyValuePair<string, JToken>>(overrides);
-            ParameterSource from = ParameterSource.OfFile(file, new LastMesh());
+            ParameterSource from = ParameterSource.OfRequest(file, new LastMesh());
             ParameterHandler handler = ParameterHandler.Load(from, given, isSteered == true);
             MethodParameters method = handler.Values.Simulation.Method;
             MethodTraits traits = MethodTable.Of(method.Solver);
             if (isSteered == true && !traits.TakesSteering)
             {
-                throw new ParameterException((file ?? CommandLineHandler.Source) + ": a wire of solver "
+                throw new ParameterException((file ?? from.OverridesFrom) + ": a wire of solver "
                     + Get(handler, "solver") + " is not steered interactively: its file's drive moves it");
             }
             method.StatesReactions |= CanStateReactions(method);

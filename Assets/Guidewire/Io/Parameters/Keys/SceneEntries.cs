@@ -106,7 +106,7 @@ namespace Guidewire.Io
                 "the wall around the wire; smooth (false) rounds a tube's corners, so that contact forces of a "
                 + "sliding wire do not oscillate from knot to knot; the path of a mesh is relative to the parameter"
                 + " file's folder, openRims names a point near the middle of each open rim;"
-                + " anatomy is the file of the mesh's ends and centreline that 'guidewire.py anatomy' writes, which "
+                + " anatomy is the file of the mesh's ends and centreline that the command anatomy writes, which "
                 + "names the rims too; each shape may have a \"frictionCoefficient\" (0)").OnlyWith(Takers.Walls),
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part of the wire, on the wire's initial axis:"

@@ -83,8 +83,8 @@ namespace Guidewire.Core.Tests
         [TestCase("{\"radius\": 5}", "did you mean 'sphereRadius'?")]
         [TestCase("{\"radius\": 5, \"solver\": \"xpbd\"}", "did you mean 'wireRadius'?")]
         [TestCase("{\"stretchStifness\": 5}", "did you mean 'stretchStiffness'?")]
-        [TestCase("{\"stretchStifness\": 5, \"solver\": \"direct\"}", "--keys lists what is allowed")]
-        [TestCase("{\"colour\": 5}", "--keys lists what is allowed")]
+        [TestCase("{\"stretchStifness\": 5, \"solver\": \"direct\"}", "the command keys lists what is allowed")]
+        [TestCase("{\"colour\": 5}", "the command keys lists what is allowed")]
         [TestCase("{\"drive\": \"force\", \"proximalEnd\": \"clamped\"}", "needs proximalEnd \"held\"")]
         [TestCase("{\"drive\": \"force\", \"solver\": \"direct\"}", "needs proximalEnd \"free\"")]
         [TestCase("{\"drive\": \"force\", \"solver\": \"xpbd\", \"proximalEnd\": \"clamped\"}",
@@ -104,6 +104,15 @@ namespace Guidewire.Core.Tests
         [TestCase("{\"timeStep\": 0.1, \"timeStep\": 0.2}", "second time")]
         [TestCase("{\"timeStep\": 0.1,}", "comma before '}'")]
         [TestCase("{\"timeStep\": NaN}", "not JSON")]
+        [TestCase("{\"timeStep\": 0.1} // s", "line 1, column 19 has a comment, and JSON has none")]
+        [TestCase("{\n  # a step\n  \"timeStep\": 0.1}", "line 2, column 3 has a comment, and JSON has none")]
+        [TestCase("{\"timeStep\": 0.1, /* s */ \"damping\": 0}", "has a comment, and JSON has none: a text under the "
+            + "key \"note\"")]
+        [TestCase("{\"timeStep\": 0,1}", "line 1, column 16 has a number with a comma: JSON has a decimal point")]
+        [TestCase("{\"gravity\": [0,05, 0, 0]}", "has a number with a comma: JSON has a decimal point")]
+        [TestCase("{\"timeStep\": 0.1; \"damping\": 0}", "JSON separates by commas")]
+        [TestCase("{\"comment\": \"mine\"}", "unknown key 'comment': a text for readers goes under the key 'note'")]
+        [TestCase("{\"note\": 3}", "unknown key 'note': a note needs to be one text")]
         [TestCase("{timeStep: 0.1}", "not JSON")]
         [TestCase("[1, 2]", "needs one JSON object")]
         [TestCase("", "not JSON")]
@@ -178,13 +187,13 @@ namespace Guidewire.Core.Tests
         {
             const string Scene = "{\"solver\": \"direct\", \"loadTables\": {\"tipForce\": \"pull.csv\"}}";
             string file = Path.Combine(Folder, "pull.csv");
-            File.WriteAllText(file, "time,value\n# a ramp\n0,0\n0.5,2\n");
+            File.WriteAllText(file, "time,factor\n# a ramp\n0,0\n0.5,2\n");
             ParameterHandler handler = Load(Scene);
             Assert.That(handler.Values.Simulation.Scene.TipForceTable!.At(0.25), Is.EqualTo(1.0));
             File.WriteAllText(file, "0,0\n0.5,3\n");
             Assert.That(Load(Scene).Hash, Is.Not.EqualTo(handler.Hash), "what the file holds counts");
             foreach (string wrong in new[]
-                { "0,0\n0,1\n0,2\n", "1,0\n0,1\n", "time,value\n", "0,0\n1;2\n", "0,0\n1,NaN\n" })
+                { "0,0\n0,1\n0,2\n", "1,0\n0,1\n", "time,factor\n", "time,value\n0,0\n", "0,0\n1;2\n", "0,0\n1,NaN\n" })
             {
                 File.WriteAllText(file, wrong);
                 Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("loadTables")
@@ -202,6 +211,17 @@ namespace Guidewire.Core.Tests
         [TestCase("time,insertion\n0,0\n", "line 1")]
         [TestCase("0,0,0\n1,0.1,0\n0.5,0.2,0\n", "increase")]
         [TestCase("time,insertion,rotation\n", "at least one row")]
+        [TestCase("time,rotation\n0,0\n", "line 1 has no column 'insertion'")]
+        [TestCase("time,insertion,angle\n0,0,0\n", "line 1 has a column 'angle': allowed are time, insertion, rot")]
+        [TestCase("time,insertion,rotation_turns\n0,0,0\n", "in an unknown unit: allowed are deg, rad")]
+        [TestCase("time,insertion_s,rotation\n0,0,0\n", "in an unknown unit: allowed are m, cm, mm")]
+        [TestCase("time,insertion,insertion\n0,0,0\n", "the column 'insertion' twice")]
+        [TestCase("time;insertion;rotation\n0;0;0\n", "no semicolons")]
+        [TestCase("0;0;0\n1;0,5;0\n", "line 1 needs time (s), insertion (m), rotation (rad) with commas between")]
+        [TestCase("0;0;0\n", "commas separate columns")]
+        [TestCase("0\t0\t0\n", "commas separate columns")]
+        [TestCase("0,0,0\n1,5,0,02,0,0\n", "line 2 needs time (s), insertion (m), rotation (rad) with commas between; "
+            + "it has 6 numbers: numbers have a decimal point, not a comma")]
         [TestCase(null, "no such file")]
         public void DriveFile_IsRefusedInOneLine_WhereItIsBroken(string? content, string word)
         {
@@ -213,6 +233,33 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(() => Load(Scene), Throws.TypeOf<ParameterException>().With.Message.Contains("driveFile")
                 .And.Message.Contains("hub.csv").And.Message.Contains(word).And.Message.Not.Contains("\n"));
+        }
+
+        [TestCase("time,insertion,rotation\n1,0.02,3\n")]
+        [TestCase("\"time\",\"insertion\",\"rotation\"\r\n1,0.02,3\r\n")]
+        [TestCase("rotation,time,insertion\n3,1,0.02\n")]
+        [TestCase("Time_ms,Insertion_mm,Rotation_deg\n1000,20,171.88733853924697\n")]
+        [TestCase("insertion (cm), rotation [rad], time (s)\n2, 3, 1\n")]
+        public void HeaderOfADriveFile_SaysWhichColumnIsWhich_AndInWhichUnit(string content)
+        {
+            File.WriteAllText(Path.Combine(Folder, "hub.csv"), content);
+            DriveTable table = Load("{\"solver\": \"direct\", \"drive\": \"displace\", \"proximalEnd\": \"clamped\","
+                + " \"driveFile\": \"hub.csv\"}").Values.Simulation.Drive.Table!;
+            Assert.That(table.End, Is.EqualTo(1.0));
+            Assert.That(table.Insertion.At(1.0), Is.EqualTo(0.02).Within(1e-15));
+            Assert.That(table.Rotation.At(1.0), Is.EqualTo(3.0).Within(1e-14));
+        }
+
+        [Test]
+        public void Note_MayStandInAnyObject_AndChangesNothing()
+        {
+            const string Wire = "\"solver\": \"direct\", \"wireSections\": [{{{0}\"from\": 0, \"to\": 9}}],"
+                + " \"vessel\": {{{0}\"shape\": \"plane\", \"point\": [0, 50, 0], \"normal\": [0, -1, 0]}}";
+            ParameterHandler plain = Load("{" + string.Format(Wire, "") + "}");
+            ParameterHandler noted = Load("{\"note\": \"why\", "
+                + string.Format(Wire, "\"note\": \"here too\", ") + "}");
+            Assert.That(noted.Hash, Is.EqualTo(plain.Hash));
+            Assert.That(noted.ToJson().ToString(), Is.EqualTo(plain.ToJson().ToString()));
         }
 
         [Test]
