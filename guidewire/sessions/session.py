@@ -13,6 +13,7 @@ from __future__ import annotations
 import base64
 import json
 import math
+import os
 import sys
 import threading
 import warnings
@@ -20,10 +21,11 @@ import weakref
 from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from types import TracebackType
-from typing import Any
+from typing import Any, NoReturn
 
 import numpy as np
 
+from guidewire.prepare import DOOR
 from guidewire.runs import building
 from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
 from guidewire.sessions.session_state import (
@@ -64,8 +66,11 @@ class Session:
     def __init__(self, file: str | Path | None = None, hand: bool | None = None, native: bool | None = None,
                  **overrides: Any) -> None:
         self._host: Library | Process | None = _host(native)
+        # Also at the interpreter's exit, before modules go; what holds an unread state holds this session too.
+        self._finish = weakref.finalize(self, _end, self._host, os.getpid())
+        self._is_closing = False
         self._lock = threading.RLock()    # one asks it at a time; a state may be read off in another thread
-        self._state: State | None = None    # the newest, once something has been read off
+        self._state: State | None = None    # the newest, once all of it has been read off
         self._newest: Callable[[], State | None] = lambda: None    # while somebody has it, the same
         self._head = (0, 0.0, 0.0)    # of the newest: steps, time, prediction error
         self._layout: dict[str, tuple[int, ...]] = {}
@@ -236,7 +241,8 @@ class Session:
                 arrays = self._laid_out(self._ask("state"))
                 for other in unread(state):
                     fill(state, other, arrays)
-            self._state = state
+            if not unread(state):    # else it keeps this session, and the two would hold one another
+                self._state = state
 
     def close(self) -> None:
         """End the runner. Nothing but `state` can be asked for afterwards. Steps under way in another thread have ten
@@ -245,13 +251,17 @@ class Session:
             self.kill()
             self._lock.acquire()
         try:
-            if self._host is not None:
-                self._leave()
-                if isinstance(self._host, Library):    # a step that was interrupted may have come further
-                    answer = self._host.last()
-                    if answer["exitCode"] == 0 and (self._state is None or self._state.step != answer["step"]):
-                        self._take(answer)
-                self._end()
+            if self._host is not None and not self._is_closing:
+                self._is_closing = True
+                try:
+                    self._leave()
+                    if isinstance(self._host, Library):    # a step that was interrupted may have come further
+                        answer = self._host.last()
+                        if answer["exitCode"] == 0 and (self._state is None or self._state.step != answer["step"]):
+                            self._take(answer)
+                finally:
+                    self._host = None
+                    self._finish()
         finally:
             self._lock.release()
 
@@ -268,14 +278,9 @@ class Session:
                  ) -> None:
         self.close()
 
-    def __del__(self) -> None:
-        if getattr(self, "_host", None) is not None:
-            self._leave()
-            self._end()
-
-    def _end(self) -> None:
-        host, self._host = self._host, None
-        host.close()
+    def __reduce__(self) -> NoReturn:
+        raise SessionError("a session cannot be pickled: it belongs to this process; send save() and the parameters, and "
+                           "open one there")
 
     def _leave(self, keeps: bool = False) -> None:
         """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then; all of
@@ -310,7 +315,7 @@ class Session:
                 return ask(self._host)
             except Ended as end:
                 self.close()
-                raise SessionError(str(end)) from end
+                raise SessionError(str(end)) from None
             except BaseException:    # such as Ctrl-C: how far it had come is not known
                 self.close()
                 raise
@@ -333,13 +338,18 @@ def session_of(file: Path, native: bool | None = None) -> Session:
         return Session(file, hand=False, native=native)
 
 
+def _end(host: Library | Process, process: int) -> None:
+    if os.getpid() == process:    # it is not that of a fork
+        host.close()
+
+
 def _host(native: bool | None) -> Library | Process:
     reason = "" if native is False else obstacle()
     if native and reason:
         raise SessionError(reason)
     library = None if native is False or reason else building.native_library()
     if library is None and native:
-        raise SessionError("the native library is not built from these sources: 'guidewire.py native' builds it")
+        raise SessionError(f"the native library is not built from these sources: '{DOOR} native' builds it")
     if library is not None:
         return Library(library)
     return Process(building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True)))

@@ -103,7 +103,7 @@ class Energy:
     potential: float
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class State:
     """The wire at one moment; n rod elements, n + 1 spheres. All arrays are of float64 and the caller's own. With the
     native library they are read when first accessed, or before the next step if the state is still referenced: a state
@@ -171,6 +171,10 @@ class State:
         session.read(self, part)
         return vars(self)[name]
 
+    def __repr__(self) -> str:
+        end = "" if self.outcome is None else f", {self.outcome}"
+        return f"State(step {self.step}, {self.time:g} s, {len(self.orientations)} elements{end})"
+
     def __getstate__(self) -> dict[str, Any]:
         return {field.name: getattr(self, field.name) for field in fields(self)}
 
@@ -221,10 +225,11 @@ def part_of(array: str) -> int:
 
 
 def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
-    """The state of a session whose run goes on, of which nothing else has been read off."""
+    """The state of a session whose run goes on, of which nothing else has been read off. Until all of it is, it keeps
+    its session."""
     state = object.__new__(State)
     vars(state).update(step=step, time=time, outcome=None, reason="", prediction_error=prediction_error,
-                       _session=weakref.ref(session))    # not a part of what it says
+                       _session=lambda: session)    # not a part of what it says
     return state
 
 
@@ -251,6 +256,8 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
     else:
         vars(state).update({name: arrays.get(name) for name in _STRAINS},
                            energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)
+    if not unread(state):
+        vars(state)["_session"] = weakref.ref(state._session())
 
 
 def unread(state: State) -> list[int]:
