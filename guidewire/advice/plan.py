@@ -19,6 +19,7 @@ import numpy as np
 
 from guidewire.advice import trials
 from guidewire.advice.quantity import Quantity
+from guidewire.advice.repeats import verdict
 from guidewire.advice.trials import Trial
 from guidewire.logs.logs import LogError, read_log
 from guidewire.logs.runs import Run, busiest, read_repeats
@@ -75,6 +76,7 @@ class Advice:
     parts, searched : parts left out, and all candidates.
     taken : the cheapest that meets what was asked; None where none does, or where the reference has not converged to
         it.
+    holds : whether a run of these settings ends as it does with half the time step, in one line; empty without one.
     results : no lines with gates.
     """
 
@@ -84,6 +86,7 @@ class Advice:
     parts: Sequence[Tried]
     searched: Sequence[Tried]
     taken: Tried | None
+    holds: str = ""
     results: tuple[()] = ()
 
 
@@ -160,7 +163,21 @@ def _plan(wish: AdviceRequest, cost: Cost, repeats: int,
     searched = [tried for key, tried in found.items() if key.startswith("candidate-")]
     parts = [tried for key, tried in found.items() if key.startswith("part-")]
     taken = choose(searched, wish, cost) if has_converged else None
-    return Advice(found["file"], found["reference"], known, parts, searched, taken)
+    holds = "" if taken is None else (yield from _holds(case, scene, taken, runs[_key_of(taken, found)]))
+    return Advice(found["file"], found["reference"], known, parts, searched, taken, holds)
+
+
+def _key_of(tried: Tried, found: Mapping[str, Tried]) -> str:
+    return next(key for key, one in found.items() if one is tried)
+
+
+def _holds(case: Callable[[str, Trial], Case], scene: Mapping[str, Any], taken: Tried, run: Run
+           ) -> Generator[Sequence[Case], Mapping[str, Run], str]:
+    """Whether the run of the settings to take ends as it does with finer steps."""
+    finer = {f"taken-{k}": replace(trial, changed={**taken.trial.changed, **trial.changed})
+             for k, trial in enumerate(trials.finer({**scene, **taken.trial.changed}, elements=False))}
+    runs = yield [case(key, trial) for key, trial in finer.items()]
+    return verdict(run, {trial.name: runs[key] for key, trial in finer.items()}) if finer else ""
 
 
 def _lasting(run: Run) -> dict[str, Any]:

@@ -63,7 +63,7 @@ def verdict(wish: AdviceRequest, advice: Advice) -> str:
     note = "" if advice.reference_error <= 0.5 * max(taken.error, wish.error or 0.0) else \
         f" The uncertainty of the reference itself is {percent(advice.reference_error)}."
     return f"{choice}; the file as it is: {_error(advice.scene)}, {_step(advice.scene)} ms a step, " \
-           f"{_all(advice.scene)} s in all.{note}"
+           f"{_all(advice.scene)} s in all.{note}{advice.holds and f' Of these settings {advice.holds}.'}"
 
 
 def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:

@@ -62,6 +62,13 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
     return tuple(made)
 
 
+def finer(scene: Values, elements: bool) -> list[Trial]:
+    """Half the time step of a scene and, if asked for, twice its elements; without what its steps or start do not
+    allow."""
+    found = [("half the time step", _stepped(scene, 0.5)), ("twice the elements", _fewer(scene, 2.0) if elements else None)]
+    return [Trial(name, changed) for name, changed in found if changed]
+
+
 def candidates(scene: Values) -> list[Trial]:
     """Settings that may be cheaper than the file's, the file's among them, no two alike."""
     tried = [Trial("as the file has it", {}), *(_of_pbd(scene) if scene["solver"] == "pbd" else _of_material(scene))]
@@ -181,7 +188,7 @@ def _direct(scheme: str) -> dict[str, Any]:
 
 def _may_change_elements(scene: Values) -> bool:
     """Whether all elements of each instrument are alike and none stands in a start file."""
-    return not scene.get("startFile") and not any(
+    return not scene.get("startFile") and not scene.get("start") and not any(
         "numberRodElements" in section for one in (scene, *(scene.get("catheters") or ()))
         for section in one.get("wireSections") or ())
 

@@ -106,6 +106,6 @@ def _tell(folder: Path, mesh: Mesh, found: Inspection, repaired: Repaired | None
     written = [output.REPORT, output.PICTURE]
     if line is not None:
         written = [output.MESH, output.ANATOMY, output.SCENE, *written]
-        print(f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)}")
+        print(f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)} --check")
     print(f"written: {', '.join(written)} in {os.path.relpath(folder)}")
     return 0

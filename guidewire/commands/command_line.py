@@ -40,6 +40,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
                                                "repeated, nor replaced by one with other parameters")
     run.add_argument("--force", action="store_true",
                      help="replace a complete run that the folder holds, once this one is complete")
+    run.add_argument("--check", action="store_true",
+                     help="repeat the run with half the time step; the differences go into check.md, and the exit code is "
+                          "6 where the result does not hold")
+    run.add_argument("--elements", action="store_true", help="with --check: also with twice the elements")
     _add_runner(run)
     run.set_defaults(packages=())
 

@@ -43,6 +43,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     if arguments.command in _OF_THE_REPOSITORY:
         installed.refuse(f"'{arguments.command}'")
     arguments.action = _ACTIONS.get(arguments.command, _execute_elsewhere)
+    if getattr(arguments, "check", False):
+        arguments.packages = ("numpy",)
     return arguments
 
 
@@ -70,7 +72,12 @@ def _run(arguments: argparse.Namespace) -> int:
         command += [f"-{key}", value]
     if arguments.force:
         command.append("-force")
-    return hand_to(command)
+    code = hand_to(command)
+    if not arguments.check or code != 0:
+        return code
+    from guidewire.commands import repeating
+
+    return repeating.check(runner_of(arguments), out, arguments.elements)
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
