@@ -8,6 +8,7 @@ import importlib
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # the same names for type checkers
+    __version__: str
     from guidewire import anatomy as anatomy, env as env
     from guidewire.advice.plan import Advice as Advice
     from guidewire.env import Drive as Drive, Environment as Environment, Observation as Observation
@@ -37,8 +38,14 @@ _MODULES = ("anatomy", "env")
 __all__ = sorted([*_LENT, *_MODULES])
 
 
+def __dir__():
+    return sorted({*globals(), *__all__})
+
+
 def __getattr__(name):
     """What scripts import from here."""
+    if name == "__version__":
+        return importlib.import_module("guidewire.installed").version()
     if name in _MODULES:
         return importlib.import_module("guidewire." + name)
     if name not in _LENT:

@@ -3,18 +3,27 @@
 from __future__ import annotations
 
 import argparse
+import difflib
 import json
 import math
+import re
 from pathlib import Path
 from typing import Any
 
 RUNNER_WORDS = ("parameters", "out", "force", "repeat", "lines", "logFile")  # the runner's own arguments, like -KEY
+
+_CHOICE = re.compile(r"argument \S+: invalid choice: '([^']+)' \(choose from (.+)\)")
 
 
 class Parser(argparse.ArgumentParser):
     """Says what is wrong in one line, without argparse's usage lines before it."""
 
     def error(self, message: str) -> None:
+        wrong = _CHOICE.match(message)
+        if wrong is not None:
+            near = difflib.get_close_matches(wrong[1], re.findall(r"'([^']+)'", wrong[2]), n=1)
+            if near:
+                message = f"there is no '{wrong[1]}': did you mean '{near[0]}'?"
         self.exit(2, f"guidewire: {message} ('{self.prog} --help' lists what is allowed)\n")
 
 

@@ -10,7 +10,7 @@ from guidewire.runs.key_table import Key
 
 
 def find_keys(table: Mapping[str, Key], word: str, solver: str) -> list[Key]:
-    """Keys that hold a word in their name, or else in what they mean or allow; all without a word.
+    """Keys that hold a word in their name, and then those that hold it in what they mean or allow; all without a word.
 
     Parameters
     ----------
@@ -24,8 +24,8 @@ def find_keys(table: Mapping[str, Key], word: str, solver: str) -> list[Key]:
     """
     own = [key for key in table.values() if not solver or solver in key.solvers]
     asked = word.lower().split(".")[0].split("[")[0]
-    found = [key for key in own if asked in key.name.lower()]
-    found = found or [key for key in own if asked in f"{key.meaning} {key.allowed}".lower()]
+    named = [key for key in own if asked in key.name.lower()]
+    found = named + [key for key in own if key not in named and asked in f"{key.meaning} {key.allowed}".lower()]
     if not found:
         by_small = {key.name.lower(): key.name for key in own}
         near = [by_small[name] for name in difflib.get_close_matches(asked, by_small, 3)]

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import multiprocessing
+import os
 from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from typing import Any
@@ -11,6 +12,10 @@ import numpy as np
 
 from guidewire.env.environment import Environment
 from guidewire.env.spaces import NEXT_STEP, ClosedEnvironmentError, Error, ResetNeeded, VectorEnv, batch_space
+
+_WITHOUT_GUARD = 68  # exit code of a process that would start others while it imports the script
+_GUARD = ('VectorEnvironment(backend="processes") starts processes that import this script: what it does belongs below '
+          'if __name__ == "__main__":')
 
 
 class VectorEnvironment(VectorEnv):
@@ -131,6 +136,8 @@ class _Processes:
     """A process for each list of environments."""
 
     def __init__(self, chosen: Sequence[Sequence[int]], task: Any, options: Mapping[str, Any]) -> None:
+        if getattr(multiprocessing.current_process(), "_inheriting", False):    # the script, imported by such a process
+            os._exit(_WITHOUT_GUARD)
         context = multiprocessing.get_context("spawn")    # a forked one could not load the native library
         self._chosen, self._pipes, self._processes = chosen, [], []
         for own in chosen:
@@ -144,13 +151,18 @@ class _Processes:
     def ask(self, requests: Sequence[tuple[str, tuple[Any, ...]]]) -> list[Any]:
         """Answers in the order of the environments."""
         for pipe, own in zip(self._pipes, self._chosen):
-            pipe.send([(k, requests[k]) for k in own])
+            try:
+                pipe.send([(k, requests[k]) for k in own])
+            except OSError:
+                pass    # it has ended, as its answer will say
         done = []
-        for pipe in self._pipes:
+        for pipe, process in zip(self._pipes, self._processes):
             try:
                 done.append(pipe.recv())
-            except EOFError:
-                done.append(ClosedEnvironmentError("a process of this environment has ended"))
+            except (EOFError, OSError):
+                process.join(timeout=10.0)
+                done.append(Error(_GUARD) if process.exitcode == _WITHOUT_GUARD
+                            else ClosedEnvironmentError("a process of this environment has ended"))
         return _in_order(done)
 
     def close(self) -> None:

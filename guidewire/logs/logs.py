@@ -79,8 +79,9 @@ class PositionLog:
         return self.positions[:, column[0]]
 
 
-def find_log(path: Path) -> Path:
+def find_log(path: str | Path) -> Path:
     """The log that ``path`` means: a file itself, or a run folder's log, complete or else partial."""
+    path = Path(path)
     if path.is_dir():
         for name in LOG_NAMES:
             if (path / name).is_file():
@@ -92,7 +93,7 @@ def find_log(path: Path) -> Path:
 
 
 def read_log(
-    path: Path,
+    path: str | Path,
     spheres: str | Sequence[int] = "last",
     every: int = 1,
     velocities: bool = False,
@@ -127,7 +128,7 @@ def read_log(
     return columns.finish(step, entry, entries.warning)
 
 
-def read_entries(path: Path) -> Iterator[tuple[int, dict]]:
+def read_entries(path: str | Path) -> Iterator[tuple[int, dict]]:
     """Every whole entry of a log, or of a run folder's log, as (step, entry), for what `read_log` does not keep.
 
     Raises

@@ -151,7 +151,8 @@ class StudyRuns:
 
 
 def read_run(
-    folder: Path, key: str = "", repeat: int | None = None, variant: str = "", values: Mapping[str, Value] | None = None
+    folder: str | Path, key: str = "", repeat: int | None = None, variant: str = "",
+    values: Mapping[str, Value] | None = None,
 ) -> Run:
     """Reads a run folder's small files; the log is read by whoever needs it.
 
@@ -160,6 +161,7 @@ def read_run(
     LogError : parameters.json is missing, one of the two files is not a JSON object, or they are of a format newer than
         FORMAT.
     """
+    folder = Path(folder)
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
     parameters = _read_object(folder / PARAMETERS_NAME)
@@ -178,7 +180,7 @@ def read_repeats(run: Run, repeats: int) -> list[Run]:
             for k, place in enumerate(run.repeat_folders[:repeats], 1)]
 
 
-def read_runs(folder: Path) -> dict[str, Run]:
+def read_runs(folder: str | Path) -> dict[str, Run]:
     """Runs in a study's table that are not timed, by key, each with the folders of its timed repeats.
 
     Raises
@@ -187,7 +189,7 @@ def read_runs(folder: Path) -> dict[str, Run]:
     """
     runs: dict[str, Run] = {}
     repeats: dict[str, dict[int, Path]] = {}
-    for row in _rows(folder):
+    for row in _rows(Path(folder)):
         if row.repeat is None:
             runs[row.key] = read_run(row.place, row.key, None, row.variant, row.values)
         else:

@@ -27,6 +27,7 @@ import dask
 import distributed
 from distributed import Client, Future, KilledWorker, LocalCluster, wait
 from distributed.client import CancelledError
+from distributed.comm import CommClosedError
 
 from guidewire.prepare import PreparationError
 from guidewire.runs import runner, whole_files
@@ -100,8 +101,10 @@ class Cluster:
                                    "and give the address that it prints") from error
         try:
             self._prepare(results, (folder or Path.cwd()).absolute())  # workers stand elsewhere
-        except BaseException:
+        except BaseException as error:
             self.close()
+            if isinstance(error, (CancelledError, CommClosedError)):
+                raise self._gone() from error
             raise
 
     def __enter__(self) -> Cluster:
