@@ -239,6 +239,11 @@ namespace Guidewire.Core
                 throw new ArgumentException("catheters: their number cannot change "
                     + "during a run");
             }
+            if (ElementLayout.Count(parameters) != State.ElementCount)
+            {
+                throw new ArgumentException("numberRodElements needs to leave " + State.ElementCount
+                    + " elements: a run cannot change its wire");
+            }
             var snapshot = new Snapshot();
             Serialize(snapshot);
             var start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities)

@@ -36,9 +36,9 @@ namespace Guidewire.Io
                 Methods = Takers.Material,
             },
             new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp,"
-                + " instead of the speeds; a first line of words names the columns, in any order and with other units: "
-                + "time_ms,rotation_deg,insertion_mm; linear between rows, at rest before the first and after the last; "
-                + "only differences matter; the path is relative to the parameter file's folder")
+                + " instead of the speeds; a first line of words names the columns, in any order and with other"
+                + " units: time_ms,rotation_deg,insertion_mm; linear between rows, at rest before the first and after "
+                + "the last; only differences matter; the path is relative to the parameter file's folder")
             {
                 Methods = Takers.Material,
             },
