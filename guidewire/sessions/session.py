@@ -70,7 +70,7 @@ class Session:
         self._finish = weakref.finalize(self, _end, self._host, os.getpid())
         self._is_closing = False
         self._lock = threading.RLock()    # one asks it at a time; a state may be read off in another thread
-        self._state: State | None = None    # the newest, once all of it has been read off
+        self._state: State | None = None    # the newest, once something has been read off
         self._newest: Callable[[], State | None] = lambda: None    # while somebody has it, the same
         self._head = (0, 0.0, 0.0)    # of the newest: steps, time, prediction error
         self._layout: dict[str, tuple[int, ...]] = {}
@@ -241,8 +241,7 @@ class Session:
                 arrays = self._laid_out(self._ask("state"))
                 for other in unread(state):
                     fill(state, other, arrays)
-            if not unread(state):    # else it keeps this session, and the two would hold one another
-                self._state = state
+            self._state = state
 
     def close(self) -> None:
         """End the runner. Nothing but `state` can be asked for afterwards. Steps under way in another thread have ten

@@ -2,6 +2,7 @@
 
 import base64
 import copy
+import gc
 import pickle
 import threading
 import time
@@ -117,9 +118,11 @@ def test_a_state_outlives_its_session_and_is_copied_whole(stand_in):
     copies = [copy.copy(session.step()), copy.deepcopy(session.step()), pickle.loads(pickle.dumps(session.step()))]
     assert [[one.step, one.positions[0, 0], one.energy.kinetic] for one in copies] == [[k, k, k] for k in (1, 2, 3)]
     state = session.step()
-    del session
-    assert stand_in.closed == 1 and state.hub.twist == state.positions[2, 2] == 4.0
-    assert "positions=array" in repr(state)
+    del session    # whose state is not read off yet
+    assert stand_in.closed == 0 and state.hub.twist == state.positions[2, 2] == state.strain[0, 0] == 4.0
+    del copies
+    gc.collect()
+    assert stand_in.closed == 1 and repr(state) == "State(step 4, 2 s, 2 elements)"
 
 
 def test_other_arrays_than_before_are_read_with_their_new_shapes(stand_in):
