@@ -197,17 +197,33 @@ def _read_csv(file: Path) -> Line:
         rows = [row for row in csv.reader(lines, delimiter=separator) if row]
     except (UnicodeDecodeError, csv.Error) as error:
         raise AnatomyError(f"{file}: not a text of x, y, z, radius in columns") from error
-    names = ["radius" if word.strip().lower() == "r" else word.strip().lower() for word in rows[0]] if rows else []
-    start = 1 if any(re.search("[a-df-z]", word) for word in names) else 0
-    columns = [names.index(word) if word in names else k for k, word in enumerate(("x", "y", "z", "radius"))]
+    head = rows[:1] if rows and any(re.search("[a-df-zA-DF-Z]", word) for word in rows[0]) else []
+    columns, unit = _columns_of(file, head[0]) if head else ([0, 1, 2, 3], "")
     numbers = []
-    for number, row in enumerate(rows[start:], start + 1):
+    for number, row in enumerate(rows[len(head):], len(head) + 1):
         try:
             numbers.append([float(row[k]) for k in columns])
         except (ValueError, IndexError) as error:
-            raise AnatomyError(f"{file}: line {number} is not x, y, z, radius: {separator.join(row)[:60]}") from error
+            has_commas = any(re.fullmatch(r"\s*[-+]?\d+,\d+\s*", word) for word in row) or len(row) > 4 and not head
+            hint = "; numbers have a decimal point, not a comma" if has_commas else ""
+            raise AnatomyError(f"{file}: line {number} is not x, y, z, radius: {separator.join(row)[:60]}{hint}") from error
     table = np.array(numbers).reshape(-1, 4)
-    return Line(table[:, :3], table[:, 3])
+    return Line(table[:, :3], table[:, 3], unit)
+
+
+def _columns_of(file: Path, head: list[str]) -> tuple[list[int], str]:
+    """Where x, y, z and radius are by a first line of names, such as x_mm, and the unit that these state."""
+    parted = [re.fullmatch(r"\s*(\w+?)(?:[ _(\[]+(mm|cm|m)[)\]]?)?\s*", word) for word in head]
+    names = [("radius" if found[1].lower() == "r" else found[1].lower()) if found else "" for found in parted]
+    needed = ("x", "y", "z", "radius")
+    columns = [next((k for k, name in enumerate(names) if name == word or word == "radius" and name.endswith(word)), -1)
+               for word in needed]
+    if -1 in columns:
+        raise AnatomyError(f"{file}: line 1 has no column {needed[columns.index(-1)]}: needed are {', '.join(needed)}")
+    units = {parted[k][2] or "" for k in columns}
+    if len(units) > 1:
+        raise AnatomyError(f"{file}: line 1: x, y, z and radius need to be in one unit")
+    return columns, units.pop()
 
 
 def _read_markups(file: Path) -> Line:
