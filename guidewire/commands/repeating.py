@@ -31,7 +31,10 @@ def check(runner: Sequence[str], out: Path, elements: bool) -> int:
         for trial in repeats.trials_of(run, elements):
             folder = out / "check" / trial.name.replace(" ", "-")
             command = [*runner, "-parameters", str(out / PARAMETERS_NAME), "-out", str(folder), "-force"]
-            for key, value in trial.changed.items():
+            changed = dict(trial.changed)
+            if "numberRodElements" in changed:    # it has no effect, and would be warned of
+                changed["rodElementLength"] = run.number("guidewireLength") / changed["numberRodElements"]
+            for key, value in changed.items():
                 command += [f"-{key}", json.dumps(value)]
             code = hand_to(command)
             if code not in _COMPLETE:

@@ -27,7 +27,6 @@ import dask
 import distributed
 from distributed import Client, Future, KilledWorker, LocalCluster, wait
 from distributed.client import CancelledError
-from distributed.comm import CommClosedError
 
 from guidewire.prepare import PreparationError
 from guidewire.runs import runner, whole_files
@@ -102,8 +101,9 @@ class Cluster:
         try:
             self._prepare(results, (folder or Path.cwd()).absolute())  # workers stand elsewhere
         except BaseException as error:
+            is_gone = isinstance(error, (CancelledError, OSError)) and self._client.status != "running"
             self.close()
-            if isinstance(error, (CancelledError, CommClosedError)):
+            if is_gone:
                 raise self._gone() from error
             raise
 

@@ -170,3 +170,22 @@ def test_a_sweep_that_is_killed_goes_on_where_it_was(runner_command, tmp_path):
     assert len(rows) == len({row["folder"] for row in rows}) == 40 and {row["outcome"] for row in rows} == {"finished"}
     assert {path: path.stat().st_mtime_ns for path in first} == before
     assert len(list(runs.glob("*/*/summary.json"))) == 40 and not list(runs.glob("*/*/*.partial"))
+
+
+@pytest.mark.parametrize("when", ["get_versions", "run"])
+def test_a_scheduler_that_is_killed_while_its_workers_are_asked_is_one_line(fake, tmp_path, monkeypatch, when):
+    made = Processes(tmp_path)
+    try:
+        with cluster.Client(made.address) as client:
+            client.wait_for_workers(2, timeout=60)
+        address, original = made.address, getattr(cluster.Client, when)
+
+        def killed(self, *arguments, **options):
+            made.close()
+            return original(self, *arguments, **options)
+
+        monkeypatch.setattr(cluster.Client, when, killed)
+        with pytest.raises(PreparationError, match=f"^the scheduler at {address} is gone; "):
+            sweep([(study_of("one"), tmp_path)], tmp_path / "runs", Means(fake.command, 1, address))
+    finally:
+        made.close()
