@@ -13,7 +13,7 @@ from typing import Any
 from guidewire.env.spaces import Error, NameNotFound
 from guidewire.env.vessels import made_vessel
 from guidewire.prepare import DOOR, ROOT
-from guidewire.studies.json_text import problem_of, without_notes
+from guidewire.runs.json_text import problem_of, without_notes
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"

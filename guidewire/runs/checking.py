@@ -15,8 +15,8 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.prepare import ROOT, PreparationError
+from guidewire.runs.json_text import problem_of
 from guidewire.runs.key_table import Key, parse_key_table
-from guidewire.studies.json_text import problem_of
 
 _TABLE = ROOT / "docs" / "parameters.md"
 _PART = re.compile(r"[.\[]")  # behind a key: what follows names a part of it, which the runner looks for

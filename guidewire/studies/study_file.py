@@ -12,8 +12,8 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from guidewire.runs.json_text import problem_of, without_notes
 from guidewire.studies.bisection import Bisection, Holds
-from guidewire.studies.json_text import problem_of, without_notes
 from guidewire.studies.keys import Named, Value, checked_key, value_text
 from guidewire.studies.sampling import METHODS, Range, sample
 from guidewire.studies.table import RUN_SECONDS, Axis, Grid, Rows, Study

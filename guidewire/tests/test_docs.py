@@ -260,3 +260,15 @@ def test_outcomes_have_the_exit_codes_that_are_shown(runner_command, tmp_path):
     assert [(a["id"], a["outcome"]) for a in answers] == [(word, word) for word in _ENDINGS]
     interrupted = {"interrupted": "130"}  # test_endings.py
     assert {a["outcome"]: str(a["exitCode"]) for a in answers} | interrupted == shown
+
+
+def test_every_file_of_the_thesis_equations_names_its_equation():
+    page = (ROOT / "docs" / "design.md").read_text(encoding="utf-8")
+    rows = re.findall(r"^\| (.+?) \| .+? \| (`.+`) \|$", section(page, "## Equations of the thesis"), re.MULTILINE)
+    assert len(rows) > 10
+    for equation, files in rows:
+        for name in re.findall("`([^`]+)`", files):
+            file = ROOT / name if name.endswith(".py") else ROOT / "Assets" / "Guidewire" / "Core" / name
+            text = file.read_text(encoding="utf-8")
+            numbers = re.findall(r"\d+(?:\.\d+)+", equation) or ["Kugelstadt and Schoemer 2016, eqs. 3"]
+            assert any(number in text for number in numbers), (equation, name)
