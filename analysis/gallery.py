@@ -17,6 +17,7 @@ from analysis.chart import figure as chart
 from analysis.chart import coaxial, material, page, tables, walls
 from analysis.chart.points import Charted, Problem, check_of, in_short
 from analysis.figures import FIGURES, FigureSpec
+from analysis.measured import figure as measured
 from analysis.relaxation import RelaxationError
 from analysis.tables import measure_relaxation
 from analysis.validation.integrators import INTEGRATORS, INTEGRATORS_ONCE
@@ -121,12 +122,16 @@ def _check_spec(check: Check[Finding]) -> FigureSpec:
         failed_gates([(check, result) for result in _finding(check, folders[check.name]).results])))
 
 
+MEASURED = FigureSpec("measured", "three real wires, found and predicted", (), lambda _: measured.draw(measured.find()),
+                      {"measured.md": lambda _, path: measured.write_table(path)})
+
+
 def _catalogue(
     rows: Sequence[Check], problems: Sequence[Problem], integrators: Check[Finding], studies: Mapping[str, Study]
 ) -> Catalogue:
     checked = {VALIDATION: tuple(rows), CHART: tuple(check_of(problem) for problem in problems),
                integrators.name: (integrators,)}
-    specs = (_validation_spec(checked[VALIDATION]), _chart_spec(checked[CHART]), _check_spec(integrators))
+    specs = (_validation_spec(checked[VALIDATION]), _chart_spec(checked[CHART]), _check_spec(integrators), MEASURED)
     return Catalogue({**FIGURES, **{spec.id: spec for spec in specs}}, checked, studies)
 
 

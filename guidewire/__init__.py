@@ -14,6 +14,7 @@ if TYPE_CHECKING:  # the same names for type checkers
     from guidewire.env import Drive as Drive, Environment as Environment, Observation as Observation
     from guidewire.env import RecordedDrive as RecordedDrive, Reward as Reward, Task as Task
     from guidewire.env import VectorEnvironment as VectorEnvironment, all_tasks as all_tasks, find_task as find_task
+    from guidewire.identification import Identified as Identified, identify as identify
     from guidewire.library import advise as advise, sweep as sweep
     from guidewire.logs.logs import LogError as LogError, PositionLog as PositionLog
     from guidewire.logs.logs import read_entries as read_entries, read_log as read_log
@@ -26,6 +27,7 @@ _HOMES = {
     "guidewire.advice.plan": ("Advice",),
     "guidewire.env": ("Drive", "Environment", "Observation", "RecordedDrive", "Reward", "Task", "VectorEnvironment",
                       "all_tasks", "find_task"),
+    "guidewire.identification": ("Identified", "identify"),
     "guidewire.library": ("advise", "sweep"),
     "guidewire.logs.logs": ("LogError", "PositionLog", "read_entries", "read_log"),
     "guidewire.logs.runs": ("Run", "read_run", "read_runs"),

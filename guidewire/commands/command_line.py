@@ -171,6 +171,27 @@ def parse(argv: list[str]) -> argparse.Namespace:
                               "units: points of the centreline, those of one shape with the same time)")
     compare.set_defaults(packages=DRAWING)
 
+    identify = commands.add_parser("identify", help="find values of a scene, such as EI, from measured shapes, pictures or "
+                                                    "forces")
+    identify.add_argument("file", type=Path, metavar="SCENE", help="parameter file; the search starts from its values")
+    identify.add_argument("--measured", type=Path, metavar="FILE", nargs="+", required=True,
+                          help="CSV files whose first line is x,y,z or x,y (units, or x_mm ...), view,u,v (pixels), "
+                               "insertion,force or turn,torque (m, rad, N, N m), each of them with time before it, or "
+                               "critical KEY")
+    identify.add_argument("--fit", metavar="KEY", action="append", required=True,
+                          help="key, or part of a key, that is sought; may be given several times")
+    identify.add_argument("--align", choices=("none", "plane", "rigid"), default="none",
+                          help="frame of the measured points: the scene's (none), shifted and turned within its plane, "
+                               "or in space")
+    identify.add_argument("--camera", type=Path, metavar="FILE", help="JSON object of views, each a matrix of 3 x 4 that "
+                                                                      "takes units to pixels")
+    identify.add_argument("--bounds", metavar="KEY=LOW,HIGH", action="append", default=[],
+                          help="range of a value (that of the key)")
+    identify.add_argument("--out", type=path, metavar="DIR", help="folder of the results (results/SCENE-identified)")
+    identify.add_argument("--jobs", type=positive, metavar="N", help="runs at once (one a processor)")
+    _add_overrides(identify)
+    identify.set_defaults(packages=DRAWING)
+
     modes = commands.add_parser("modes", help="lowest natural frequencies and mode shapes of a wire with a material")
     modes.add_argument("file", type=Path, metavar="FILE",
                        help="parameter file; the modes are about its rest shape")

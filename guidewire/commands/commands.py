@@ -252,6 +252,12 @@ def _compare(arguments: argparse.Namespace) -> int:
     return _draw_log(arguments.folder, draw, "compare.png")
 
 
+def _identify(arguments: argparse.Namespace) -> int:
+    from guidewire.commands import identify
+
+    return identify.run(arguments)
+
+
 def _draw_log(folder: Path, draw: Callable[[Path], Figure], name: str) -> int:
     """Draw the log of a run into its folder."""
     from guidewire.logs.logs import LogError
@@ -334,7 +340,7 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 _ACTIONS = {
     "run": _run, "sweep": _sweep, "advise": _advise, "plot": _plot, "anatomy": _anatomy, "steer": _steer,
     "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "compare": _compare,
-    "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python, "native": _native,
+    "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python, "native": _native,
     "scenes": _scenes, "unity-check": _unity_check,
 }
 # Commands of the repository alone: the module that executes each, and its function.

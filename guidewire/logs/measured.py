@@ -1,22 +1,24 @@
 """Measurements of a real wire in a CSV file, and the error of a run against them.
 
 Two kinds, distinguished by their first line: `time,force` (s, and N at the hub), or `time,x,y,z` (s, and a point of the
-centreline in the run's units), where lines of the same time are points of one shape.
+centreline in the run's units), where lines of the same time are points of one shape. Other units stand behind the names,
+such as `force_mN` and `x_mm` (guidewire.logs.measurement).
 """
 
 from __future__ import annotations
 
-import csv
-import math
 from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
+from guidewire.logs.curves import offsets, smooth
 from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import LogError, PositionLog, read_log
+from guidewire.logs.measurement import read_measurement
+from guidewire.logs.runs import read_run
 
-COLUMNS = (("time", "force"), ("time", "x", "y", "z"))
+FORMS = ("time,force", "time,x,y,z")
 _EARLY = 1e-9  # of the run's duration, by which a time may lie outside it
 
 
@@ -58,7 +60,7 @@ class ComparedShapes:
     time : (k,), of each shape, s.
     measured : (p, 3) each, their points.
     run : (k, n + 1, 3), the run's nodes at these times.
-    distances : (p,) each, of each point from the line through the nodes at its time.
+    distances : (p,) each, of each point from the curve through the nodes at its time.
     left_out : shapes before the run's start or after its end.
     """
 
@@ -83,51 +85,23 @@ def compare(folder: Path, file: Path) -> ComparedForce | ComparedShapes:
     ------
     LogError : the file or the run cannot be read, the run does not log what was measured, or no time lies within it.
     """
-    rows = _read(file)
-    if rows.shape[1] == 2:
+    measured = read_measurement(file, float(read_run(folder).parameters.get("metresPerUnit", 1.0)), FORMS)
+    if measured.columns == ("time", "force"):
         hub = read_hub(folder)
-        use = _within(rows[:, 0], hub.time, file)
-        force = _finite(np.interp(rows[use, 0], hub.time, hub.force), folder)
-        return ComparedForce(rows[use, 0], rows[use, 1], force, int(np.count_nonzero(~use)))
+        use = _within(measured.over, hub.time, file)
+        force = _finite(np.interp(measured.over[use], hub.time, hub.force), folder)
+        return ComparedForce(measured.over[use], measured.values[use], force, int(np.count_nonzero(~use)))
+    if measured.columns != ("time", "x", "y", "z"):
+        raise LogError(f"{file}: the first line is \"{','.join(measured.columns)}\", must be {' or '.join(FORMS)}")
     log = read_log(folder, spheres="all")
     if len(log.spheres) < 2:
         raise LogError(f"{log.source}: holds one sphere only; a shape needs a run with logSpheres = \"all\"")
-    times, first = np.unique(rows[:, 0], return_index=True)
-    shapes = np.split(rows[:, 1:], first[1:])
+    times = np.array([shape.time for shape in measured.shapes])
     use = _within(times, log.time, file)
-    kept = tuple(shape for shape, kept in zip(shapes, use) if kept)
-    nodes = _finite(np.array([_nodes_at(log, time) for time in times[use]]), folder)
-    distances = tuple(_distances(points, line) for points, line in zip(kept, nodes))
+    kept = tuple(shape.points for shape, kept in zip(measured.shapes, use) if kept)
+    nodes = _finite(np.array([nodes_at(log, time) for time in times[use]]), folder)
+    distances = tuple(np.linalg.norm(offsets(points, smooth(line))[0], axis=1) for points, line in zip(kept, nodes))
     return ComparedShapes(times[use], kept, nodes, distances, int(np.count_nonzero(~use)))
-
-
-def _read(file: Path) -> np.ndarray:
-    """Numbers of the file, shape (k, 2) or (k, 4), times ascending."""
-    allowed = " or ".join(",".join(names) for names in COLUMNS)
-    try:
-        with file.open(newline="", encoding="utf-8-sig") as stream:
-            lines = [(number, row) for number, row in enumerate(csv.reader(stream), 1) if any(map(str.strip, row))]
-    except (OSError, UnicodeDecodeError, csv.Error) as error:
-        said = error.strerror if isinstance(error, OSError) else "is not a comma-separated text file in UTF-8"
-        raise LogError(f"{file}: {said}") from error
-    names = tuple(name.strip().lower() for name in lines[0][1]) if lines else ()
-    if names not in COLUMNS:
-        raise LogError(f"{file}: the first line is \"{','.join(names)}\", must be {allowed}")
-    rows = []
-    for number, row in lines[1:]:
-        try:
-            values = [float(value) for value in row]
-        except ValueError:
-            values = []
-        if len(values) != len(names) or not all(map(math.isfinite, values)):
-            raise LogError(f"{file}: line {number} is \"{','.join(row)}\", must be {len(names)} finite numbers: "
-                           f"{','.join(names)}")
-        if rows and values[0] < rows[-1][0]:
-            raise LogError(f"{file}: line {number}: time {values[0]:g} s after {rows[-1][0]:g} s, times must ascend")
-        rows.append(values)
-    if not rows:
-        raise LogError(f"{file}: holds no line of numbers after the first line")
-    return np.array(rows)
 
 
 def _finite(values: np.ndarray, folder: Path) -> np.ndarray:
@@ -145,22 +119,13 @@ def _within(times: np.ndarray, run: np.ndarray, file: Path) -> np.ndarray:
     return use
 
 
-def _nodes_at(log: PositionLog, time: float) -> np.ndarray:
-    """Linear between log entries, shape (n + 1, 3)."""
+def nodes_at(log: PositionLog, time: float) -> np.ndarray:
+    """The nodes at a time, linear between log entries, shape (n + 1, 3)."""
     after = min(int(np.searchsorted(log.time, time)), len(log.time) - 1)
     before = max(after - 1, 0)
     span = log.time[after] - log.time[before]
     part = min(max((time - log.time[before]) / span, 0.0), 1.0) if span > 0.0 else 0.0
     return (1.0 - part) * log.positions[before] + part * log.positions[after]
-
-
-def _distances(points: np.ndarray, line: np.ndarray) -> np.ndarray:
-    """Of points (p, 3) from a chain of straight pieces between nodes (n + 1, 3), shape (p,)."""
-    chords = np.diff(line, axis=0)
-    squares = np.maximum(np.sum(chords**2, axis=1), np.finfo(float).tiny)
-    off = points[:, None, :] - line[None, :-1, :]
-    along = np.clip(np.sum(off * chords, axis=2) / squares, 0.0, 1.0)
-    return np.min(np.linalg.norm(off - along[:, :, None] * chords, axis=2), axis=1)
 
 
 def _rms(values: np.ndarray) -> float:

@@ -22,6 +22,7 @@ def _run(folder: Path, spheres: int = NODES, hub: bool = True) -> Path:
                      "tipDirection": {"x": 0.0, "y": 0.0, "z": 1.0}, "largestCurvature": 0.0}} for k in range(ENTRIES)]
     write_log(folder, [[(0.0, 2.0 * k, 10.0 * i) for i in range(spheres)] for k in range(ENTRIES)], STEP,
               hubs if hub else ())
+    (folder / "parameters.json").write_text('{"metresPerUnit": 0.001}')
     return folder
 
 

@@ -1,0 +1,351 @@
+"""The values of a scene's unknowns that bring its run nearest to measurements, by least squares.
+
+The residuals r are offsets from the run to measured points or values, each measurement's over the RMS that it ends
+with. With J = dr/dp, the covariance of the values is s^2 (J^T J)^-1, s^2 = |r|^2/(N - p), N the independent residuals;
+an interval of 95 % is t times the standard error, t of Student's distribution with N - p degrees of freedom.
+"""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.optimize import OptimizeResult, least_squares
+from scipy.stats import t as student
+
+from guidewire.identification.critical import find_critical
+from guidewire.identification.residuals import ALIGNMENTS, Cameras, Residuals, residuals
+from guidewire.identification.trials import Trials, effective
+from guidewire.identification.unknowns import Unknown, overrides, unknowns_of
+from guidewire.logs.logs import LogError
+from guidewire.logs.measurement import Measurement, read_measurement
+from guidewire.prepare import PreparationError
+from guidewire.runs import building, checking
+
+MOST_TRIALS = 400    # sets of values
+_STEP = 1e-3    # of a difference quotient, in scales
+_EXACT = 1e-4   # in scales: of the values at the end
+_SINGULAR = 1e-5    # ratio of singular values, below which difference quotients say nothing
+_USELESS = 1.0    # standard error, in scales, beyond which a value is none
+_SHARE = 0.1    # of a direction, above which an unknown takes part in it
+_TOO_LONG, _TOO_SHORT = 3.0, 0.02    # extent of measured points over the wire's length
+
+
+@dataclass(frozen=True)
+class Value:
+    """One value that was found.
+
+    Attributes
+    ----------
+    key, unit : of the unknown.
+    start : value in the scene.
+    value : None where the measurement does not tell it.
+    error : standard error; of what is sought by its logarithm, value times the error of the logarithm.
+    low, high : the interval of 95 %.
+    at_bound : whether it ended at a bound, where errors mean nothing.
+    """
+
+    key: str
+    unit: str
+    start: float
+    value: float | None
+    error: float
+    low: float
+    high: float
+    at_bound: bool
+
+
+@dataclass(frozen=True)
+class Identified:
+    """What was found.
+
+    Attributes
+    ----------
+    values : by unknown, in the order in which they were asked for.
+    correlation : (p, p), of the values.
+    rms : of each measurement, in its unit.
+    residuals : of each measurement, at the values found.
+    notes : what cannot be told apart, and what the residuals say; sentences.
+    runs, failed : how many runs were made, and why some of them gave no result.
+    parameters : overrides with which the scene has the values found.
+    is_complete : whether the search came to its end.
+    """
+
+    values: tuple[Value, ...]
+    correlation: np.ndarray
+    rms: tuple[float, ...]
+    residuals: tuple[Residuals, ...]
+    notes: tuple[str, ...]
+    runs: int
+    failed: tuple[str, ...]
+    parameters: Mapping[str, Any] = field(default_factory=dict)
+    is_complete: bool = True
+
+    def __getitem__(self, key: str) -> Value:
+        """The value of a key."""
+        return next(one for one in self.values if one.key == key)
+
+
+def identify(scene: str | Path | Mapping[str, Any], measured: Sequence[str | Path] | str | Path, fit: Sequence[str] | str,
+             align: str = "none", cameras: Mapping[str, Any] | None = None,
+             bounds: Mapping[str, tuple[float, float]] | None = None, settings: Mapping[str, Any] | None = None,
+             jobs: int | None = None, tell: Callable[[str], None] = lambda line: None) -> Identified:
+    """Find values of a scene from measurements.
+
+    Parameters
+    ----------
+    scene : parameter file, or its contents; each unknown starts from its value there.
+    measured : files of measurements (guidewire.logs.measurement).
+    fit : keys, or parts of keys, that are sought.
+    align : "none", "plane" or "rigid": whether the measured points lie in a frame of their own.
+    cameras : matrices (3, 4) of pictures by view.
+    bounds : lowest and highest value by key.
+    settings : parameters that override the scene's.
+    jobs : runs at once; None: one a processor.
+    tell : called with a line for each step of the search.
+
+    Raises
+    ------
+    PreparationError : the scene, a measurement or a key cannot be used; one line.
+    """
+    files = [measured] if isinstance(measured, (str, Path)) else list(measured)
+    keys = [fit] if isinstance(fit, str) else list(fit)
+    if not files or not keys:
+        raise PreparationError("needs at least one measurement and one key to fit")
+    if align not in ALIGNMENTS:
+        raise PreparationError(f"align = {align!r} is not allowed: needs one of {', '.join(ALIGNMENTS)}")
+    views = {str(name): _camera(str(name), matrix) for name, matrix in (cameras or {}).items()}
+    given = isinstance(scene, Mapping)
+    fixed = {**(scene if given else {}), **(settings or {})}
+    with Trials(building.build(building.RUNNER, tell), None if given else Path(scene), fixed, jobs) as trials:
+        try:
+            return _Search(trials, [Path(file) for file in files], keys, align, views, bounds or {}, tell).run()
+        except LogError as error:
+            raise PreparationError(str(error)) from error
+
+
+def _camera(view: str, matrix: Any) -> np.ndarray:
+    made = np.asarray(matrix, dtype=float)
+    if made.shape != (3, 4) or not np.all(np.isfinite(made)):
+        raise PreparationError(f"camera \"{view}\": needs 3 rows of 4 finite numbers")
+    return made
+
+
+class _Search:
+    """One search."""
+
+    def __init__(self, trials: Trials, files: Sequence[Path], keys: Sequence[str], align: str, cameras: Cameras,
+                 bounds: Mapping[str, tuple[float, float]], tell: Callable[[str], None]) -> None:
+        self._trials, self._align, self._cameras, self._tell = trials, align, cameras, tell
+        self._failed: list[str] = []
+        self._tried = 0
+        (folder,) = trials.run([{}])
+        if isinstance(folder, str):
+            raise PreparationError(f"the scene does not run as it is: {folder}")
+        self._scene = effective(folder)
+        self._measured = [read_measurement(file, float(self._scene.get("metresPerUnit", 1.0))) for file in files]
+        self._unknowns = unknowns_of(keys, self._scene, checking.read_table(), bounds)
+        self._needs_hub = any(not one.shapes and not one.critical for one in self._measured)
+        count = sum(one.count for one in self._measured)
+        if count < len(self._unknowns):
+            raise PreparationError(f"{count} measured values for {len(self._unknowns)} unknowns: measure more or seek less")
+        for one in self._measured:
+            _check_size(one, self._scene)
+        self._weights = [_first_weight(one) for one in self._measured]
+        self._best: tuple[float, np.ndarray, list[Residuals]] | None = None
+        self._last: tuple[np.ndarray, np.ndarray] | None = None
+
+    def run(self) -> Identified:
+        """Search, weigh the measurements by what they end with, and search once more where there are several."""
+        low, high = (np.array([one.step(getattr(one, name)) for one in self._unknowns]) for name in ("low", "high"))
+        at = np.zeros(len(self._unknowns))
+        is_complete = True
+        try:
+            found = self._search(at, low, high)
+            if len(self._measured) > 1:
+                self._weights = [1.0 / max(part.rms, 1e-12) for part in self._best[2]]
+                found = self._search(found.x, low, high)
+            jacobian = found.jac
+        except KeyboardInterrupt:
+            if self._best is None:
+                raise
+            is_complete = False
+            jacobian = np.zeros((1, len(self._unknowns)))
+        return self._result(self._best[1], self._best[2], jacobian, low, high, is_complete)
+
+    def _search(self, at: np.ndarray, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
+        self._best = None    # what counts as best depends on the weights
+        start = self._residual(at)
+        self._bad = 1e3 * np.abs(start) + 1e3 * float(np.linalg.norm(start) / math.sqrt(len(start)))
+        return least_squares(self._residual, at, jac=self._jacobian, bounds=(low, high), method="trf", x_scale=1.0,
+                             xtol=_EXACT, ftol=1e-10, gtol=1e-12, max_nfev=60)
+
+    def _residual(self, steps: np.ndarray) -> np.ndarray:
+        """Weighted residuals; of a run without a result those of the start, times a thousand: never taken for better."""
+        parts = self._compared([steps])[0]
+        if parts is None:
+            if self._best is None:
+                raise PreparationError(f"the scene's own values give no run to compare: {self._failed[-1]}")
+            return self._bad
+        made = self._weighted(parts)
+        self._last = np.array(steps), made
+        if self._best is None or made @ made < self._best[0]:
+            self._best = float(made @ made), np.array(steps), parts
+            self._tell(f"run {self._trials.made}: " + ", ".join(
+                f"{one.key} = {one.value(step):.6g}" for one, step in zip(self._unknowns, steps)))
+        return made
+
+    def _jacobian(self, steps: np.ndarray) -> np.ndarray:
+        """Difference quotients, all runs side by side; backwards where the run forwards has no result."""
+        if self._last is None or not np.array_equal(self._last[0], steps):
+            self._residual(steps)
+        base, columns = self._last[1], []
+        ahead = self._compared([steps + _STEP * row for row in np.eye(len(steps))])
+        for k, (one, parts) in enumerate(zip(self._unknowns, ahead)):
+            sign = 1.0
+            if parts is None:
+                (parts,), sign = self._compared([steps - _STEP * np.eye(len(steps))[k]]), -1.0
+            if parts is None:
+                raise PreparationError(f"{one.key}: no run on either side of {one.value(steps[k]):.6g}: {self._failed[-1]}")
+            columns.append(sign * (self._weighted(parts) - base) / _STEP)
+        return np.stack(columns, axis=1)
+
+    def _weighted(self, parts: Sequence[Residuals]) -> np.ndarray:
+        return np.concatenate([weight * part.offsets.ravel() for weight, part in zip(self._weights, parts)])
+
+    def _compared(self, many: Sequence[np.ndarray]) -> list[list[Residuals] | None]:
+        """Every run's residuals, of each measurement; None where there is no result."""
+        self._tried += len(many)
+        if self._tried > MOST_TRIALS:
+            raise PreparationError(f"no end of the search after {MOST_TRIALS} sets of values: give bounds, or start nearer")
+        asked = [self._overrides(steps) for steps in many]
+        folders = self._trials.run(asked)
+        made = [self._compare(folder, values) for folder, values in zip(folders, asked)]
+        for folder in folders:
+            self._trials.forget(folder)
+        return made
+
+    def _compare(self, folder: Path | str, values: Mapping[str, Any]) -> list[Residuals] | None:
+        if isinstance(folder, str):
+            self._failed.append(folder)
+            self._tell(f"a run without a result, which is passed over: {folder}")
+            return None
+        parts = []
+        for one in self._measured:
+            if one.critical:
+                value = find_critical(self._trials, values, self._scene, one.critical, float(np.mean(one.values)))
+                parts.append(Residuals((one.values - value)[:, None], (0,), len(one.values)))
+            else:
+                parts.append(residuals(folder, one, self._align, self._cameras))
+        if not all(np.all(np.isfinite(part.offsets)) for part in parts):
+            self._failed.append("a number of the run is not finite")
+            return None
+        return parts
+
+    def _overrides(self, steps: np.ndarray) -> dict[str, Any]:
+        made = overrides(self._unknowns, [one.value(step) for one, step in zip(self._unknowns, steps)], self._scene)
+        return {**made, **({"logHub": True} if self._needs_hub else {})}
+
+    def _result(self, steps: np.ndarray, parts: list[Residuals], jacobian: np.ndarray, low: np.ndarray,
+                high: np.ndarray, is_complete: bool) -> Identified:
+        weighted = self._weighted(parts)
+        free = max(sum(part.independent for part in parts) - len(steps), 1)
+        deviation = math.sqrt((weighted @ weighted) / free)
+        covariance, notes = np.full((len(steps), len(steps)), np.inf), []
+        if is_complete:
+            covariance, notes = _covariance(self._unknowns, jacobian, deviation)
+        errors = np.sqrt(np.diag(covariance))
+        quantile = float(student.ppf(0.975, free))
+        values = []
+        for k, one in enumerate(self._unknowns):
+            at_bound = not low[k] + 1e-6 < steps[k] < high[k] - 1e-6
+            is_told = errors[k] < _USELESS or not is_complete
+            if at_bound:
+                notes.append(f"{one.key} ended at its bound {one.value(steps[k]):.6g}: its error says nothing")
+            reach = quantile * errors[k]
+            size = one.value(steps[k]) if one.by_ratio else one.scale
+            values.append(Value(one.key, one.unit, one.start, one.value(steps[k]) if is_told else None,
+                                float(size * errors[k]), one.value(steps[k] - reach) if math.isfinite(reach) else -math.inf,
+                                one.value(steps[k] + reach) if reach < 500.0 else math.inf, at_bound))
+        for file, part in zip(self._measured, parts):
+            if part.correlation > 0.5 and len(part.offsets) > 4:
+                notes.append(f"{file.file.name}: neighbouring residuals agree (correlation {part.correlation:.2f}): something "
+                             "systematic is left, of the model or of the frame, which the standard errors do not count")
+        with np.errstate(invalid="ignore"):
+            correlation = covariance / np.outer(errors, errors)
+        told = {one.key: one.value(step) for one, step in zip(self._unknowns, steps)}
+        parameters = overrides(self._unknowns, list(told.values()), self._scene)
+        return Identified(tuple(values), correlation, tuple(part.rms for part in parts), tuple(parts), tuple(notes),
+                          self._trials.made, tuple(dict.fromkeys(self._failed)), parameters, is_complete)
+
+
+def _covariance(unknowns: Sequence[Unknown], jacobian: np.ndarray, deviation: float) -> tuple[np.ndarray, list[str]]:
+    """Covariance of the steps, and sentences on directions in which a change by a scale moves the residuals by less than
+    their standard deviation. What takes part in a direction that is not seen at all has an infinite variance."""
+    count = len(unknowns)
+    covariance, notes, hidden = np.zeros((count, count)), [], np.zeros(count, bool)
+    _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
+    for size, row in zip(sizes, rows):
+        if size > _SINGULAR * sizes[0]:
+            covariance += (deviation / size) ** 2 * np.outer(row, row)
+        else:
+            hidden |= np.abs(row) > _SHARE
+    covariance[hidden, :] = covariance[:, hidden] = np.inf
+    for size, row in zip(sizes, rows):
+        if size <= _SINGULAR * sizes[0] or deviation > _USELESS * size:
+            notes.append(_sentence(unknowns, row))
+    return covariance, notes
+
+
+def _sentence(unknowns: Sequence[Unknown], row: np.ndarray) -> str:
+    taking = [k for k in range(len(unknowns)) if abs(row[k]) > _SHARE]
+    names = " and ".join(unknowns[k].key for k in taking)
+    if len(taking) == 1:
+        return f"{names} hardly changes what was measured: it cannot be told from it"
+    if all(unknowns[k].by_ratio for k in taking) and abs(np.sum(row[taking])) > 1.2 * np.linalg.norm(row[taking]):
+        return f"{names}: only their ratio changes what was measured: each alone cannot be told"
+    return f"{names} act alike on what was measured: they cannot be told apart"
+
+
+def _first_weight(measured: Measurement) -> float:
+    """One over a guess of the error, by which measurements are weighed before they are compared."""
+    if measured.shapes:
+        every = np.concatenate([shape.points for shape in measured.shapes])
+        return 100.0 / max(float(np.linalg.norm(np.ptp(every, axis=0))), 1e-12)
+    return 20.0 / max(float(np.max(np.abs(measured.values))), 1e-300)
+
+
+def _check_size(measured: Measurement, scene: Mapping[str, Any]) -> None:
+    if not measured.axes:
+        return
+    length = float(scene["guidewireLength"])
+    every = np.concatenate([shape.points for shape in measured.shapes])
+    size = float(np.linalg.norm(np.ptp(every, axis=0)))
+    if not _TOO_SHORT * length < size < _TOO_LONG * length:
+        raise PreparationError(f"{measured.file}: its points span {size:g} units, the wire is {length:g} long: state their "
+                                  "unit, such as x_mm, or the scene's metresPerUnit")
+    if any(len(shape.points) < 3 for shape in measured.shapes):
+        raise PreparationError(f"{measured.file}: a shape of fewer than 3 points")
+
+
+def to_json(found: Identified, scene: str, measured: Sequence[Path]) -> str:
+    """The contents of identified.json."""
+    def number(value: float | None) -> float | None:
+        return None if value is None or not math.isfinite(value) else float(value)
+
+    return json.dumps({
+        "scene": scene, "complete": found.is_complete, "runs": found.runs, "failedRuns": list(found.failed),
+        "values": [{"key": one.key, "unit": one.unit, "start": one.start, "value": number(one.value),
+                    "standardError": number(one.error), "interval95": [number(one.low), number(one.high)],
+                    "atBound": one.at_bound} for one in found.values],
+        "correlation": [[number(value) for value in row] for row in found.correlation],
+        "measurements": [{"file": file.name, "rms": rms, "points": len(part.offsets),
+                          "correlationOfResiduals": part.correlation}
+                         for file, rms, part in zip(measured, found.rms, found.residuals)],
+        "notes": list(found.notes),
+    }, indent=2) + "\n"

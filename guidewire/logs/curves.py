@@ -1,0 +1,50 @@
+"""The curve through the nodes of a wire, and the distances of points from it."""
+
+from __future__ import annotations
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+
+_PIECES = 8  # straight pieces an element: of an arc they are 64 times nearer than its chord
+
+
+def smooth(nodes: np.ndarray) -> np.ndarray:
+    """Points of a cubic spline through nodes.
+
+    Parameters
+    ----------
+    nodes : (n + 1, d), in any unit.
+
+    Returns
+    -------
+    ndarray
+        (8 n + 1, d): the nodes, and seven points between each two. Of two nodes, or of nodes that coincide, the chords.
+    """
+    along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(nodes, axis=0), axis=1))))
+    at = np.interp(np.arange(_PIECES * (len(nodes) - 1) + 1) / _PIECES, np.arange(len(nodes)), along)
+    if len(nodes) < 3 or np.any(np.diff(along) <= 0.0):
+        return np.stack([np.interp(np.arange(len(at)) / _PIECES, np.arange(len(nodes)), column) for column in nodes.T], 1)
+    return CubicSpline(along, nodes)(at)
+
+
+def offsets(points: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+    """Offsets of points from the nearest points of a chain of straight pieces.
+
+    Parameters
+    ----------
+    points : (p, d).
+    line : (m, d), at least two.
+
+    Returns
+    -------
+    tuple of ndarray
+        (p, d), from the line to each point; (p,), where along the line the nearest point lies, in pieces.
+    """
+    chords = np.diff(line, axis=0)
+    squares = np.maximum(np.sum(chords**2, axis=1), np.finfo(float).tiny)
+    off = points[:, None, :] - line[None, :-1, :]
+    along = np.clip(np.sum(off * chords, axis=2) / squares, 0.0, 1.0)
+    vectors = off - along[:, :, None] * chords
+    nearest = np.argmin(np.sum(vectors**2, axis=2), axis=1)
+    row = np.arange(len(points))
+    return vectors[row, nearest], nearest + along[row, nearest]
