@@ -12,8 +12,8 @@ from typing import Any
 
 from guidewire.env.spaces import Error, NameNotFound
 from guidewire.env.vessels import made_vessel
+from guidewire.json_text import problem_of, without_notes
 from guidewire.prepare import DOOR, ROOT
-from guidewire.runs.json_text import problem_of, without_notes
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"

@@ -14,8 +14,8 @@ from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
+from guidewire.json_text import problem_of
 from guidewire.prepare import ROOT, PreparationError
-from guidewire.runs.json_text import problem_of
 from guidewire.runs.key_table import Key, parse_key_table
 
 _TABLE = ROOT / "docs" / "parameters.md"

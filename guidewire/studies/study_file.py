@@ -12,7 +12,7 @@ from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from guidewire.runs.json_text import problem_of, without_notes
+from guidewire.json_text import problem_of, without_notes
 from guidewire.studies.bisection import Bisection, Holds
 from guidewire.studies.keys import Named, Value, checked_key, value_text
 from guidewire.studies.sampling import METHODS, Range, sample
