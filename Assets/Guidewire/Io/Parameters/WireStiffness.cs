@@ -19,19 +19,16 @@ namespace Guidewire.Io
         private static readonly (string Stiffness, string Modulus)[] Pairs =
         {
             ("bendingStiffness", "youngsModulus"),
-            ("axialStiffness", "youngsModulus"),
             ("torsionalStiffness", "shearModulus"),
             ("massPerLength", "density"),
         };
 
-        /// <summary>What the command line says in one word replaces what the file says in the other. EA alone replaces
-        /// nothing: the modulus goes on to make EI.</summary>
+        /// <summary>What the command line says in one word replaces what the file says in the other.</summary>
         public static void Replace(GivenParameters given, string key, string? file)
         {
             foreach ((string stiffness, string modulus) in Pairs)
             {
-                string? other = key == modulus ? stiffness
-                    : key == stiffness && stiffness != "axialStiffness" ? modulus : null;
+                string? other = key == modulus ? stiffness : key == stiffness ? modulus : null;
                 if (other != null && given.TryGet(other, out var said) && said.Source == file)
                 {
                     given.Remove(other);
@@ -53,11 +50,10 @@ namespace Guidewire.Io
             material.YoungsModulus = Said(
                 given, 0, values.BendingStiffness, second, material.YoungsModulus, "N m^2");
             material.ShearModulus = Said(
-                given, 2, values.TorsionalStiffness, 2.0 * second, material.ShearModulus, "N m^2");
-            material.Density = Said(given, 3, values.MassPerLength, area, material.Density, "kg/m");
+                given, 1, values.TorsionalStiffness, 2.0 * second, material.ShearModulus, "N m^2");
+            material.Density = Said(given, 2, values.MassPerLength, area, material.Density, "kg/m");
             if (values.BendingStiffness == null && material.AxialStiffness != null)
             {
-                Said(given, 1, material.AxialStiffness, area, material.YoungsModulus, "N");
                 values.BendingStiffness = material.YoungsModulus * second;
             }
         }

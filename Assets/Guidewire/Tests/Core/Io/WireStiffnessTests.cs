@@ -64,8 +64,16 @@ namespace Guidewire.Core.Tests
             Assert.That(CrossSection.At(wire, 265.0).StretchStiffness, Is.EqualTo(500.0));
         }
 
+        [Test]
+        public void AxialStiffnessBesideTheModulus_IsIndependent()
+        {
+            MaterialParameters wire = Load(", \"youngsModulus\": 60e9, \"axialStiffness\": 1e7}")
+                .Values.Simulation.Material;
+            Assert.That(CrossSection.At(wire, 100.0).StretchStiffness, Is.EqualTo(1e7));
+            Assert.That(CrossSection.At(wire, 100.0).BendStiffness1, Is.EqualTo(60e9 * Second).Within(1e-12));
+        }
+
         [TestCase("bendingStiffness", 1e-4, "youngsModulus", 60e9)]
-        [TestCase("axialStiffness", 1e3, "youngsModulus", 60e9)]
         [TestCase("torsionalStiffness", 1e-4, "shearModulus", 23e9)]
         [TestCase("massPerLength", 1e-2, "density", 6450.0)]
         public void BothWordsOfOneFile_ThatDisagree_AreRefused_AndTheCommandLineReplacesTheFiles(
