@@ -16,8 +16,8 @@ namespace Guidewire.Core
     /// descends far, energy falling in every iteration. So there the shortest piece may take
     /// <see cref="IterationFactor"/> times as many iterations.
     ///
-    /// The work is bounded: after the first halving a part may take <see cref="MostSolutions"/> times the iterations
-    /// that one solution may take.</remarks>
+    /// The work is bounded: after its first halving a step, with all of its parts, may take <see cref="MostSolutions"/>
+    /// times the iterations that one solution may take.</remarks>
     internal sealed class Clock
     {
         private const int Whole = 1 << 12;        // ticks of a part
@@ -36,7 +36,7 @@ namespace Guidewire.Core
         private int _ticks;           // of that piece
         private double _done;         // of it, s
         private double _until;        // where the interval that was proposed has to end, s after the piece's start
-        private long _mostIterations; // of the run, in this part
+        private long _mostIterations; // of the run, in this step
         private string _halvedFor = "";   // why an interval of this part was halved last
         private int _size = Whole;    // of a piece, ticks
         private int _patience = 1;    // pieces of one length before a longer one is tried
@@ -73,6 +73,7 @@ namespace Guidewire.Core
             _length = length / parts;
             _parts = parts;
             Failure = null;
+            _mostIterations = long.MaxValue;
             BeginPart();
         }
 
@@ -144,7 +145,6 @@ namespace Guidewire.Core
         {
             _tick = 0;
             _done = 0.0;
-            _mostIterations = long.MaxValue;
         }
 
         private Interval Propose()
