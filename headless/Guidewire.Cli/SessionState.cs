@@ -110,7 +110,10 @@ namespace Guidewire.Cli
                 Put("force", stress.Force);
                 Put("curvature", stress.Curvature);
                 Put("couple", stress.Couple);
-                PutOne("energy", new Vector3d(stress.KineticEnergy, stress.ElasticEnergy, stress.PotentialEnergy));
+            }
+            if (simulation.Energies() is Vector3d energies)
+            {
+                PutOne("energy", energies);
             }
         }
 

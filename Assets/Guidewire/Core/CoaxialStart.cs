@@ -40,14 +40,25 @@ namespace Guidewire.Core
         {
             Catheter catheter = catheters[k];
             double lumen = catheter.Material.InnerRadius;
+            double outer = widest;
             if (!(lumen > widest))
             {
                 string inside = k == catheters.Count - 1 ? "the wire's" : "the inner catheter's";
                 return Of(k, "lumenRadius", "more than {0:G4} m, " + inside + " own largest radius (the "
                     + "lumen has {1:G4} m)", widest, lumen);
             }
-            foreach (CrossSection piece in new WireProfile(catheter.Material, catheter.Length).Pieces)
+            var profile = new WireProfile(catheter.Material, catheter.Length);
+            for (int p = 0; p < profile.Pieces.Length; p++)
             {
+                CrossSection piece = profile.Pieces[p];
+                double from = profile.Borders[p];
+                double to = profile.Borders[p + 1];
+                double own = CrossSection.LumenAt(catheter.Material, 0.5 * (from + to));
+                if (!(own > widest))
+                {
+                    return Of(k, "wireSections", "an innerRadius of more than {0:G4} m everywhere, the largest radius"
+                        + " of what is inside (it is {1:G4} m from {2:G4} to {3:G4} units)", widest, own, from, to);
+                }
                 if (!(piece.Radius > lumen))
                 {
                     return Of(k, "lumenRadius", "less than {0:G4} m, the catheter's own radius where it is thinnest"
@@ -57,8 +68,9 @@ namespace Guidewire.Core
                 {
                     return Of(k, "wireSections", EqualInBothDirections);
                 }
-                widest = Math.Max(widest, piece.Radius);
+                outer = Math.Max(outer, piece.Radius);
             }
+            widest = outer;
             return null;
         }
 

@@ -149,6 +149,13 @@ namespace Guidewire.Core
             return _stepper.Stress();
         }
 
+        /// <summary>Energy of motion, that stored in all instruments, and minus the work of the loads that have a
+        /// potential, J; null with pbd.</summary>
+        public Vector3d? Energies()
+        {
+            return _stepper.Energies();
+        }
+
         /// <summary>Results at the hub and the tip at the current time; null if the method does not compute them. Each
         /// call overwrites the record.</summary>
         public HubRecord? Hub()

@@ -71,8 +71,9 @@ namespace Guidewire.Core
         /// <param name="shape">Where it is.</param>
         /// <param name="drive">Moves the outer hub.</param>
         /// <param name="inner">The motions of the inner hubs.</param>
+        /// <param name="loads">Those that change in time.</param>
         public MaterialScene(MaterialScene outer, CoaxialRod coaxial, RodShape shape, MaterialDrive drive,
-            HubMotion[] inner)
+            HubMotion[] inner, PrescribedLoads loads)
         {
             _scene = outer._scene;
             Rod = coaxial.Rod;
@@ -88,7 +89,7 @@ namespace Guidewire.Core
                 Coaxial = coaxial,
             };
             Drive = drive;
-            Schedule = new RodSchedule(outer.Schedule.Loads, drive.Hub, outer.Schedule.Distal, inner);
+            Schedule = new RodSchedule(loads, drive.Hub, outer.Schedule.Distal, inner);
             Joints = new JointMonitor(this, 0.0);
         }
 

@@ -80,6 +80,9 @@ namespace Guidewire.Core
         /// <summary>Bending and twist.</summary>
         public BendTwistTerm Bending { get; }
 
+        /// <summary>The loads on coaxial instruments; null where those on the chain are set by hand.</summary>
+        public CoaxialLoads? CoaxialLoads { get; set; }
+
         /// <summary>The term that holds it straight in its sheath; null without one.</summary>
         public SheathEnergy? Sheath { get; }
 
@@ -116,7 +119,6 @@ namespace Guidewire.Core
         /// <summary>Sets all that is prescribed at this time.</summary>
         public void SetTime(RodSchedule schedule, double time)
         {
-            Loads.Set(schedule, time);
             Followers.SetTime(time);
             if (Sheath != null)
             {
@@ -127,6 +129,20 @@ namespace Guidewire.Core
             {
                 term.SetTime(time);
             }
+            if (CoaxialLoads == null)
+            {
+                Loads.Set(schedule, time);
+                return;
+            }
+            CoaxialLoads.Set(Loads.Force, time);
+        }
+
+        /// <summary>Elastic energy and that of dead loads, J, of coaxial instruments with their hubs where they are
+        /// now.</summary>
+        public double CoaxialEnergy(RodShape shape)
+        {
+            CoaxialLoads?.Place(Loads.Force);
+            return ElasticEnergy(shape) - Supports.Coaxial!.Axial.PreloadEnergy + Loads.Value(shape);
         }
 
         /// <summary>Adds the gradient of all terms.</summary>

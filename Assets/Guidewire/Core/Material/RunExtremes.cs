@@ -66,8 +66,9 @@ namespace Guidewire.Core
             CoaxialJoints? coaxial = terms.Supports.Coaxial?.Joints;
             for (int j = 0; j < n; j++)
             {
-                _stretch[j] = Math.Abs(Vector3d.Distance(shape.X[j], shape.X[j + 1]) / rod.Length[j] - 1.0)
-                    * (coaxial == null ? 1.0 : coaxial.StretchFraction(j));
+                double length = Vector3d.Distance(shape.X[j], shape.X[j + 1]);
+                _stretch[j] = coaxial == null ? Math.Abs(length / rod.Length[j] - 1.0)
+                    : terms.Supports.Coaxial!.Axial.StrainAt(j, length);
             }
             double largest = _curvatureSquared;
             double strain = Strain;
@@ -101,6 +102,12 @@ namespace Guidewire.Core
             }
             _curvatureSquared = largest;
             Strain = strain;
+        }
+
+        /// <summary>Takes a strain of an instrument; what is not a number is more than any.</summary>
+        internal void TakeStrain(double strain)
+        {
+            Strain = strain <= Strain ? Strain : double.IsNaN(strain) ? double.MaxValue : strain;
         }
 
         /// <summary>Takes what the hub does.</summary>

@@ -39,6 +39,15 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>Energy of motion, that stored in all instruments, and minus the work of the loads that have a
+        /// potential, J; null with pbd.</summary>
+        public virtual Vector3d? Energies()
+        {
+            StressRecord? stress = Stress();
+            return stress == null ? (Vector3d?)null
+                : new Vector3d(stress.KineticEnergy, stress.ElasticEnergy, stress.PotentialEnergy);
+        }
+
         /// <summary>What is read off at the hub and the tip; null where the method does not compute it.</summary>
         public virtual HubRecord? Hub()
         {

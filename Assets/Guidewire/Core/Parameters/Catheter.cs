@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>A catheter over the wire: an instrument of its own, fed and turned at its own hub, on the wire's axis
@@ -18,6 +20,15 @@ namespace Guidewire.Core
 
         /// <summary>Coefficient of friction between the wire and its lumen, along the axis; 0: none.</summary>
         public double LumenFriction { get; set; }
+
+        /// <summary>Force on its tip, N.</summary>
+        public Vector3d TipForce { get; set; }
+
+        /// <summary>Force per length at rest, N/m.</summary>
+        public Vector3d DistributedForce { get; set; }
+
+        /// <summary>Forces at lengths from its hub, units.</summary>
+        public PointLoad[] PointLoads { get; set; } = Array.Empty<PointLoad>();
 
         /// <summary>What it is made of; <see cref="MaterialParameters.InnerRadius"/> is that of its lumen.</summary>
         public MaterialParameters Material { get; set; } = new MaterialParameters();

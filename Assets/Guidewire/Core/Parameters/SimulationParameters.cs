@@ -41,6 +41,12 @@ namespace Guidewire.Core
             own.Scene.GuidewireLength = catheter.Length;
             own.Scene.NumberRodElements = catheter.Elements;
             own.Scene.GuidewireOffset += catheter.Start;
+            own.Scene.TipForce = catheter.TipForce;
+            own.Scene.TipForceTable = null;
+            own.Scene.DistributedForce = catheter.DistributedForce;
+            own.Scene.DistributedForceTable = null;
+            own.Scene.PointLoads = catheter.PointLoads;
+            own.Scene.PointLoadsTable = null;
             own.Material = catheter.Material.Copy();
             own.Material.MassRule = Material.MassRule;
             own.Drive = catheter.Drive.Copy();

@@ -12,6 +12,7 @@ namespace Guidewire.Io
         /// <summary>The key.</summary>
         public const string Key = "catheters";
 
+        private const double MostFriction = 2.0;   // it enters as exp(mu angle)
         private const string InstrumentFile = ".json: ";
 
         // What a catheter calls it, and what the wire does.
@@ -26,7 +27,7 @@ namespace Guidewire.Io
         {
             "instrument", "wireRadius", "youngsModulus", "shearModulus", "density", "shearFactor", "bendingStiffness",
             "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
-            "rotationSpeed", "driveFile",
+            "rotationSpeed", "driveFile", "tipForce", "distributedForce", "pointLoads",
         };
 
         private static readonly string[] Needed = { "length", "wireRadius", "lumenRadius" };    // or an instrument
@@ -90,6 +91,11 @@ namespace Guidewire.Io
                 else if (property.Name == "lumenFriction")
                 {
                     lumenFriction = NotNegative(property, source, where, "");
+                    if (lumenFriction > MostFriction)
+                    {
+                        throw new ParameterException(source, where + "." + property.Name,
+                            property.Value.ToString(Formatting.None), "a coefficient of friction from 0 to 2");
+                    }
                 }
                 else if (property.Name == "hubForceLimit")
                 {
@@ -135,6 +141,9 @@ namespace Guidewire.Io
                 Start = start,
                 FrictionCoefficient = friction,
                 LumenFriction = lumenFriction,
+                TipForce = own.Scene.TipForce,
+                DistributedForce = own.Scene.DistributedForce,
+                PointLoads = own.Scene.PointLoads,
                 Material = own.Material,
                 Drive = own.Drive,
             };

@@ -12,7 +12,7 @@ namespace Guidewire.Core
     /// <see cref="CoaxialTwistRows"/>.</remarks>
     internal sealed class CoaxialBendTwist : BendTwistTerm
     {
-        private const double Difference = 1e-4;   // of an element, between two energies whose difference is a force
+        private const double Difference = 1e-6;   // of an element, between two energies whose difference is a force
         private const string NoWinding = "joint 0 of coaxial instruments has no winding";
 
         private readonly CoaxialRod _rod;
@@ -50,18 +50,19 @@ namespace Guidewire.Core
         /// <summary>Angle from the outermost hub to each, radians, without limit; 0 of the first.</summary>
         public double[] HubTwist { get; }
 
-        /// <summary>Force of an inner hub on its instrument along the axis, N: dE/dp, of this energy and those of the
-        /// elements at the tips around it. Negative where the instrument is driven out.</summary>
-        public double InnerForce(RodShape shape, StretchEnergy stretch, int instrument = 1)
+        /// <summary>Force of an inner hub on its instrument along the axis, N: dE/dp, of all that is elastic and of the
+        /// loads. Negative where the instrument is driven out.</summary>
+        /// <param name="terms">Of which this is one.</param>
+        public double InnerForce(RodShape shape, RodTerms terms, int instrument = 1)
         {
-            return Released(shape, stretch, instrument, Difference * _rod.Rod.Length[0], 0.0);
+            return Released(shape, terms, instrument, Difference * _joints.ShortestAtTips, 0.0);
         }
 
         /// <summary>What the outer hub has of the force along the axis besides that on its node, N: with -dE/dD, D the
         /// length in the sheath, a bent instrument is driven out.</summary>
-        public double SheathForce(RodShape shape, StretchEnergy stretch)
+        public double SheathForce(RodShape shape, RodTerms terms)
         {
-            return _joints.Sheathed == 0.0 ? 0.0 : Released(shape, stretch, 1, 0.0, Difference * _rod.Rod.Length[0]);
+            return _joints.Sheathed == 0.0 ? 0.0 : Released(shape, terms, 1, 0.0, Difference * _joints.ShortestAtTips);
         }
 
         /// <summary>Where the two hubs are in time; null where they are set by hand.</summary>
@@ -336,7 +337,7 @@ namespace Guidewire.Core
         }
 
         // A centred difference of energy, N, by a lead and the length in the sheath that are less by these, m.
-        private double Released(RodShape shape, StretchEnergy stretch, int instrument, double lead, double sheathed)
+        private double Released(RodShape shape, RodTerms terms, int instrument, double lead, double sheathed)
         {
             SetIdleTwists(shape);
             for (int i = 1; i < _lead.Length; i++)
@@ -346,12 +347,13 @@ namespace Guidewire.Core
             (double from, double inside) = (_lead[instrument], _joints.Sheathed);
             _lead[instrument] = from - lead;
             _rod.SetHubs(_lead, inside - sheathed);
-            double less = Value(shape) + stretch.Value(shape);
+            double less = terms.CoaxialEnergy(shape);
             _lead[instrument] = from + lead;
             _rod.SetHubs(_lead, inside + sheathed);
-            double more = Value(shape) + stretch.Value(shape);
+            double more = terms.CoaxialEnergy(shape);
             _lead[instrument] = from;
             _rod.SetHubs(_lead, inside);
+            terms.CoaxialLoads?.Place(terms.Loads.Force);
             return 0.5 * (less - more) / (lead + sheathed);
         }
 

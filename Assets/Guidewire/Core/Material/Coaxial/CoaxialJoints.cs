@@ -25,6 +25,10 @@ namespace Guidewire.Core
         private readonly double[] _lead;           // d_i, m
         private readonly double[] _end;            // of each, m along the chain
         private readonly int[] _active;            // elements of each whose angle is unknown
+        private readonly double[] _stretch;        // of each instrument, then by element, m/N
+        private readonly double[] _leadStretch;    // of each before the outermost hub, m/N
+        private readonly double[] _axial;          // of each element, m/N
+        private readonly double[] _shear;
         private readonly double[] _station;        // of the chain's nodes
         private readonly CoaxialJoint[] _joint;
         private readonly CoaxialPieces _before;    // on one side of a joint
@@ -59,6 +63,10 @@ namespace Guidewire.Core
             }
             Array.Copy(instruments[0].Stations, _station, _tip[0] + 1);
             _joint = new CoaxialJoint[_station.Length];
+            _stretch = new double[count * _carrier.Length];
+            _leadStretch = new double[count];
+            _axial = new double[_carrier.Length];
+            _shear = new double[_carrier.Length];
             InstrumentProfile[] profiles = Array.ConvertAll(instruments, instrument => instrument.Profile);
             _before = new CoaxialPieces(profiles);
             _after = new CoaxialPieces(profiles);
@@ -145,17 +153,49 @@ namespace Guidewire.Core
             return _active[instrument];
         }
 
+        /// <summary>Compliance along the axis of an instrument in an element, m/N, as far as it is in it.</summary>
+        public double StretchOf(int instrument, int element)
+        {
+            return _stretch[instrument * _carrier.Length + element];
+        }
+
+        /// <summary>The same of its length before the outermost hub.</summary>
+        public double LeadStretchOf(int instrument)
+        {
+            return _leadStretch[instrument];
+        }
+
+        /// <summary>The same of all in an element, held together, m/N.</summary>
+        public double AxialOf(int element)
+        {
+            return _axial[element];
+        }
+
+        /// <summary>Compliance of an element across the axis, m/N: GA of all that are in it adds.</summary>
+        public double ShearOf(int element)
+        {
+            return _shear[element];
+        }
+
         /// <summary>Whether node k is the tip of an instrument with another one going on beyond it.</summary>
         public bool IsTip(int k)
         {
             return k > 0 && k < _carrier.Length && _carrier[k] != _carrier[k - 1];
         }
 
-        /// <summary>The fraction of a length that is element j: the element beyond a tip stands for the stretch of its
-        /// instrument all the way from its hub; 1 elsewhere.</summary>
-        public double StretchFraction(int j)
+        /// <summary>Length of the first element or, where that is shorter, of one beyond a tip, m.</summary>
+        public double ShortestAtTips
         {
-            return IsTip(j) ? (_station[j + 1] - _station[j]) / (LeadOf(CarrierOf(j)) + _station[j + 1]) : 1.0;
+            get
+            {
+                double shortest = _station[1];
+                for (int i = 0; i < InnerCount; i++)
+                {
+                    int tip = _tip[i];
+                    shortest = IsTip(tip) ? Math.Min(shortest, _station[tip + 1] - _station[tip]) : shortest;
+                }
+                return shortest;
+            }
         }
 
         /// <summary>Whether several instruments are in the last half element.</summary>
@@ -247,6 +287,7 @@ namespace Guidewire.Core
             if (k < _joint.Length - 1)
             {
                 AddSide(ref joint, k, k + 1, frame, _after);
+                SetElement(k);
             }
             joint.Twist = 1.0 / (_before.Compliance[frame] + _after.Compliance[frame]);
             joint.RestTwist = _before.Rest[frame] + _after.Rest[frame];
@@ -258,6 +299,16 @@ namespace Guidewire.Core
                     SetPart(ref (isFirst ? ref joint.First : ref joint.Second), k, i, i > frame);
                     isFirst = false;
                 }
+            }
+        }
+
+        private void SetElement(int j)
+        {
+            _axial[j] = _after.Axial;
+            _shear[j] = _after.Shear;
+            for (int i = 0; i < Count; i++)
+            {
+                _stretch[i * _carrier.Length + j] = _after.Stretch[i];
             }
         }
 
@@ -293,6 +344,7 @@ namespace Guidewire.Core
         private void AddLead(int instrument, ref double compliance, ref double rest)
         {
             InstrumentProfile profile = _instrument[instrument].Profile;
+            _leadStretch[instrument] = 0.0;
             for (int p = 0; p < profile.Pieces.Length; p++)
             {
                 double length = Math.Min(_lead[instrument], profile.Borders[p + 1]) - profile.Borders[p];
@@ -300,6 +352,7 @@ namespace Guidewire.Core
                 {
                     ref CrossSection piece = ref profile.Pieces[p];
                     compliance += length / piece.TwistStiffness;
+                    _leadStretch[instrument] += length / piece.StretchStiffness;
                     rest += length * piece.RestCurvature.Z;
                     HeldInLead += length * CoaxialPieces.Straightened(piece);
                 }

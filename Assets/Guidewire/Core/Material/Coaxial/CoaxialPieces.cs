@@ -6,6 +6,8 @@ namespace Guidewire.Core
     /// next.</summary>
     internal sealed class CoaxialPieces
     {
+        private const double Retained = 1e-4;  // of the shear compliance of what is in a sheath
+
         private readonly CrossSection[][] _pieces;   // of each instrument
         private readonly double[][] _borders;
         private readonly int[] _piece;         // where each is
@@ -23,6 +25,7 @@ namespace Guidewire.Core
             Compliance = new double[instruments.Length];
             Rest = new double[instruments.Length];
             Shared = new double[instruments.Length];
+            Stretch = new double[instruments.Length];
         }
 
         /// <summary>Sum of lambda/GJ of each, rad/(N m).</summary>
@@ -34,14 +37,26 @@ namespace Guidewire.Core
         /// <summary>Sum of lambda where each is with others, out of a sheath, m.</summary>
         public double[] Shared { get; }
 
+        /// <summary>Sum of lengths over EA of each, m/N.</summary>
+        public double[] Stretch { get; }
+
+        /// <summary>Sum of lengths over the EA of all that are there together, m/N.</summary>
+        public double Axial { get; private set; }
+
+        /// <summary>Sum of lengths over the GA of all that are there, m/N; in a sheath less.</summary>
+        public double Shear { get; private set; }
+
         /// <summary>There are no pieces yet.</summary>
         public void Clear()
         {
+            Shear = 0.0;
+            Axial = 0.0;
             for (int i = 0; i < _piece.Length; i++)
             {
                 Compliance[i] = 0.0;
                 Rest[i] = 0.0;
                 Shared[i] = 0.0;
+                Stretch[i] = 0.0;
             }
         }
 
@@ -67,7 +82,7 @@ namespace Guidewire.Core
                 if (next > at)
                 {
                     double lambda = (next - at) * (1.0 - Math.Abs(0.5 * (at + next) - node) * perLength);
-                    Add(ref joint, lambda, frame, isSheathed);
+                    Add(ref joint, next - at, lambda, frame, isSheathed);
                 }
                 at = Math.Max(next, at);
                 Advance(at, leads);
@@ -111,9 +126,11 @@ namespace Guidewire.Core
             return next;
         }
 
-        // Adds the pieces up to that border to a joint, with the integral of its hat function, m.
-        private void Add(ref CoaxialJoint joint, double lambda, int frame, bool isSheathed)
+        // Adds the pieces up to that border, of a length, m, to a joint with the integral of its hat function, m.
+        private void Add(ref CoaxialJoint joint, double length, double lambda, int frame, bool isSheathed)
         {
+            double shear = 0.0;
+            double axial = 0.0;
             double bend = 0.0;
             double held = 0.0;
             for (int i = _carrier; i < _piece.Length; i++)
@@ -121,6 +138,9 @@ namespace Guidewire.Core
                 if (_isPresent[i])
                 {
                     ref readonly CrossSection piece = ref PieceOf(i);
+                    shear += piece.ShearStiffness;
+                    axial += piece.StretchStiffness;
+                    Stretch[i] += length / piece.StretchStiffness;
                     Compliance[i] += lambda / piece.TwistStiffness;
                     Rest[i] += lambda * piece.RestCurvature.Z;
                     if (isSheathed)
@@ -134,6 +154,8 @@ namespace Guidewire.Core
                     }
                 }
             }
+            Axial += length / axial;
+            Shear += (isSheathed ? Retained : 1.0) * length / shear;
             if (isSheathed)
             {
                 joint.AddSheathed(lambda, bend, held);

@@ -4,16 +4,13 @@ namespace Guidewire.Core
 {
     /// <summary>An instrument with one or two others inside it as one rod: elements of the outermost one with the mass
     /// of all, one of any length at its tip, and those of the next one beyond.</summary>
-    /// <remarks>The axial force in the overlap is that of all; it strains the elements as the outermost instrument
-    /// alone. An inner one strains along all of its length from its own hub, and so does the element at the tip around
-    /// it in its stead: its EA is l over the compliance of that length.</remarks>
+    /// <remarks>Across the axis all are held together: GA adds, as bending stiffness does. Along it each slides, and
+    /// bears its own loads (<see cref="AxialForces"/>).</remarks>
     internal sealed class CoaxialRod
     {
         private const double Viscosity = 1e-3;   // of saline that flushes a lumen, Pa s
-        private const double Retained = 1e-4;    // of the shear compliance of what is in a sheath
 
         private readonly CoaxialInstrument[] _instrument;
-        private readonly double[] _shear;       // GA of the elements outside a sheath, N
 
         /// <summary>Of these instruments.</summary>
         /// <param name="instruments">The outermost one first, two or three.</param>
@@ -25,6 +22,7 @@ namespace Guidewire.Core
         {
             _instrument = instruments;
             Joints = new CoaxialJoints(instruments, beyond, leads, sheathed);
+            Axial = new AxialForces(Joints);
             int n = Joints.ElementCount;
             InnerSpin = new double[Joints.InnerCount * n];
             LumenDrag = new double[InnerSpin.Length];
@@ -33,7 +31,6 @@ namespace Guidewire.Core
             {
                 Rod.Take(j, Carrier(j), OwnElement(j));
             }
-            _shear = (double[])Rod.ShearStiffness.Clone();
             SetHubs(leads, sheathed);
             SetMass();
         }
@@ -56,6 +53,9 @@ namespace Guidewire.Core
         /// <summary>Where their joints are and what these are made of.</summary>
         public CoaxialJoints Joints { get; }
 
+        /// <summary>What stretches each.</summary>
+        public AxialForces Axial { get; }
+
         /// <summary>All as one rod.</summary>
         public MaterialRod Rod { get; }
 
@@ -75,34 +75,32 @@ namespace Guidewire.Core
         /// <param name="sheathed">m.</param>
         public void SetHubs(double[] leads, double sheathed)
         {
-            bool isSheathed = sheathed > 0.0 || Joints.Sheathed > 0.0;
             Joints.SetHubs(leads, sheathed);
-            if (isSheathed)
+            for (int j = 0; j < Joints.ElementCount; j++)
             {
-                SetShear(sheathed);
+                Rod.ShearStiffness[j] = (Joints.Stations[j + 1] - Joints.Stations[j]) / Joints.ShearOf(j);
             }
-            for (int i = 1; i < _instrument.Length; i++)
-            {
-                if (Joints.BeyondOf(i) > 0)
-                {
-                    int tip = Joints.TipOf(i - 1);
-                    double length = Joints.Stations[tip + 1] - Joints.Stations[tip];
-                    Rod.Length[tip] = length;
-                    Rod.StretchStiffness[tip] = length / _instrument[i].Profile.Integral(0.0,
-                        Joints.Stations[tip + 1] + leads[i], piece => 1.0 / piece.StretchStiffness);
-                }
-            }
+            SetLengths();
         }
 
-        // An element in parts in series, as far as shear goes: nothing in a sheath leaves its axis.
-        private void SetShear(double sheathed)
+        /// <summary>Takes the directions of the loads in a shape.</summary>
+        /// <returns>The largest change of what an element is longer by, m.</returns>
+        public double TakeLoads(RodShape shape)
         {
-            double[] station = Joints.Stations;
-            for (int j = 0; j < _shear.Length; j++)
+            double change = Axial.Take(shape);
+            SetLengths();
+            return change;
+        }
+
+        /// <summary>Sets the elements' rest lengths and axial stiffness.</summary>
+        public void SetLengths()
+        {
+            double before = 0.0;
+            for (int j = 0; j < Joints.ElementCount; j++)
             {
-                double inside = (sheathed - station[j]) / (station[j + 1] - station[j]);
-                inside = Math.Min(1.0, Math.Max(0.0, inside));
-                Rod.ShearStiffness[j] = _shear[j] / (1.0 - (1.0 - Retained) * inside);
+                double compliance = Axial.FindCompliance(j, ref before);
+                Rod.Length[j] = Axial.RestLengthOf(j);
+                Rod.StretchStiffness[j] = Rod.Length[j] / compliance;
             }
         }
 

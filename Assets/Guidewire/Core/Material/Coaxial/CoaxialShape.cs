@@ -22,6 +22,24 @@ namespace Guidewire.Core
             return frame > carrier ? to - values[(frame - 1) * n + element] : to;
         }
 
+        /// <summary>Turns all instruments along their whole length as their hubs are turned at the start.</summary>
+        public static void SetTwists(RodShape shape, CoaxialJoints joints, CoaxialHubs hubs)
+        {
+            for (int i = 1; i < joints.Count; i++)
+            {
+                for (int j = 0; j < joints.ActiveCountOf(i); j++)
+                {
+                    int carrier = joints.CarrierOf(j);
+                    shape.Twist[(i - 1) * joints.ElementCount + j] = hubs.TwistAt(i, 0.0)
+                        - (carrier == 0 ? 0.0 : hubs.TwistAt(carrier, 0.0));
+                }
+            }
+            for (int j = joints.OuterCount; j < joints.ElementCount; j++)
+            {
+                shape.Q[j] *= Quaterniond.FromAxisAngle(Vector3d.UnitZ, hubs.TwistAt(joints.CarrierOf(j), 0.0));
+            }
+        }
+
         /// <summary>The frame of an instrument in an element.</summary>
         public static Quaterniond FrameOf(RodShape shape, CoaxialJoints joints, int element, int instrument)
         {

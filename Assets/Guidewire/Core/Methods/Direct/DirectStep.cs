@@ -11,7 +11,7 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may help";
         private const string Limit = "; a hubForceLimit lets the hub slip";
-        private const string Iterations = "; maxNewtonIterations is below its default, which may suffice";
+        private const string FewIterations = "; maxNewtonIterations is below its default, which may suffice";
 
         private const int MostSlips = 60;
         private const double OfElement = 0.01;     // by which a hub may be past its end
@@ -120,6 +120,9 @@ namespace Guidewire.Core
         {
             return Step(length, Drive.Insertion, Drive.Turn);
         }
+
+        /// <summary>Newton iterations so far.</summary>
+        public long Iterations => (_dynamics.WallSolver?.Iterations ?? 0) + _dynamics.Solver.Iterations;
 
         // From where the hub was at the step's start, m and radians.
         private bool Step(double length, double insertion, double turn)
@@ -261,7 +264,7 @@ namespace Guidewire.Core
             {
                 if (_dynamics.Solver.MostIterations < new MethodParameters().MaxNewtonIterations)
                 {
-                    return Iterations;
+                    return FewIterations;
                 }
                 string? advice = Terms.Walls()?.Advice;
                 if (advice != null || _jam == null || !_jam.IsJammed(Shape))
@@ -436,9 +439,10 @@ namespace Guidewire.Core
             double most = Scene.Rod.StretchStiffness[0];
             return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
                 "the walls keep sphere 0 from the position of the drive at t = {0:G6} s, {1:G3} units away: the "
-                + "hub would need {2:G3} N, more than the wire's EA, {3:G3} N; {4}; a smaller motion "
+                + "hub would need {2:G3} N, more than the EA of {5}, {3:G3} N; {4}; a smaller motion "
                 + "(displacementPerStep, insertionSpeed, maxSimulationSteps) may help, or a hubForceLimit", Time,
-                Contacts.DriveShortfall, force, most, _jam!.Text(Shape));
+                Contacts.DriveShortfall, force, most, _jam!.Text(Shape),
+                Scene.Supports.Coaxial == null ? "the wire" : "all instruments at the hub together");
         }
 
         // The wire has then drawn the hub past the end of its sheath.

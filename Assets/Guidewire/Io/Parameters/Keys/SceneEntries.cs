@@ -123,7 +123,8 @@ namespace Guidewire.Io
                 + "that of each wall), lumenFriction that between the wire and its lumen along the axis (0; with "
                 + "one catheter); the other keys are as for the wire: instrument, youngsModulus, shearModulus, density,"
                 + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
-                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit (with one catheter); needs"
+                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit (with one catheter),"
+                + " tipForce, distributedForce and pointLoads, which act on the catheter; needs"
                 + " proximalEnd \"clamped\"").OnlyWith(Takers.Only(Solver.Direct)),
             new EndEntry("inlet",
                 "end of the vessel at which the wire starts, straight along the centreline there, regardless of z;"

@@ -46,6 +46,12 @@ namespace Guidewire.Core.Tests
         [TestCase("\"start\": 100", "\"start\": 295",
             "catheters[0].start = 295 is not allowed: needs at most 290 units")]
         [TestCase("\"start\": 100", "\"begin\": 100", "unknown key 'catheters[0].begin'")]
+        [TestCase("\"start\": 100", "\"start\": 100, \"lumenFriction\": 10",
+            "catheters[0].lumenFriction = 10 is not allowed: needs a coefficient of friction from 0 to 2")]
+        [TestCase("\"rotationSpeed\": 2", "\"wireSections\": [{\"from\": 60, \"to\": 80, \"innerRadius\": 1e-4}]",
+            "needs an innerRadius of more than")]
+        [TestCase("\"rotationSpeed\": 2", "\"pointLoads\": [{\"at\": 151, \"force\": [0, 0, 1]}]",
+            "catheters[0].pointLoads")]
         [TestCase("\"rotationSpeed\": 2", "\"hubForceLimit\": 1",
             "catheters[0].hubForceLimit = 1 is not allowed: needs a vessel or obstacles")]
         [TestCase("\"rotationSpeed\": 2", "\"insertionSpeed\": -0.2",

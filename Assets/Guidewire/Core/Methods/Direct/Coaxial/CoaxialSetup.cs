@@ -10,6 +10,8 @@ namespace Guidewire.Core
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
         private const double Rounding = 1e-6;   // of a length
+        private const int MostSearches = 8;     // of rest shapes
+        private const double SameLength = 1e-12;    // of a length
         private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
         private const string CatheterName = "catheters[0]";    // where there is a sheath there is one
 
@@ -70,6 +72,14 @@ namespace Guidewire.Core
 
         /// <summary>Along which all hubs move, a unit vector.</summary>
         public Vector3d Axis => Wire.Schedule.Hub.Frame.Director3;
+
+        /// <summary>Takes what the forces at the hubs strain wire and catheter by, friction in the lumen among
+        /// them.</summary>
+        public void TakeStrains(CoaxialRecord record, SolverReport report)
+        {
+            report.Extremes?.TakeStrain(Math.Abs(record.WireForce) / StretchAtHub(Instruments.Length - 1));
+            report.Extremes?.TakeStrain(Math.Abs(record.Force) / StretchAtHub(0));
+        }
 
         /// <summary>All as one rod.</summary>
         /// <param name="beyond">Nodes of each beyond the tips around it.</param>
@@ -171,6 +181,8 @@ namespace Guidewire.Core
                 : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0));
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             ((CoaxialBendTwist)terms.Bending).Hubs = hubs;
+            terms.CoaxialLoads = new CoaxialLoads(scene.Supports.Coaxial!, Instruments,
+                Array.ConvertAll(Scenes, one => one.Schedule.Loads));
             return terms;
         }
 
@@ -178,6 +190,24 @@ namespace Guidewire.Core
         public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
         {
             return DirectSetup.DynamicsOf(_parameters, scene, terms);
+        }
+
+        /// <summary>Finds the rest shape of all. Along the axis loads have the directions of a shape: so it is found
+        /// again until both agree.</summary>
+        /// <returns>Why there is none, or null.</returns>
+        public string? FindRestShape(MaterialScene scene, RodTerms terms, SolverReport report)
+        {
+            MethodParameters method = _parameters.Method;
+            CoaxialRod rod = scene.Supports.Coaxial!;
+            double change = double.PositiveInfinity;
+            string? failure = null;
+            for (int k = 0; k < MostSearches && failure == null && change > SameLength * rod.Rod.TotalLength; k++)
+            {
+                change = k == 0 ? change : rod.TakeLoads(scene.Shape);
+                failure = new RestShape(scene, terms, Math.Min(method.SolverTolerance, 1e-9),
+                    RestShape.IterationFactor * method.MaxNewtonIterations, report).Find(scene.Shape);
+            }
+            return failure;
         }
 
         /// <summary>What is wrong with the start between walls, in one phrase, or null: of the outermost catheter, and
@@ -245,6 +275,12 @@ namespace Guidewire.Core
             }
             return inside == x.Length ? null : MaterialStart.FindProblemFrom(Catheter, inside - 1,
                 (1.0 / Wire.Metres) * sheath.Exit, CatheterName);
+        }
+
+        // EA, N.
+        private double StretchAtHub(int instrument)
+        {
+            return Instruments[instrument].Profile.Pieces[0].StretchStiffness;
         }
 
         private static string Text(string format, params object[] numbers)

@@ -9,6 +9,7 @@ namespace Guidewire.Core
     /// changes, and where a tip inside comes into another element.</remarks>
     internal sealed class CoaxialStep : TimeStepper
     {
+        private const int MostSolutions = 400;     // of a step's trials with other displacements of the hubs
         private readonly MethodParameters _method;
         private readonly SolverReport _report;
         private readonly CoaxialSetup _setup;
@@ -69,15 +70,14 @@ namespace Guidewire.Core
             _rod = RodAt(0.0);
             var shape = new RodShape(_rod.Joints.ElementCount, _rod.Joints.InnerCount);
             shape.SetStraight(_drives[0].Hub.PositionAt(0.0), _hubs.Outer.Frame, _rod.Joints.Stations);
-            SetTwists(shape);
+            CoaxialShape.SetTwists(shape, _rod.Joints, _hubs);
             MaterialScene scene = SceneOf(shape);
             RodTerms terms = _setup.Terms(scene, _hubs);
             failure = scene.Joints.FindTurnedAtRest();
             IsAtRest = parameters.Scene.InitialState == InitialState.Equilibrium && failure == null;
             if (IsAtRest)
             {
-                failure = new RestShape(scene, terms, Math.Min(_method.SolverTolerance, 1e-9),
-                    RestShape.IterationFactor * _method.MaxNewtonIterations, report).Find(shape);
+                failure = _setup.FindRestShape(scene, terms, report);
                 IsAtRest = failure == null;
             }
             Start(scene, terms, 0.0, 0.0);
@@ -121,6 +121,10 @@ namespace Guidewire.Core
                 TakePlay();
                 TakeInner();
                 TakeContacts();
+                if (_records[0].FrictionCoefficient > 0.0)
+                {
+                    _setup.TakeStrains(Coaxial()!, _report);
+                }
                 WriteWire(state);
             }
             else
@@ -141,9 +145,9 @@ namespace Guidewire.Core
         private bool StepWithSlip()
         {
             int wire = _drives.Length - 1;
-            HubSlip catheterSlip = _slips[0];
-            HubSlip wireSlip = _slips[wire];
+            (HubSlip catheterSlip, HubSlip wireSlip) = (_slips[0], _slips[wire]);
             _start.Save();
+            long most = _whole.Iterations + (long)MostSolutions * _method.MaxNewtonIterations;
             catheterSlip.Begin();
             bool isDone;
             double outer = _drives[0].Insertion;
@@ -163,9 +167,10 @@ namespace Guidewire.Core
                     isDone = StepAsRequested();
                 }
                 while (wireSlip.NeedsAnother(_drives[wire].Insertion - inner,
-                    isDone ? Coaxial()!.WireForce : double.NaN));
+                    isDone ? Coaxial()!.WireForce : double.NaN, _whole.Iterations > most));
             }
-            while (catheterSlip.NeedsAnother(_drives[0].Insertion - outer, isDone ? Coaxial()!.Force : double.NaN));
+            while (catheterSlip.NeedsAnother(_drives[0].Insertion - outer,
+                isDone ? Coaxial()!.Force : double.NaN, _whole.Iterations > most));
             _drives[0].Give(null);
             _drives[wire].Give(null);
             catheterSlip.EndStep(isDone ? Coaxial()!.Force : 0.0);
@@ -193,6 +198,7 @@ namespace Guidewire.Core
         // Moves the hubs as far as allowed.
         private void BeginStep()
         {
+            TakeLoads();
             _setup.LimitDrives(_drives, _hubs, _dynamics.Time);
             for (int i = 0; i < _drives.Length; i++)
             {
@@ -234,14 +240,14 @@ namespace Guidewire.Core
             terms.SetTime(_whole.Schedule, _dynamics.Time);
             RodShape shape = _dynamics.Shape;
             int wire = _drives.Length - 1;
-            double wireForce = Bending.InnerForce(shape, terms.Stretch, wire);
+            double wireForce = Bending.InnerForce(shape, terms, wire);
             double wireTorque = Bending.InnerTorque(shape, wire);
             // The outermost hub has the chain's reaction less those of the others.
             double force = Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - wireForce;
             double torque = Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis) - wireTorque;
             for (int i = wire - 1; i > 0; i--)
             {
-                double own = Bending.InnerForce(shape, terms.Stretch, i);
+                double own = Bending.InnerForce(shape, terms, i);
                 double ownTorque = Bending.InnerTorque(shape, i);
                 force -= own;
                 torque -= ownTorque;
@@ -249,8 +255,17 @@ namespace Guidewire.Core
                     ownTorque, wireForce, wireTorque);
             }
             _records[0].Take(_rod.Joints, terms, shape, shape, _drives[0], _drives[wire],
-                force + Bending.SheathForce(shape, terms.Stretch), torque, wireForce, wireTorque);
+                force + Bending.SheathForce(shape, terms), torque, wireForce, wireTorque);
             return _records[0];
+        }
+
+        /// <inheritdoc/>
+        public override Vector3d? Energies()
+        {
+            RodTerms terms = _dynamics.Terms;
+            terms.SetTime(_whole.Schedule, _dynamics.Time);
+            return new Vector3d(_dynamics.KineticEnergy,
+                terms.ElasticEnergy(_dynamics.Shape) - _rod.Axial.PreloadEnergy, terms.LoadPotential(_dynamics.Shape));
         }
 
         /// <inheritdoc/>
@@ -292,8 +307,10 @@ namespace Guidewire.Core
                 Start(scene, _setup.Terms(scene, _hubs), time, 0.0);
             }
             _whole.Serialize(snapshot);
+            _rod.Axial.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
+                _rod.SetLengths();
                 TakeInner();
                 TakeContacts();
             }
@@ -339,26 +356,7 @@ namespace Guidewire.Core
 
         private MaterialScene SceneOf(RodShape shape)
         {
-            return new MaterialScene(_setup.Catheter, _rod, shape, _drives[0], _hubs.Inner);
-        }
-
-        // As the hubs are turned, all along.
-        private void SetTwists(RodShape shape)
-        {
-            CoaxialJoints joints = _rod.Joints;
-            for (int i = 1; i < joints.Count; i++)
-            {
-                for (int j = 0; j < joints.ActiveCountOf(i); j++)
-                {
-                    int carrier = joints.CarrierOf(j);
-                    shape.Twist[(i - 1) * joints.ElementCount + j] = _hubs.TwistAt(i, 0.0)
-                        - (carrier == 0 ? 0.0 : _hubs.TwistAt(carrier, 0.0));
-                }
-            }
-            for (int j = joints.OuterCount; j < joints.ElementCount; j++)
-            {
-                shape.Q[j] *= Quaterniond.FromAxisAngle(Vector3d.UnitZ, _hubs.TwistAt(joints.CarrierOf(j), 0.0));
-            }
+            return new MaterialScene(_setup.Catheter, _rod, shape, _drives[0], _hubs.Inner, _setup.Wire.Schedule.Loads);
         }
 
         // For a part of a step, s.
@@ -390,6 +388,7 @@ namespace Guidewire.Core
             }
             _whole.Contacts?.Take(before.Contacts!, _rod.Rod.ElementCount + 1);
             terms.Walls()?.Friction?.Anchors.Take(friction!.Anchors, change.Node);
+            TakeLoads();
             var counts = new Snapshot();
             before.SerializeCounts(counts);
             _whole.SerializeCounts(counts.ToRead());
@@ -422,6 +421,12 @@ namespace Guidewire.Core
             }
             _whole = new DirectStep(scene, _dynamics, _method, _report,
                 Contacts == null ? null : new ContactRecord(scene.Shape.X.Length));
+        }
+
+        private void TakeLoads()
+        {
+            _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
+            _rod.TakeLoads(_dynamics.Shape);
         }
 
         private void TakeContacts()

@@ -30,6 +30,7 @@ namespace Guidewire.Core
         private Trial _tension;
         private Trial _least;                   // force of all that have too much
         private bool _hasAllowed;
+        private bool _isLast;
         private int _trials;
         private int _stepsBeyond;
         private double _mostBeyond;             // N
@@ -51,6 +52,7 @@ namespace Guidewire.Core
         public void Begin()
         {
             _trials = 0;
+            _isLast = false;
             _hasAllowed = false;
             _thrust = default;
             _tension = default;
@@ -65,8 +67,9 @@ namespace Guidewire.Core
         /// <param name="moved">What the hub went, m.</param>
         /// <param name="force">On its instrument after it, N, a thrust positive; NaN where the step has no
         /// solution.</param>
+        /// <param name="isOver">Whether no more work may go into the step: it ends with the best of the trials.</param>
         /// <returns>Whether another one is needed.</returns>
-        public bool NeedsAnother(double moved, double force)
+        public bool NeedsAnother(double moved, double force, bool isOver)
         {
             bool isTooMuch = !(Math.Abs(force) <= _limit);
             if (!IsLimited || (!isTooMuch && (_trials == 0 || Math.Abs(force) >= (1.0 - Close) * _limit)))
@@ -77,12 +80,13 @@ namespace Guidewire.Core
             {
                 _least = new Trial(moved, force);
             }
-            if (_trials++ >= MostTrials)
+            if (_trials++ >= MostTrials || isOver || _isLast)
             {
                 // Where the force jumps past the limit, as far as it is no more.
                 Displacement = _hasAllowed ? _allowed : _least.Moved;
-                return isTooMuch && (_hasAllowed || _least.IsMade) && _trials == MostTrials + 1
-                    && Displacement != moved;
+                bool isRepeated = isTooMuch && (_hasAllowed || _least.IsMade) && !_isLast && Displacement != moved;
+                _isLast = true;
+                return isRepeated;
             }
             if (isTooMuch)
             {

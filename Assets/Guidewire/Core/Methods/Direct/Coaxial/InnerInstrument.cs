@@ -42,6 +42,7 @@ namespace Guidewire.Core
             double lead = _hubs.LeadAt(_instrument, dynamics.Time);
             int n = shape.ElementCount;
             int j = 0;
+            AxialForces axial = dynamics.Terms.Supports.Coaxial!.Axial;
             for (int i = 0; i < Shape.X.Length; i++)
             {
                 double at = _own.Stations[i] - lead;
@@ -55,7 +56,8 @@ namespace Guidewire.Core
                 Vector3d direction = isBefore ? _axis : shape.Q[j].Director3;
                 Shape.X[i] = isBefore ? shape.X[0] + at * _axis
                     : fraction > 1.0 ? shape.X[n] + (at - chain[n]) * direction
-                    : Vector3d.Lerp(shape.X[j], shape.X[j + 1], fraction);
+                    : Vector3d.Lerp(shape.X[j], shape.X[j + 1], fraction)
+                        + axial.SlideAt(_instrument, j, fraction) * direction;
                 bool isInside = at < chain[joints.TipOf(_instrument - 1)];
                 Velocities[i] = (isBefore ? dynamics.Velocities[0]
                     : Vector3d.Lerp(dynamics.Velocities[j], dynamics.Velocities[j + 1], Math.Min(fraction, 1.0)))

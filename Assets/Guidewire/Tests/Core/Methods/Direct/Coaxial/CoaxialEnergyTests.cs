@@ -22,7 +22,7 @@ namespace Guidewire.Core.Tests
                 for (int k = 1; k < instruments; k++)
                 {
                     int hub = k;
-                    forces.Add(EnergySlopes.Difference(1e-6, d => EnergyAt(run, hub, d, 0.0)), hubs[k].Force);
+                    forces.Add(EnergySlopes.Difference(1e-8, d => EnergyAt(run, hub, d, 0.0)), hubs[k].Force);
                     torques.Add(EnergySlopes.Difference(1e-5, d => EnergyAt(run, hub, 0.0, d)), hubs[k].Torque);
                 }
             }
@@ -163,9 +163,11 @@ namespace Guidewire.Core.Tests
             leads[instrument] = lead - on;
             run.Rod.SetHubs(leads, 0.0);
             bending.HubTwist[instrument] = twist + turn;
-            double energy = run.Dynamics.Terms.Potential(run.Dynamics.Shape);
+            RodTerms terms = run.Dynamics.Terms;
+            double energy = terms.CoaxialEnergy(run.Dynamics.Shape);
             leads[instrument] = lead;
             run.Rod.SetHubs(leads, 0.0);
+            terms.CoaxialLoads!.Place(terms.Loads.Force);
             bending.HubTwist[instrument] = twist;
             return energy;
         }

@@ -9,6 +9,7 @@ namespace Guidewire.Core.Tests
     {
         public const double Stretch = 1e6;  // EA and GA, N
 
+        private readonly double _stretch;
         private readonly CoaxialInstrument[] _instruments;
         private readonly double[] _hubTwist;
 
@@ -23,8 +24,11 @@ namespace Guidewire.Core.Tests
 
         /// <summary>Two or three, the outermost one first.</summary>
         /// <param name="nu">GJ = EI/(1 + nu).</param>
-        public CoaxialPair(Piece[][] pieces, int[] elements, double nu, double[] leads, int[] beyond)
+        /// <param name="stretch">EA and GA of each, N.</param>
+        public CoaxialPair(Piece[][] pieces, int[] elements, double nu, double[] leads, int[] beyond,
+            double stretch = Stretch)
         {
+            _stretch = stretch;
             Nu = nu;
             _instruments = new CoaxialInstrument[pieces.Length];
             for (int i = 0; i < pieces.Length; i++)
@@ -159,7 +163,7 @@ namespace Guidewire.Core.Tests
         public double Torque => Bending.InnerTorque(Shape);
 
         /// <summary>Force of the inner hub, N.</summary>
-        public double Force => Bending.InnerForce(Shape, Terms.Stretch);
+        public double Force => Bending.InnerForce(Shape, Terms);
 
         private InstrumentProfile ProfileOf(Piece[] pieces)
         {
@@ -175,8 +179,8 @@ namespace Guidewire.Core.Tests
         {
             return new CrossSection
             {
-                StretchStiffness = Stretch,
-                ShearStiffness = Stretch,
+                StretchStiffness = _stretch,
+                ShearStiffness = _stretch,
                 BendStiffness1 = piece.Bend,
                 BendStiffness2 = piece.Bend,
                 TwistStiffness = piece.Bend / (1.0 + Nu),

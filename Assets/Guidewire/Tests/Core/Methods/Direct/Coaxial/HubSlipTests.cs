@@ -23,7 +23,7 @@ namespace Guidewire.Core.Tests
             double asked = sense * Asked;
             double moved = asked;
             int trials = 1;
-            while (slip.NeedsAnother(moved, Force(moved)))
+            while (slip.NeedsAnother(moved, Force(moved), false))
             {
                 moved = slip.Displacement!.Value;
                 trials++;
@@ -51,7 +51,7 @@ namespace Guidewire.Core.Tests
                 slip.Begin();
                 double moved = Asked;
                 int trials = 0;
-                while (slip.NeedsAnother(moved, moved > 1e-4 ? ahead : behind))
+                while (slip.NeedsAnother(moved, moved > 1e-4 ? ahead : behind, false))
                 {
                     moved = slip.Displacement!.Value;
                     Assert.That(trials++, Is.LessThanOrEqualTo(MostTrials));

@@ -31,14 +31,7 @@ namespace Guidewire.Core.Tests
             material.YoungsModulus *= 1e-7;
             material.ShearModulus *= 1e-7;
             material.Density *= 1e-7;
-            // Along the axis elements strain as the outermost instrument there, and so as the next one inside.
-            CrossSection next = (soft == 0 ? new WireProfile(catheters[1].Material, catheters[1].Length)
-                : new WireProfile(parameters.Material, Length)).Pieces[0];
-            material.Sections = new[]
-            {
-                new WireSection { From = 0.0, To = catheters[soft].Length, AxialStiffness = next.StretchStiffness,
-                    ShearStiffness = next.ShearStiffness },
-            };
+            material.Sections = Array.Empty<WireSection>();
             // In one plane: where they twist, the frame of another instrument counts in second order of the elements.
             catheters[1 - soft].Material.Sections[0].RestCurvature = new Vector3d(14.0, 0.0, 0.0);
             parameters.Scene.Catheters = isThere ? catheters : new[] { catheters[1 - soft] };

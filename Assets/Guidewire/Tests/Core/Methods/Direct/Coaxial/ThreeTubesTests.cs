@@ -48,8 +48,9 @@ namespace Guidewire.Core.Tests
             CoaxialPair three = ThreeTubes.Even(12, 0.3, new[] { 0.4, 0.4, 0.4 }, new[] { 1.3, 1.3, 1.3 });
             three.TipForce = force;
             three.Solve(new double[3]);
-            CoaxialPair two = Pair(12, 0.3, 0.6, 1.3, 0.6, 1.3);
-            two.TipForce = force;
+            CoaxialPair.Piece[] half = { new CoaxialPair.Piece(1.0, 0.6, 1.3) };
+            var two = new CoaxialPair(new[] { half, half }, new[] { 12, 12 }, 0.3, new double[2], new int[2],
+                1.5 * CoaxialPair.Stretch) { TipForce = force };
             two.Solve(0.0);
             // Both to where the search for the rest shape ends.
             Assert.That(Wires.Distance(three.Shape.X, two.Shape.X), Is.LessThan(1e-8));
@@ -139,7 +140,7 @@ namespace Guidewire.Core.Tests
                 double ahead = EnergyAt(order, turns, i, step, 0.0);
                 double back = EnergyAt(order, turns, i, -step, 0.0);
                 Assert.That((ahead - back) / (2.0 * step), Is.EqualTo(torque).Within(1e-5), "torque " + i);
-                double force = tubes.Bending.InnerForce(tubes.Shape, tubes.Terms.Stretch, i);
+                double force = tubes.Bending.InnerForce(tubes.Shape, tubes.Terms, i);
                 double on = EnergyAt(order, turns, i, 0.0, 1e-5);
                 double off = EnergyAt(order, turns, i, 0.0, -1e-5);
                 Assert.That((on - off) / 2e-5, Is.EqualTo(force).Within(1e-3 * Math.Abs(force) + 1e-5), "force " + i);

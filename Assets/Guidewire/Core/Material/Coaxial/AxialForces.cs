@@ -1,0 +1,190 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Stretch of coaxial instruments that slide along their common axis without friction: each is a bar from
+    /// its own hub to its tip and bears its own loads.</summary>
+    /// <remarks>A chain's node is one of the outermost instrument there. N_i is the sum of the axial parts of the loads
+    /// on instrument i beyond a position. From its own hub on it is longer by e_i = sum of c_i N_i, where c_i = l/EA_i
+    /// of each element. What else is along the axis (walls, inertia, what bending makes of a force) is not known by
+    /// instrument. An element gives way to it as all that are in it together, c = l/sum EA; and the element at a tip by
+    /// what the instruments that go on have besides from their hubs,
+    ///   c = 1/sum 1/C_i - sum of c before it, C_i = sum of c_i from its hub to the element's end.
+    /// So a force on one beyond all others stretches that one by C_i, and one without stiffness changes nothing. An
+    /// element's rest length is then l + e - c sum N_i, with e of the outermost one; at a tip e has what the one that
+    /// goes on is longer than the chain is before it.
+    ///
+    /// Directions of loads are those of the shape that <see cref="Take"/> had last.</remarks>
+    internal sealed class AxialForces
+    {
+        private readonly CoaxialJoints _joints;
+        private readonly int _n;
+        private readonly Vector3d[] _load;      // on each element, of each instrument, N
+        private readonly Vector3d[] _levered;   // times the fraction of its length where they are
+        private readonly double[] _shift;       // e of each element, m
+        private readonly double[] _force;       // sum of N, N
+        private readonly double[] _strain;      // largest of all instruments
+        private readonly double[] _slide;       // of each instrument at the nodes, m
+        private readonly double[] _compliance;  // of the chain, m/N
+
+        /// <summary>Of a chain without loads.</summary>
+        public AxialForces(CoaxialJoints joints)
+        {
+            _joints = joints;
+            _n = joints.ElementCount;
+            _load = new Vector3d[joints.Count * _n];
+            _levered = new Vector3d[joints.Count * _n];
+            _shift = new double[_n];
+            _force = new double[_n];
+            _strain = new double[_n];
+            _slide = new double[joints.Count * (_n + 1)];
+            _compliance = new double[_n];
+        }
+
+        /// <summary>There are no loads.</summary>
+        public void ClearLoads()
+        {
+            Array.Clear(_load, 0, _load.Length);
+            Array.Clear(_levered, 0, _levered.Length);
+        }
+
+        /// <summary>Adds a load on an instrument, N.</summary>
+        /// <param name="fraction">Of the element's length.</param>
+        public void AddLoad(int instrument, int element, double fraction, in Vector3d load)
+        {
+            _load[instrument * _n + element] += load;
+            _levered[instrument * _n + element] += fraction * load;
+        }
+
+        /// <summary>How far the material of an instrument in an element is ahead of the chain's, m.</summary>
+        /// <param name="fraction">Of the element's length.</param>
+        public double SlideAt(int instrument, int element, double fraction)
+        {
+            int at = instrument * (_n + 1) + element;
+            return _joints.CarrierOf(element) == instrument ? 0.0
+                : (1.0 - fraction) * _slide[at] + fraction * _slide[at + 1];
+        }
+
+        /// <summary>The largest axial strain of the instruments in an element.</summary>
+        /// <param name="length">Distance of its ends, m.</param>
+        public double StrainAt(int element, double length)
+        {
+            double rest = _joints.Stations[element + 1] - _joints.Stations[element];
+            double other = (length - RestLengthOf(element)) / _compliance[element] - _force[element];
+            return _strain[element] + Math.Abs(other) * _joints.AxialOf(element) / rest;
+        }
+
+        /// <summary>Finds the compliance of element j of the chain, m/N, after a change of the hubs; those before it
+        /// first.</summary>
+        /// <param name="before">In and out: of all before it.</param>
+        public double FindCompliance(int j, ref double before)
+        {
+            double compliance = _joints.AxialOf(j);
+            if (_joints.IsTip(j))
+            {
+                double stiffness = 0.0;
+                for (int i = _joints.CarrierOf(j); i < _joints.Count; i++)
+                {
+                    if (i == _joints.CarrierOf(j) || _joints.EndOf(i) >= _joints.Stations[j + 1])
+                    {
+                        double own = _joints.LeadStretchOf(i);
+                        for (int k = 0; k <= j; k++)
+                        {
+                            own += _joints.StretchOf(i, k);
+                        }
+                        stiffness += 1.0 / own;
+                    }
+                }
+                compliance = 1.0 / stiffness - before;
+            }
+            before += compliance;
+            _compliance[j] = compliance;
+            return compliance;
+        }
+
+        /// <summary>Energy that the chain has from its loads alone, sum of 1/2 c (sum N)^2, J: of one whose nodes are
+        /// where the loads have them it is no energy of the instruments.</summary>
+        public double PreloadEnergy
+        {
+            get
+            {
+                double sum = 0.0;
+                for (int j = 0; j < _n; j++)
+                {
+                    sum += 0.5 * _compliance[j] * _force[j] * _force[j];
+                }
+                return sum;
+            }
+        }
+
+        /// <summary>Rest length of element j of the chain, m.</summary>
+        public double RestLengthOf(int j)
+        {
+            return _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j];
+        }
+
+        /// <summary>Takes the directions of the loads.</summary>
+        /// <returns>The largest change of what an element is longer by, m.</returns>
+        public double Take(RodShape shape)
+        {
+            Array.Clear(_force, 0, _n);
+            Array.Clear(_strain, 0, _n);
+            for (int i = 0; i < _joints.Count; i++)
+            {
+                Stretch(shape, i);
+            }
+            double largest = 0.0;
+            double before = 0.0;     // of the chain's node before the element
+            for (int j = 0; j < _n; j++)
+            {
+                double after = _slide[_joints.CarrierOf(j) * (_n + 1) + j + 1];
+                largest = Math.Max(largest, Math.Abs(after - before - _shift[j]));
+                _shift[j] = after - before;
+                before = after;
+            }
+            for (int k = _n; k >= 0; k--)
+            {
+                double node = k == 0 ? 0.0 : _slide[_joints.CarrierOf(k - 1) * (_n + 1) + k];
+                for (int i = 0; i < _joints.Count; i++)
+                {
+                    _slide[i * (_n + 1) + k] -= node;
+                }
+            }
+            return largest;
+        }
+
+        /// <summary>Writes or restores what the loads do to the chain.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(_shift);
+            snapshot.Serialize(_force);
+            snapshot.Serialize(_strain);
+            snapshot.Serialize(_slide);
+        }
+
+        // How much farther from its hub an instrument's loads bring it at each node; first N before each.
+        private void Stretch(RodShape shape, int instrument)
+        {
+            int at = instrument * (_n + 1);
+            double force = 0.0;
+            for (int j = _n - 1; j >= 0; j--)
+            {
+                Vector3d axis = shape.Q[j].Director3;
+                double levered = Vector3d.Dot(axis, _levered[instrument * _n + j]);
+                _force[j] += force + levered;
+                double length = _joints.Stations[j + 1] - _joints.Stations[j];
+                double part = Math.Min(1.0, (_joints.EndOf(instrument) - _joints.Stations[j]) / length);
+                double mean = part > 0.0 ? force + levered / part : 0.0;
+                double stretch = _joints.StretchOf(instrument, j) * mean;
+                _strain[j] = Math.Max(_strain[j], part > 0.0 ? Math.Abs(stretch) / (part * length) : 0.0);
+                _slide[at + j + 1] = stretch;
+                force += Vector3d.Dot(axis, _load[instrument * _n + j]);
+            }
+            _slide[at] = _joints.LeadStretchOf(instrument) * force;
+            for (int j = 0; j < _n; j++)
+            {
+                _slide[at + j + 1] += _slide[at + j];
+            }
+        }
+    }
+}
