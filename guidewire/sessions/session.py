@@ -25,6 +25,7 @@ from typing import Any, NoReturn
 
 import numpy as np
 
+from guidewire.logs.surfaces import Surface
 from guidewire.prepare import DOOR
 from guidewire.runs import building
 from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
@@ -183,6 +184,26 @@ class Session:
         to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
         answer = self._ask("describe")
         return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}
+
+    def walls(self, middle: Sequence[float] | None = None, reach: float | None = None) -> list[Surface]:
+        """The walls as triangles, the vessel first where there is one.
+
+        Parameters
+        ----------
+        middle : three numbers, units, and
+        reach : units: of a wall without end what is so near; without them, as near to the wire as it is long.
+        """
+        asked = {"middle": middle, "reach": reach}
+        answer = self._ask("walls", **{name: one for name, one in asked.items() if one is not None})
+        block = base64.b64decode(answer["walls"])
+        walls, at = [], 0
+        while at < len(block):
+            corners, sides = np.frombuffer(block, "<i4", 2, at).tolist()
+            vertices = np.frombuffer(block, "<f8", 3 * corners, at + 8).reshape(-1, 3).astype(float)
+            triangles = np.frombuffer(block, "<i4", 3 * sides, at + 8 + vertices.nbytes).reshape(-1, 3)
+            walls.append(Surface(vertices, triangles.astype(int), np.zeros(corners)))
+            at += 8 + vertices.nbytes + triangles.nbytes
+        return walls
 
     def picture(self, **view: Any) -> np.ndarray:
         """A fluoroscopic picture of the wire as it is now: grey levels from 0 to 255, (pixels, pixels) of uint8, the

@@ -1,4 +1,6 @@
 using System.Collections.Generic;
+using System.Linq;
+using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 
@@ -26,6 +28,8 @@ namespace Guidewire.Cli
             Snapshot = (string?)json["snapshot"] ?? "";
             View = (JObject?)json["view"] ?? new JObject();
             Positions = (string?)json["positions"] ?? "";
+            Middle = MiddleOf(json["middle"]);
+            Reach = (double?)json["reach"];
             foreach (JProperty property in ((JObject?)json["set"] ?? new JObject()).Properties())
             {
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
@@ -78,6 +82,12 @@ namespace Guidewire.Cli
         /// <summary>The wire of a picture as base64 of doubles; empty: the session's.</summary>
         public string Positions { get; }
 
+        /// <summary>Middle of a picture of walls, units, or null for that of the wire.</summary>
+        public Vector3d? Middle { get; }
+
+        /// <summary>How far from there walls without end are drawn, units, or null for the wire's length.</summary>
+        public double? Reach { get; }
+
         /// <summary>Parameters that count instead of the file's.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
 
@@ -104,6 +114,7 @@ namespace Guidewire.Cli
             CheckNumber(json, "hub", 0.0, int.MaxValue, HubNeeds);
             CheckNumber(json, "push", double.MinValue, double.MaxValue, "a number (units)");
             CheckNumber(json, "turn", double.MinValue, double.MaxValue, "a number (rad)");
+            CheckNumber(json, "reach", double.Epsilon, double.MaxValue, "a number above 0 (units)");
             return new RunRequest(json);
         }
 
@@ -118,6 +129,19 @@ namespace Guidewire.Cli
             {
                 return null;
             }
+        }
+
+        private static Vector3d? MiddleOf(JToken? value)
+        {
+            if (value == null || value.Type == JTokenType.Null)
+            {
+                return null;
+            }
+            bool isPoint = value is JArray numbers && numbers.Count == 3 && numbers.All(one =>
+                one.Type == JTokenType.Integer || one.Type == JTokenType.Float);
+            var point = isPoint ? new Vector3d((double)value[0]!, (double)value[1]!, (double)value[2]!) : default;
+            return isPoint && point.IsFinite ? point : throw new ParameterException("request", "middle",
+                value.ToString(Newtonsoft.Json.Formatting.None), "three numbers (units)");
         }
 
         private static void CheckNumber(JObject json, string key, double low, double high, string allowed)

@@ -48,6 +48,9 @@ namespace Guidewire.Cli
                 case "describe":
                     Describe(answer);
                     return;
+                case "walls":
+                    answer["walls"] = Convert.ToBase64String(Walls(request.Middle, request.Reach));
+                    return;
                 case "change":
                     _pictures = null;
                     Change(Opened(), request);
@@ -67,8 +70,8 @@ namespace Guidewire.Cli
                     break;
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
-                        "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"change\","
-                            + " \"reset\", \"save\", \"restore\"");
+                        "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"walls\","
+                            + " \"change\", \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -163,6 +166,25 @@ namespace Guidewire.Cli
                 }
                 _centrelines[k] = centreline;
             }
+        }
+
+        /// <summary>The walls as <see cref="SessionWalls"/> has them.</summary>
+        /// <param name="middle">Where the picture's middle is, units; null: between the
+        /// wire's ends.</param>
+        /// <param name="reach">How far from there a wall without end is drawn, units; null: as far as the wire is
+        /// long.</param>
+        /// <exception cref="ParameterException">No session is open.</exception>
+        public byte[] Walls(Vector3d? middle = null, double? reach = null)
+        {
+            SimulationSession session = Opened();
+            Vector3d[] wire = session.Simulation.State.Positions;
+            double length = 0.0;
+            for (int i = 1; i < wire.Length; i++)
+            {
+                length += (wire[i] - wire[i - 1]).Length;
+            }
+            return SessionWalls.ToBytes(session.Parameters.Scene.Walls, middle ?? 0.5 * (wire[0] + wire[^1]),
+                reach ?? length);
         }
 
         // What X-rays see of the instruments, and the path to the target, for whoever draws pictures of their own.

@@ -75,6 +75,12 @@ namespace Guidewire.Native
             }
         }
 
+        /// <summary>The walls of the open scene, as <see cref="SessionWalls"/> has them.</summary>
+        public byte[] Walls()
+        {
+            return _host.Walls();
+        }
+
         /// <summary>As <see cref="Exports.Picture"/> says.</summary>
         public int Picture(ReadOnlySpan<byte> view, ReadOnlySpan<double> positions, Span<byte> grey)
         {
