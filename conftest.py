@@ -14,7 +14,7 @@ from experiments.tests.run_claims import Campaign
 from guidewire.runs import building
 from guidewire.runs.key_table import read_key_table
 from guidewire.runs.runner import Runner
-from guidewire.viewer.tests.browsing import browse  # noqa: F401  a fixture
+from guidewire.viewer.tests.browsing import browse, firefox  # noqa: F401  fixtures
 from tools.testing import FULL_CAMPAIGNS
 
 

@@ -138,6 +138,15 @@ def parse(argv: list[str]) -> argparse.Namespace:
     view.add_argument("--open", action="store_true", help="open the page in a browser")
     view.set_defaults(packages=("numpy", *VIEWING))
 
+    site = commands.add_parser("site", help="the page with the simulation in it, as a folder for any web server: scenes "
+                                              "are steered in a browser, with nothing to install")
+    site.add_argument("out", metavar="OUT", type=path, help="folder: a new one, or that of an earlier site")
+    site.add_argument("scenes", metavar="SCENE", nargs="*", type=Path,
+                      help="parameter files (without them those scenes of params that have a vessel and are steered)")
+    site.add_argument("--compiled-ahead", action="store_true",
+                      help="compile the simulation ahead (needs the .NET workload wasm-tools): up to five times as fast")
+    site.set_defaults(packages=(*DRAWING, *VIEWING))
+
     plot = commands.add_parser("plot", help="plot a quantity of a study's runs against one of its parameters")
     plot.add_argument("table", metavar="TABLE", type=Path, help="runs.csv of a study, or the study's folder")
     plot.add_argument("--x", required=True, metavar="KEY", help="parameter, or any column of the table")

@@ -123,7 +123,7 @@ def _advise(arguments: argparse.Namespace) -> int:
 
 def _render(arguments: argparse.Namespace) -> int:
     from guidewire.commands import drawn, fluoroscopy
-    from guidewire.figures import render, walls
+    from guidewire.figures import render
     from guidewire.logs.logs import LogError, read_log
     from guidewire.logs.runs import read_run
 
@@ -142,7 +142,7 @@ def _render(arguments: argparse.Namespace) -> int:
             return _save_render(images, log, out)
         middle, diagonal = render.out_of_sheath(run, log)
         checking.check_out(out.parent)
-        surfaces = walls.read_walls(build_runner, run, middle, max(diagonal, 1.0))
+        surfaces = drawn.walls_of(run, middle, max(diagonal, 1.0))
         yaw, pitch = render.VIEWS[arguments.view] if arguments.view else (-90.0, 15.0)
         others = drawn.instruments_and_sheath(run, log)
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance,
@@ -201,6 +201,12 @@ def _view(arguments: argparse.Namespace) -> int:
     from guidewire.viewer.command import view
 
     return view(arguments.what, arguments.html, arguments.frames, arguments.open, build_runner)
+
+
+def _site(arguments: argparse.Namespace) -> int:
+    from guidewire.viewer.site import write_site
+
+    return write_site(arguments.out, arguments.scenes, arguments.compiled_ahead, build_runner)
 
 
 def _tasks(arguments: argparse.Namespace) -> int:
@@ -339,8 +345,9 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 
 _ACTIONS = {
     "run": _run, "sweep": _sweep, "advise": _advise, "plot": _plot, "anatomy": _anatomy, "steer": _steer,
-    "keys": _keys, "render": _render, "view": _view, "stress": _stress, "hub": _hub, "compare": _compare,
-    "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python, "native": _native,
+    "keys": _keys, "render": _render, "view": _view, "site": _site, "stress": _stress, "hub": _hub, "compare": _compare,
+    "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python,
+    "native": _native,
     "scenes": _scenes, "unity-check": _unity_check,
 }
 # Commands of the repository alone: the module that executes each, and its function.
@@ -348,7 +355,7 @@ _ELSEWHERE = {
     "demo": ("analysis.command", "demo"), "figures": ("analysis.command", "figures"), "test": ("tools.testing", "test"),
     "package": ("tools.packaging.command", "package"), "bench": ("experiments.overhead", "bench"),
 }
-_OF_THE_REPOSITORY = (*_ELSEWHERE, "native", "unity-check")
+_OF_THE_REPOSITORY = (*_ELSEWHERE, "native", "site", "unity-check")
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),

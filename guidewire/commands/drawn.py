@@ -7,9 +7,26 @@ import numpy as np
 from guidewire.figures.render import Instrument, instruments_of
 from guidewire.logs.logs import PositionLog
 from guidewire.logs.runs import PARAMETERS_NAME, Run
+from guidewire.logs.surfaces import Surface
 from guidewire.prepare import PreparationError
 from guidewire.sessions.session import SessionError, session_of
 from guidewire.viewer.recording import read_recording
+
+
+def walls_of(run: Run, middle: np.ndarray, reach: float) -> list[Surface]:
+    """The walls of a run, as of `Session.walls`; of one without walls no session is asked.
+
+    Raises
+    ------
+    PreparationError : the run's parameters cannot be used any more; one line.
+    """
+    if not run.parameters.get("vessel") and not run.parameters.get("obstacles"):
+        return []
+    try:
+        with session_of(run.folder / PARAMETERS_NAME) as session:
+            return session.walls(middle, reach)
+    except SessionError as error:
+        raise PreparationError(str(error)) from error
 
 
 def instruments_and_sheath(run: Run, log: PositionLog) -> tuple[tuple[Instrument, ...], np.ndarray | None]:

@@ -41,6 +41,7 @@ RUNNER = "Guidewire.Cli"
 CHECKER = "Guidewire.UnityCheck"
 BENCHMARKS = "Guidewire.Benchmarks"
 NATIVE = "Guidewire.Native"
+BROWSER = "Guidewire.Browser"
 DOTNET_TESTS = ("Guidewire.Core.Tests", "Guidewire.Unity.Tests")
 # What tests need, in the order in which it is built: programs by the part of the solution that makes them.
 PARTS = {"Runner": (RUNNER, CHECKER), "Tests": DOTNET_TESTS}
@@ -112,6 +113,24 @@ def build_native(tell: Callable[[str], None]) -> Path:
     return _output(NATIVE) / f"{NATIVE}.so"
 
 
+def build_browser(is_compiled_ahead: bool, tell: Callable[[str], None]) -> Path:
+    """Build the simulation for browsers if need be; `tell` and errors as of `build`. Compiled ahead, which needs the
+    workload wasm-tools, it is built each time.
+
+    Returns
+    -------
+    The folder of its files.
+    """
+    program, sdks = dotnet()
+    if is_compiled_ahead:
+        _stamp_path(BROWSER).unlink(missing_ok=True)
+    _bring_up_to_date(program, sdks, HEADLESS / BROWSER / f"{BROWSER}.csproj", (BROWSER,), tell, "publish",
+                      *(["-p:CompiledAhead=true"] if is_compiled_ahead else []))
+    if is_compiled_ahead:
+        _stamp_path(BROWSER).unlink(missing_ok=True)
+    return _output(BROWSER) / f"net{SDK_MAJOR}.0" / "publish" / "wwwroot" / "_framework"
+
+
 def native_library() -> Path | None:
     """The native library where it was built from what is there now; None elsewhere. The package always has one."""
     if INSTALLED:
@@ -140,7 +159,8 @@ def dotnet() -> tuple[str, str]:
 
 
 def _bring_up_to_date(
-    program: str, sdks: str, target: Path, projects: Sequence[str], tell: Callable[[str], None], verb: str = "build"
+    program: str, sdks: str, target: Path, projects: Sequence[str], tell: Callable[[str], None], verb: str = "build",
+    *options: str,
 ) -> None:
     """Build a project or solution file unless the stamps of all its projects hold."""
     if _all_hold(projects, sdks, _sources()):
@@ -155,7 +175,7 @@ def _bring_up_to_date(
         tell(f"building {target.stem}")
         # Analysers judge sources and change no program: `test --all` and a developer's own build run them. One compiler
         # process for many projects is machine code made once.
-        command = [program, verb, "-c", "Release", "--nologo", str(target), "-p:RunAnalyzers=false",
+        command = [program, verb, "-c", "Release", "--nologo", str(target), "-p:RunAnalyzers=false", *options,
                    *(["-p:UseSharedCompilation=true"] if target.suffix == ".slnf" else []),
                    *(["--no-incremental"] if anew and verb == "build" else [])]
         _compile(command, lock, target.stem)

@@ -5,12 +5,11 @@ from __future__ import annotations
 import os
 import sys
 import webbrowser
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
 
 from guidewire.anatomy.formats import is_anatomy
-from guidewire.figures import walls
 from guidewire.logs.logs import LogError, extent, read_log
 from guidewire.logs.runs import PARAMETERS_NAME, read_run
 from guidewire.logs.surfaces import Surface
@@ -18,7 +17,7 @@ from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.key_table import read_key_table
 from guidewire.runs.whole_files import write_whole
-from guidewire.sessions.session import SessionError, State, session_of
+from guidewire.sessions.session import SessionError, session_of
 from guidewire.viewer.anatomy import read_vessel
 from guidewire.viewer.export import to_html
 from guidewire.viewer.held import HeldInstruments
@@ -72,7 +71,7 @@ def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: boo
         return _serve(Server(files, (), _live(what[0], build_runner)), opens)
     try:
         most = frames or (FRAMES_SERVED if html is None else FRAMES_OF_A_FILE)
-        recordings = [_read(folder, most, html is None, build_runner) for folder in what]
+        recordings = [_read(folder, most, html is None) for folder in what]
     except LogError as error:
         raise PreparationError(str(error)) from error
     if html is None:
@@ -83,21 +82,19 @@ def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: boo
     return 0
 
 
-def _read(folder: Path, frames: int, exact: bool, build_runner: Callable[[], list[str]]) -> bytes:
+def _read(folder: Path, frames: int, exact: bool) -> bytes:
     run = read_run(folder)
     middle, diagonal = extent(read_log(folder, "all"))
-    surfaces = walls.read_walls(build_runner, run, middle, max(diagonal, 1.0))
-    return read_recording(run, surfaces, frames, _described(folder)).to_bytes(exact)
-
-
-def _described(folder: Path) -> dict[str, Any]:
-    """What pictures need to know of a run; empty where its parameters cannot be used any more."""
+    described: dict[str, Any] = {}
+    surfaces: list[Surface] = []
     try:
         with session_of(folder / PARAMETERS_NAME, native=False) as session:
-            return session.describe()
-    except SessionError as error:
+            described, surfaces = session.describe(), session.walls(middle, max(diagonal, 1.0))
+    except SessionError as error:    # its parameters cannot be used any more
+        if run.parameters.get("vessel") or run.parameters.get("obstacles"):
+            raise PreparationError(str(error)) from error
         _say(f"no fluoroscopy of {folder.name}: {error}")
-        return {}
+    return read_recording(run, surfaces, frames, described).to_bytes(exact)
 
 
 def serve_scene(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments, opens: bool) -> None:
@@ -110,21 +107,13 @@ def _live(file: Path, build_runner: Callable[[], list[str]], instruments: HeldIn
     keys = read_key_table(command)
     own = {} if instruments else {path.name: path for path in sorted((ROOT / "params").glob("*.json"))}
     first = file.name if own.get(file.name, file).resolve() == file.resolve() else str(file)
-    run = LiveRun({first: file, **own}, first, lambda *scene: _walls_of(build_runner, *scene),
-                  {name: list(key.words) for name, key in keys.items() if key.words}, instruments)
+    run = LiveRun({first: file, **own}, first, {name: list(key.words) for name, key in keys.items() if key.words},
+                  instruments)
     try:
         run.open()
     except SessionError as error:
         raise PreparationError(str(error)) from error
     return run
-
-
-def _walls_of(build_runner: Callable[[], list[str]], file: Path, parameters: Mapping[str, Any], state: State
-              ) -> list[Surface]:
-    """Walls of a scene as its wire may meet them: as far around its start as it is long."""
-    length = float(parameters["guidewireLength"])
-    middle = 0.5 * (state.positions.min(axis=0) + state.positions.max(axis=0))
-    return walls.walls_of(build_runner, parameters, file, middle, length)
 
 
 def _serve(server: Server, opens: bool) -> int:

@@ -25,8 +25,9 @@ from aiohttp import WSCloseCode, WSMsgType, web
 from guidewire.logs.surfaces import Surface
 from guidewire.sessions.session import Session, SessionError, State
 from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.steered import RULES as STEERED
 from guidewire.viewer.recording import (
-    Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
+    ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
 )
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
@@ -44,6 +45,19 @@ _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintS
             "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
 
 
+def rules(choices: Mapping[str, list[str]]) -> dict[str, Any]:
+    """What a page that simulates by itself (page/run.js) takes from here.
+
+    choices : name to words, of the parameters that are words.
+    """
+    return {
+        "pushSpeed": PUSH_SPEED, "turnSpeed": TURN_SPEED, "paces": PACES, "frame": _FRAME, "longest": _LONGEST,
+        "behind": _BEHIND, "longestWait": _LONGEST_WAIT, "patience": _PATIENCE, "mostInFlight": _MOST_IN_FLIGHT,
+        "smoothing": _SMOOTHING, "endless": _ENDLESS, "changed": _CHANGED, "choices": choices, "hub": HUB,
+        "energies": ENERGIES, "steered": STEERED,
+    }
+
+
 class _Page:
     """A page that is open."""
 
@@ -59,17 +73,14 @@ class LiveRun:
     ----------
     scenes : name to parameter file; what a page may open.
     first : name of the one that is opened at first.
-    walls : from a parameter file, its effective values and its start to the walls.
     choices : name to words, of the parameters that are words.
     instruments : takes down what is steered; it may be read when the run has ended.
     """
 
-    def __init__(self, scenes: Mapping[str, Path], first: str,
-                 walls: Callable[[Path, Mapping[str, Any], State], list[Surface]],
-                 choices: Mapping[str, list[str]], instruments: HeldInstruments | None = None) -> None:
+    def __init__(self, scenes: Mapping[str, Path], first: str, choices: Mapping[str, list[str]],
+                 instruments: HeldInstruments | None = None) -> None:
         self._scenes = scenes
         self._scene = first
-        self._read_walls = walls
         self._choices = choices
         self._instruments = instruments or HeldInstruments()
         self._pages: list[_Page] = []
@@ -291,7 +302,7 @@ class LiveRun:
         self._instruments.begin(session, self._described)
         self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._warnings = list(dict.fromkeys(str(one.message) for one in said))
-        self._walls = self._read_walls(self._scenes[scene], session.parameters, session.state)
+        self._walls = session.walls()
         self._sheath = sheath_of(session.parameters, self._numbers(session, session.state))
         self._opened += 1
         self._cost = 0.0

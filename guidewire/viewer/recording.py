@@ -22,10 +22,10 @@ from guidewire.sessions.session import State
 
 _STEPS = 65535  # of a quantised number, from its lowest value to its highest
 _ALIGNED = 8
-_ENERGIES = {"kineticEnergy": "energy of motion", "elasticEnergy": "elastic energy",
+ENERGIES = {"kineticEnergy": "energy of motion", "elasticEnergy": "elastic energy",
              "potentialEnergy": "potential energy"}
 # What is read off at the hub, by its key in a log: label, unit, whether it may be negative.
-_HUB = {
+HUB = {
     "force": ("force at the hub", "N", True), "torque": ("torque at the hub", "N m", True),
     "insertion": ("insertion", "m", True), "turn": ("rotation of the hub", "rad", True),
     "twist": ("twist from hub to tip", "rad", True), "largestCurvature": ("largest curvature", "rad/m", False),
@@ -227,10 +227,10 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
                     np.linalg.norm(forces.sum(axis=1), axis=1)),
         ]
     channels += _at_the_hub(known, units, along)
-    energies = {key: known[key] for key in _ENERGIES if key in known}
+    energies = {key: known[key] for key in ENERGIES if key in known}
     if energies:
         channels.append(Channel("energy", "energy", "J", "frame", np.sum(list(energies.values()), axis=0)))
-    channels += [Channel(key, _ENERGIES[key], "J", "frame", values) for key, values in energies.items()]
+    channels += [Channel(key, ENERGIES[key], "J", "frame", values) for key, values in energies.items()]
     if "inBody" in known:
         channels.append(Channel("inBody", "", "spheres", "frame", known["inBody"]))
     channels += [Channel(f"tip{axis}", f"tip, {axis}", "units", "frame", positions[:, -1, k], True)
@@ -245,11 +245,11 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
 def _at_the_hub(known: Mapping[str, np.ndarray], units: Units, along: np.ndarray) -> list[Channel]:
     """As it was read off; else force and couple of the support, as far as they are known."""
     channels = [Channel("hub" + key[0].upper() + key[1:], label, unit, "frame", known[f"hub.{key}"], is_signed)
-                for key, (label, unit, is_signed) in _HUB.items() if f"hub.{key}" in known]
+                for key, (label, unit, is_signed) in HUB.items() if f"hub.{key}" in known]
     for name in known:
         of_catheter = re.fullmatch(r"hub(\d+)\.(\w+)", name)
-        if of_catheter and of_catheter[2] in _HUB:
-            label, unit, is_signed = _HUB[of_catheter[2]]
+        if of_catheter and of_catheter[2] in HUB:
+            label, unit, is_signed = HUB[of_catheter[2]]
             channels.append(Channel(f"hub{of_catheter[1]}{of_catheter[2][0].upper()}{of_catheter[2][1:]}",
                                     f"{label}, catheter {of_catheter[1]}", unit, "frame", known[name], is_signed))
     names = [channel.name for channel in channels]
@@ -418,12 +418,12 @@ def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
         if "stress" in entry:
             for name in ("curvature", "force", "couple"):
                 rows.setdefault(name, []).append(entry["stress"][name])
-            for name in _ENERGIES:
+            for name in ENERGIES:
                 rows.setdefault(name, []).append(entry["stress"][name])
-        for name in (name for name in _HUB if name in entry.get("hub", {})):
+        for name in (name for name in HUB if name in entry.get("hub", {})):
             rows.setdefault(f"hub.{name}", []).append(entry["hub"][name])
         for number, catheter in enumerate(entry.get("catheters", []), 1):
-            for name in (name for name in _HUB if name in catheter):
+            for name in (name for name in HUB if name in catheter):
                 rows.setdefault(f"hub{number}.{name}", []).append(catheter[name])
         if "inBody" in entry:
             rows.setdefault("inBody", []).append(entry["inBody"])

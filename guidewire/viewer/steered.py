@@ -18,6 +18,7 @@ _TURN_GRAIN = 2.0 ** -40  # rad
 _CONSTANT = 1e-6  # of a step: so long before and after its end the table stands still
 _STOPPED = 1e-9  # m: a hub that went less than asked by more than that came to another one
 _TRIES = 200  # displacements beside the wanted one; about every second is met
+RULES = {"grain": _GRAIN, "turnGrain": _TURN_GRAIN, "constant": _CONSTANT, "stopped": _STOPPED, "tries": _TRIES}
 
 
 def exact_push(wanted: float, metres: float) -> float:

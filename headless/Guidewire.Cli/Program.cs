@@ -23,9 +23,6 @@ namespace Guidewire.Cli
             + " \"log\": true, \"check\": false}\n"
             + "           -attached: where the input ends, the run under way ends too, as by Ctrl-C\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
-            + "       Guidewire.Cli --walls FILE X Y Z REACH   the walls' triangles in units, as JSON; of a wall without"
-            + " end\n"
-            + "           what is within REACH of (X, Y, Z)\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --warnings  the warnings as a Markdown table\n"
             + "       Guidewire.Cli --version\n"
@@ -66,9 +63,6 @@ namespace Guidewire.Cli
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);
-                    case "--walls":
-                        Console.Out.WriteLine(WallPrinter.Print(arguments));
-                        return 0;
                     case "--lines":
                     case "-lines":
                         return Serve(arguments);

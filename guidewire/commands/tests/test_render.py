@@ -1,17 +1,16 @@
 """guidewire.py render, with the real runner: every shape of a vessel, obstacles, and what cannot be drawn."""
 
 import json
-import subprocess
 
 import numpy as np
 import pytest
 from PIL import Image
 
-from guidewire.commands import commands
-from guidewire.figures import walls
+from guidewire.commands import commands, drawn
 from guidewire.logs.runs import read_run
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs.runner import Request
+from guidewire.sessions.session import Session, SessionError
 
 SCENE = {"guidewireLength": 60, "numberRodElements": 6, "guidewireOffset": -60, "displacement": 0, "sphereRadius": 2,
          "maxSimulationSteps": 2}
@@ -67,8 +66,8 @@ def test_every_shape_is_drawn(make_run, capsys, changes):
 
 
 def test_walls_are_those_of_the_simulation(make_run, runner_command):
-    tube, *bodies = walls.read_walls(lambda: runner_command, read_run(make_run(**SHAPES["a tube that is placed"],
-                                                                               obstacles=OBSTACLES)), np.zeros(3), 60.0)
+    run = read_run(make_run(**SHAPES["a tube that is placed"], obstacles=OBSTACLES))
+    tube, *bodies = drawn.walls_of(run, np.zeros(3), 60.0)
     rings = tube.vertices
     # Scaled by 2 and turned from x to z: a tube of radius 8 along z, whose open ends are drawn 60 units far.
     assert np.hypot(rings[:, 0], rings[:, 1]) == pytest.approx(8.0)
@@ -126,10 +125,10 @@ def test_a_folder_without_a_run_and_a_mesh_that_is_gone_are_named(make_run, tmp_
         draw(folder)
 
 
-@pytest.mark.parametrize("words", [[], ["0", "0", "0"], ["0", "0", "0", "0"], ["0", "nan", "0", "1"],
-                                   ["0", "0", "far", "1"], ["0", "0", "0", "1", "2"]])
-def test_walls_are_asked_for_with_four_numbers(runner_command, words):
-    done = subprocess.run([*runner_command, "--walls", str(ROOT / "params" / "collision-wall.json"), *words],
-                          capture_output=True, text=True, check=False)
-    assert (done.returncode, done.stdout) == (2, "")
-    assert done.stderr.count("\n") == 1 and "three numbers and a number above 0" in done.stderr
+@pytest.mark.parametrize("middle, reach", [([0, 0], 1.0), ([0, "far", 0], 1.0), ([0, 0, 0], 0.0)])
+def test_walls_are_asked_for_with_three_numbers_and_a_number(runner_command, middle, reach):
+    with Session(ROOT / "params" / "collision-wall.json", hand=False, native=False) as session:
+        with pytest.raises(SessionError, match="three numbers|a number above 0"):
+            session.walls(middle, reach)
+        wall = session.walls()[0]
+    assert len(wall.vertices) == 4 and np.ptp(wall.vertices, axis=0).max() > 0.0

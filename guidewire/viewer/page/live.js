@@ -6,7 +6,7 @@ import { Recording } from "./recording.js";
 import { Steering } from "./steering.js";
 
 /**
- * What the server says of the run, as guidewire/viewer/live.py sends it.
+ * What is said of the run, as guidewire/viewer/live.py or run.js sends it.
  * @typedef {object} Status
  * @property {boolean} hand whether this page has the run in its hand
  * @property {boolean} isFree whether no page has
@@ -33,8 +33,9 @@ export class Live {
   /**
    * @param {import("./stage.js").Stage} stage @param {import("./panel.js").Panel} panel
    * @param {import("./desk.js").Desk} desk @param {import("./xray.js").Xray} xray
+   * @param {import("./connection.js").Connection} connection
    */
-  constructor(stage, panel, desk, xray) {
+  constructor(stage, panel, desk, xray, connection) {
     this._stage = stage;
     this._panel = panel;
     this._desk = desk;
@@ -61,16 +62,15 @@ export class Live {
     this._marks = new Map();
     this._newest = 0;
     stage.onDrawn = xray.onDrawn = () => this._shown();
-    this._socket = new WebSocket(new URL("live", location.href.replace(/^http/, "ws")));
-    this._socket.binaryType = "arraybuffer";
-    this._socket.onmessage = ({ data }) => (typeof data === "string" ? this._hear(JSON.parse(data)) : this._take(data));
-    this._socket.onclose = ({ reason }) => panel.say([reason || "the server has ended: this page is no longer live"]);
+    this._connection = connection;
+    connection.onmessage = (message) => (message instanceof ArrayBuffer ? this._take(message) : this._hear(message));
+    connection.onclose = (reason) => panel.say([reason]);
     document.addEventListener("visibilitychange", () => document.hidden && this.send({ do: "pause", value: true }));
   }
 
-  /** @param {object} message */
+  /** @param {Record<string, any>} message */
   send(message) {
-    if (this._socket.readyState === WebSocket.OPEN) this._socket.send(JSON.stringify(message));
+    this._connection.send(message);
   }
 
   /** @param {KeyboardEvent} event @returns {boolean} whether the key means something here */
@@ -102,8 +102,8 @@ export class Live {
     const wasHand = this.status?.hand;
     this.status = status;
     if (isNew) {
-      const answer = await fetch(`recording/0?${status.opened}`);
-      if (answer.ok) this._open(new Recording(await answer.arrayBuffer()), status.opened);
+      const recorded = await this._connection.recording(status.opened);
+      if (recorded) this._open(new Recording(recorded), status.opened);
     }
     if (isNew || wasHand !== status.hand || status.hand) this._makeControls(status);
     this._desk.hold(status.isSteered ? status.held : -1);
@@ -199,10 +199,9 @@ export class Live {
     if (!this.status) return;
     const { instruments, chosen, named } = this.status;
     const files = instruments.map((_, k) => (k === 0 ? "steered.csv" : `steered-${k}.csv`));
-    for (const file of files) {
-      const answer = await fetch(file);
-      const text = await answer.text();
-      if (!answer.ok) {
+    for (const [k, file] of files.entries()) {
+      const { ok, text } = await this._connection.steered(k);
+      if (!ok) {
         this._panel.say([`nothing was saved: ${text}`]);
         return;
       }

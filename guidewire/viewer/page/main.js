@@ -1,10 +1,12 @@
 // @ts-check
+import { SocketConnection, WorkerConnection } from "./connection.js";
 import { Desk } from "./desk.js";
 import { Live, LIVE_KEYS } from "./live.js";
 import { byId, make, Panel } from "./panel.js";
-import { Recording } from "./recording.js";
+import { Recording, unpackRecording } from "./recording.js";
 import { Replay, REPLAY_KEYS } from "./replay.js";
 import { Stage } from "./stage.js";
+import { offer } from "./start.js";
 import { Xray } from "./xray.js";
 
 const stage = new Stage(byId("picture"), byId("panes"));
@@ -18,11 +20,13 @@ const panel = new Panel(stage, () => shown?.show());
 const packed = /** @type {any} */ (globalThis).guidewireRecordings;
 const what = packed ? { isLive: false, recordings: packed.length } : await (await fetch("show.json")).json();
 if (what.isLive) {
-  shown = new Live(stage, panel, desk, xray);
+  const connection = what.site ? new WorkerConnection(what.site) : new SocketConnection();
+  shown = new Live(stage, panel, desk, xray, connection);
+  if (what.site) offer(what.site, connection);
 } else {
   const load = async (/** @type {number} */ k) => (await fetch(`recording/${k}`)).arrayBuffer();
   const bytes = packed ?? await Promise.all([...Array(what.recordings).keys()].map(load));
-  shown = new Replay(stage, panel, desk, xray, bytes.map((one) => new Recording(one)));
+  shown = new Replay(stage, panel, desk, xray, bytes.map((one) => new Recording(unpackRecording(one))));
 }
 
 const keys = byId("keys");

@@ -19,6 +19,18 @@
  * @property {Float32Array} vertices x, y, z each, units
  * @property {Uint32Array} triangles three indices each
  *
+ * @typedef {object} Recorded
+ * @property {string} title
+ * @property {string} outcome
+ * @property {string[]} warnings
+ * @property {[string, string][]} facts
+ * @property {number} radius of the wire, units
+ * @property {Channel[]} channels
+ * @property {Wall[]} walls
+ * @property {[number[], number[]] | null} sheath where it ends, and where it is seen to begin, units
+ * @property {{millimetresPerUnit: number, target: import("./target.js").Route | null,
+ *     instruments: (import("./pieces.js").Instrument & {title: string})[]} | null} described what pictures need to know
+ *
  * @typedef {object} Packed where an array stands, and what its numbers mean
  * @property {"f8" | "f4" | "u2" | "u4"} type
  * @property {number} offset bytes behind the header
@@ -31,38 +43,36 @@ const TYPES = { f8: Float64Array, f4: Float32Array, u2: Uint16Array, u4: Uint32A
 const COLOURS = ["#4aa8ff", "#ff9d2e", "#b58cff", "#5fd38d"]; // of instruments, the first run's first
 const LONGEST = 6000; // frames that are kept of a run that goes on; then the older half goes
 
-export class Recording {
-  /** @param {ArrayBuffer} bytes */
-  constructor(bytes) {
-    const length = new DataView(bytes).getUint32(0, true);
-    const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
-    const start = 4 + length;
-    /** @type {string} */
-    this.title = header.title;
-    /** @type {string} */
-    this.outcome = header.outcome;
-    /** @type {string[]} */
-    this.warnings = header.warnings;
-    /** @type {[string, string][]} */
-    this.facts = header.facts;
-    /** Radius of the wire, units. @type {number} */
-    this.radius = header.radius;
-    /** @type {Map<string, Channel>} */
-    this.channels = new Map();
-    for (const packed of header.channels) {
-      this.channels.set(packed.name, { ...packed, values: Float64Array.from(unpack(bytes, start, packed)) });
-    }
-    /** @type {Wall[]} */
-    this.walls = header.walls.map((/** @type {any} */ wall) => ({
+/** The run that a block of bytes holds. @param {ArrayBuffer} bytes @returns {Recorded} */
+export function unpackRecording(bytes) {
+  const length = new DataView(bytes).getUint32(0, true);
+  const header = JSON.parse(new TextDecoder().decode(new Uint8Array(bytes, 4, length)));
+  const start = 4 + length;
+  return {
+    ...header,
+    channels: header.channels.map((/** @type {any} */ packed) =>
+      ({ ...packed, values: Float64Array.from(unpack(bytes, start, packed)) })),
+    walls: header.walls.map((/** @type {any} */ wall) => ({
       kind: wall.kind,
       vertices: Float32Array.from(unpack(bytes, start, wall.vertices)),
       triangles: Uint32Array.from(unpack(bytes, start, wall.triangles)),
-    }));
-    /** Where a sheath ends, and where it is seen to begin, units. @type {[number[], number[]] | null} */
-    this.sheath = header.sheath;
-    /** What pictures need to know. @type {{millimetresPerUnit: number, target: import("./target.js").Route | null,
-     *     instruments: (import("./pieces.js").Instrument & {title: string})[]} | null} */
-    this.described = header.described;
+    })),
+  };
+}
+
+export class Recording {
+  /** @param {Recorded} run */
+  constructor(run) {
+    const { title, outcome, warnings, facts, radius, channels, walls, sheath, described } = run;
+    this.title = title;
+    this.outcome = outcome;
+    this.warnings = warnings;
+    this.facts = facts;
+    this.radius = radius;
+    this.channels = new Map(channels.map((channel) => [channel.name, channel]));
+    this.walls = walls;
+    this.sheath = sheath;
+    this.described = described;
     /** Of a unit. */
     this.millimetres = this.described?.millimetresPerUnit ?? 1;
     /** @type {import("./pieces.js").Instrument[]} */

@@ -278,7 +278,7 @@ def test_a_start_anew_ends_a_step_that_takes_too_long(runner_command, tmp_path, 
     monkeypatch.setattr("guidewire.viewer.live._PATIENCE", 0.1)
 
     async def talk():
-        run = LiveRun({"slow": tmp_path / "slow.json"}, "slow", lambda *_: [], {})
+        run = LiveRun({"slow": tmp_path / "slow.json"}, "slow", {})
         run.open()
         run._hand, run._is_paused = object(), False
         going = asyncio.ensure_future(run.go())

@@ -1,0 +1,292 @@
+// @ts-check
+/**
+ * A run steered by the page whose worker this is, without a server: it does what guidewire/viewer/live.py does for pages of the
+ * server, and its constants come from there, as rules.
+ *
+ * @typedef {import("./channels.js").State} State
+ * @typedef {Record<string, any>} Message
+ * @typedef {object} Program what simulates
+ * @property {(request: Message) => Message} ask
+ * @property {(push: number, turn: number, hub: number, steps: number) => Float64Array} step the head and all arrays
+ * @property {() => Uint8Array} walls
+ */
+import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./channels.js";
+import { HeldInstruments } from "./steered.js";
+
+const HEAD = 4; // numbers before the arrays of a step
+const ARRAYS = /^(positions|orientations|catheter)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|reaction|hub|strain|force|curvature|couple|energy)$/;
+const NOT_ALLOWED = /^(?:.*: )?(\w+) = .* is not allowed: (needs .*)$/s;
+
+/** What the program does not do. The message is one line. */
+export class Refusal extends Error {}
+
+export class Run {
+  /** @param {Program} program @param {any} rules of guidewire/viewer/live.py @param {string[]} scenes
+   * @param {number} opened scenes before, as the page counts @param {(message: any) => void} tell the page */
+  constructor(program, rules, scenes, opened, tell) {
+    this._program = program;
+    this._rules = rules;
+    this._scenes = scenes;
+    this._opened = opened;
+    this._tell = tell;
+    /** Effective values; null while nothing is open. @type {Message | null} */
+    this._parameters = null;
+    /** @type {HeldInstruments | null} */
+    this._held = null;
+    /** As of the request "describe". @type {any} */
+    this._described = null;
+    /** @type {import("./recording.js").Wall[]} */
+    this._walls = [];
+    /** Largest size of each channel so far. @type {number[]} */
+    this._largest = [];
+    /** Names and counts of the state's arrays. @type {(readonly [string, number])[]} */
+    this._layout = [];
+    /** @type {State} */
+    this._state = {};
+    this._scene = "";
+    this._isPaused = true;
+    this._isSteered = false;
+    this._stepsAsked = 0;
+    this._push = this._turn = this._mark = this._cost = this._onTheWay = this._due = 0;
+    this._pace = 1;
+    this._problem = this._outcome = "";
+    /** @type {Message} */
+    this._named = {};
+    this._isGoing = false;
+    this._ports = new MessageChannel();
+    this._ports.port1.onmessage = () => this._go();
+  }
+
+  /** Does what a page asks. @param {Message} message */
+  hear(message) {
+    if (message.do === "shown") {
+      this._onTheWay = Math.max(0, this._onTheWay - 1);
+      return;
+    }
+    try {
+      this._do(message);
+    } catch (error) {
+      this._fail(error);
+    }
+    this._say();
+    if (!this._isGoing && this._mayStep()) this._next(performance.now());
+  }
+
+  /** What was steered of each instrument, as drive tables. Throws where no table says it. */
+  tables() {
+    const problem = this._held ? this._held.steered[0].problem : "no run is open";
+    if (problem) throw new Refusal(problem);
+    return this._held?.steered.map((one) => one.toCsv());
+  }
+
+  /** @param {Message} message */
+  _do(message) {
+    switch (message.do) {
+      case "hand":
+        [this._push, this._turn, this._mark] = [message.push, message.turn, message.mark];
+        break;
+      case "hold":
+        if (this._held) this._held.held = message.instrument;
+        break;
+      case "pause":
+        this._isPaused = message.value;
+        break;
+      case "step":
+        this._isPaused = true;
+        this._stepsAsked = 1;
+        break;
+      case "pace":
+        this._pace = message.value;
+        break;
+      case "open":
+        this._open(message.scene, message.hand ?? true, {});
+        break;
+      case "name":
+        this._open(this._scene, this._isSteered,
+          { ...this._named, [this._described.instruments[message.instrument].key]: message.name });
+        break;
+      case "reset":
+        this._begin(this._program.ask({ session: "reset" }), this._held?.held ?? 0);
+        break;
+      case "set":
+        this._set(message.key, message.value);
+    }
+  }
+
+  /** @param {string} scene @param {boolean} byHand @param {Message} named */
+  _open(scene, byHand, named) {
+    const open = (/** @type {boolean} */ hand) => this._program.ask({ session: "open", parameters: scene, hand,
+      set: { ...(hand ? this._rules.endless : {}), ...named } });
+    let answer;
+    try {
+      answer = open(byHand);
+    } catch (error) {
+      if (!byHand) throw error;
+      answer = open(false); // what is wrong with the file itself is said here
+    }
+    this._parameters = answer.effective;
+    this._isSteered = answer.hand;
+    this._warnings = answer.warnings;
+    [this._scene, this._named, this._cost] = [scene, named, 0];
+    if (!this._scenes.includes(scene)) this._scenes.push(scene);
+    this._described = this._program.ask({ session: "describe" });
+    this._walls = this._readWalls();
+    this._sheath = sheathOf(answer.effective, arraysOf(answer));
+    this._begin(answer, 0);
+  }
+
+  /** The run is at its start. @param {Message} answer @param {number} held */
+  _begin(answer, held) {
+    this._problem = "";
+    this._isPaused = !this._isSteered; // a wire that waits for a hand is at rest
+    this._held = new HeldInstruments(this._rules.steered, this._parameters ?? {}, this._described.instruments,
+      this._isSteered, held);
+    const channels = this._take(answer);
+    this._largest = largestShown(channels);
+    channels.forEach((channel, k) => { channel.largest = this._largest[k]; });
+    this._opened++;
+    this._onTheWay = 0;
+    this._tell({ opened: this._opened, recording: {
+      title: this._scene, outcome: "", warnings: this._warnings, facts: factsOf(this._parameters ?? {}),
+      radius: radiusOf(this._parameters ?? {}), channels, walls: this._walls, sheath: this._sheath,
+      described: this._described } });
+  }
+
+  /** @param {string} key @param {number | string} value */
+  _set(key, value) {
+    this._problem = "";
+    try {
+      const answer = this._program.ask({ session: "change", set: { [key]: value } });
+      this._parameters = answer.effective;
+      this._take(answer);
+      this._held?.invalidate(`${key} was changed within the run: start anew to record`);
+      this._cost = 0;
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      const [, named, needs] = NOT_ALLOWED.exec(error.message) ?? [];
+      const asked = `${key} = ${JSON.stringify(value)}`;
+      this._problem = !named ? error.message.replace(/^command line: /, "")
+        : named === key ? `${asked} is not allowed: ${needs}` : `${asked} does not go with ${named}, which ${needs}`;
+    }
+  }
+
+  _mayStep() {
+    return this._parameters !== null && !this._outcome && (!this._isPaused || this._stepsAsked > 0);
+  }
+
+  /** Steps once more, when that is due; what the page has asked meanwhile comes first. @param {number} due */
+  _next(due) {
+    this._isGoing = true;
+    this._due = due;
+    const wait = due - performance.now();
+    if (wait > 1) setTimeout(() => this._go(), wait);
+    else this._ports.port2.postMessage(0);
+  }
+
+  _go() {
+    this._isGoing = false;
+    if (!this._mayStep()) return;
+    try {
+      this._stepOn();
+    } catch (error) {
+      this._fail(error);
+      this._say();
+    }
+  }
+
+  _stepOn() {
+    const { frame, longest, pushSpeed, turnSpeed, smoothing, behind, longestWait, mostInFlight } = this._rules;
+    const dt = this._parameters?.timeStep;
+    let steps = this._stepsAsked ? 1 : Math.max(1, Math.round(frame / dt));
+    if (this._cost > 0) steps = Math.max(1, Math.min(steps, Math.trunc(longest / this._cost)));
+    steps = 2 ** Math.floor(Math.log2(steps)); // parts of push and turn by a power of two are exact
+    this._stepsAsked = Math.max(0, this._stepsAsked - steps);
+    const held = /** @type {HeldInstruments} */ (this._held);
+    const [push, turn] = held.inAStep(pushSpeed * this._push * dt, turnSpeed * this._turn * dt);
+    const began = performance.now();
+    const numbers = this._program.step(push, turn, held.held, steps);
+    const cost = (performance.now() - began) / 1000 / steps;
+    this._cost = this._cost === 0 ? cost : this._cost + smoothing * (cost - this._cost);
+    const size = this._layout.reduce((sum, [, count]) => sum + count, HEAD);
+    const channels = numbers[2] || numbers.length !== size ? this._take(this._program.ask({ session: "state" }))
+      : this._channels(numbers[0], numbers[1], split(this._layout, numbers));
+    held.add(push, turn, numbers[0], this._state);
+    this._largest = largestShown(channels).map((value, k) => Math.max(value, this._largest[k] ?? 0));
+    if (this._onTheWay < mostInFlight) {
+      this._onTheWay++;
+      const values = channels.flatMap((channel) => [...channel.values]);
+      this._tell({ frame: Float64Array.from([this._mark, this._opened, ...this._largest, ...values]).buffer });
+    }
+    if (this._outcome) {
+      this._isPaused = true;
+      this._say();
+    }
+    const now = performance.now();
+    this._next(Math.min(Math.max(this._due + (1000 * steps * dt) / this._pace, now - 1000 * behind),
+      now + 1000 * longestWait));
+  }
+
+  /** The state of an answer. @param {Message} answer */
+  _take(answer) {
+    const state = arraysOf(answer);
+    this._layout = Object.entries(state).map(([name, { length }]) => /** @type {const} */ ([name, length]));
+    this._outcome = answer.outcome ? `${answer.outcome}: ${answer.message}` : "";
+    return this._channels(answer.step, answer.time, state);
+  }
+
+  /** @param {number} step @param {number} time @param {State} state */
+  _channels(step, time, state) {
+    this._state = { ...state, step: Float64Array.of(step), time: Float64Array.of(time) };
+    const rate = this._cost > 0 ? this._parameters?.timeStep / this._cost : NaN;
+    return makeChannels(this._rules, this._parameters ?? {}, this._state, this._walls.length > 0,
+      [1000 * this._cost, rate]);
+  }
+
+  _readWalls() {
+    const bytes = this._program.walls();
+    const view = new DataView(bytes.buffer, bytes.byteOffset);
+    const walls = [];
+    for (let at = 0; at < bytes.length;) {
+      const [corners, sides] = [3 * view.getInt32(at, true), 3 * view.getInt32(at + 4, true)];
+      const part = (/** @type {number} */ from, /** @type {number} */ to) => bytes.slice(at + from, at + to).buffer;
+      walls.push({ kind: walls.length === 0 && this._parameters?.vessel ? "vessel" : "obstacle",
+        vertices: Float32Array.from(new Float64Array(part(8, 8 + 8 * corners))),
+        triangles: new Uint32Array(part(8 + 8 * corners, 8 + 8 * corners + 4 * sides)) });
+      at += 8 + 8 * corners + 4 * sides;
+    }
+    return walls;
+  }
+
+  /** Says what could not be done. After what is no refusal there is no program any more. @param {any} error */
+  _fail(error) {
+    this._problem = error instanceof Refusal ? error.message : `the simulation has ended unexpectedly: ${error.message}`;
+    this._isPaused = true;
+    if (!(error instanceof Refusal)) this._parameters = null;
+  }
+
+  _say() {
+    const { changed, choices, paces } = this._rules;
+    const parameters = this._parameters ?? {};
+    const values = Object.fromEntries(changed.filter((/** @type {string} */ key) => key in parameters)
+      .map((/** @type {string} */ key) => [key, parameters[key]]));
+    this._tell({ status: {
+      hand: true, isFree: false, isPaused: this._isPaused, isSteered: this._isSteered, opened: this._opened,
+      scene: this._scene, scenes: this._scenes, problem: this._problem, values,
+      choices: Object.fromEntries(Object.entries(choices).filter(([key]) => key in values)),
+      pace: this._pace, paces, outcome: this._outcome,
+      ...(this._held?.status() ?? { held: 0, instruments: [], chosen: [], named: [], steered: "no run is open" }),
+    } });
+  }
+}
+
+/** @param {Message} answer @returns {State} */
+function arraysOf(answer) {
+  return Object.fromEntries(Object.entries(answer).filter(([name]) => ARRAYS.test(name)).map(([name, text]) =>
+    [name, new Float64Array(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer)]));
+}
+
+/** @param {(readonly [string, number])[]} layout @param {Float64Array} numbers @returns {State} */
+function split(layout, numbers) {
+  let at = HEAD;
+  return Object.fromEntries(layout.map(([name, count]) => [name, numbers.subarray(at, at += count)]));
+}

@@ -1,0 +1,135 @@
+// @ts-check
+/**
+ * Steering that a drive table can repeat to the bit, as guidewire/viewer/steered.py and held.py have it: a test compares
+ * the two. Constants come from there, as rules.
+ *
+ * @typedef {{grain: number, turnGrain: number, constant: number, stopped: number, tries: number}} Rules
+ * @typedef {Record<string, any>} Parameters effective values
+ */
+
+/** To the nearest whole number, of two the even one. @param {number} x */
+function round(x) {
+  const near = Math.round(x);
+  return near - x === 0.5 && near % 2 !== 0 ? near - 1 : near;
+}
+
+/** The next double above or below. @param {number} x not 0 @param {boolean} isAbove */
+function next(x, isAbove) {
+  const bits = new BigInt64Array(new Float64Array([x]).buffer);
+  bits[0] += (x > 0) === isAbove ? 1n : -1n;
+  return new Float64Array(bits.buffer)[0];
+}
+
+/** A push in a step, units, near a wanted one, for which metres * push is a multiple of the grain.
+ * @param {Rules} rules @param {number} wanted @param {number} metres */
+export function exactPush(rules, wanted, metres) {
+  const middle = round((metres * wanted) / rules.grain);
+  for (let k = 0; k < rules.tries; k++) {
+    const displacement = (middle + ((k + 1) >> 1) * (k % 2 ? 1 : -1)) * rules.grain;
+    const push = displacement / metres;
+    if (displacement === 0) return 0;
+    for (const near of [push, next(push, true), next(push, false)]) {
+      if (metres * near === displacement) return near;
+    }
+  }
+  throw new Error(`no push near ${wanted} units gives an exact displacement`);
+}
+
+/** A turn in a step, rad, near a wanted one, that is a multiple of the grain. @param {Rules} rules
+ * @param {number} wanted */
+export function exactTurn(rules, wanted) {
+  return round(wanted / rules.turnGrain) * rules.turnGrain;
+}
+
+/** What a hand has done with a hub since a run's start. */
+export class Steered {
+  /** @param {Rules} rules @param {Parameters} parameters */
+  constructor(rules, parameters) {
+    this._rules = rules;
+    /** Why no table says what was steered; empty where one does. */
+    this.problem = parameters.solver === "direct" && parameters.drive === "displace" ? ""
+      : "only a wire of solver direct with drive \"displace\" takes a drive table";
+    this._dt = parameters.timeStep;
+    this._metres = parameters.metresPerUnit ?? 1e-3;
+    /** Step, m, rad. */
+    this._rows = [[0, 0, 0]];
+  }
+
+  /**
+   * Notes a call.
+   * @param {number} push in each step, units @param {number} turn in each step, rad @param {number} step after it
+   * @param {number | null} reached insertion after it, m, of a hub that others may stop
+   */
+  add(push, turn, step, reached) {
+    if (this.problem) return;
+    let [before, insertion, rotation] = this._rows[this._rows.length - 1];
+    const displacement = this._metres * push;
+    const asked = insertion + displacement * (step - before);
+    const end = reached !== null && Math.abs(reached - asked) > this._rules.stopped ? reached : null;
+    while (before < step) {
+      insertion += displacement;
+      if (end !== null) insertion = displacement > 0 ? Math.min(insertion, end) : Math.max(insertion, end);
+      rotation += turn;
+      this._rows.push([++before, insertion, rotation]);
+    }
+  }
+
+  /** The table, as `driveFile` takes it. Around each multiple of dt it is constant. */
+  toCsv() {
+    const lines = ["time,insertion,rotation", "0.0,0.0,0.0"];
+    for (const [step, insertion, rotation] of this._rows) {
+      for (const side of step ? [-1, 1] : [1]) {
+        lines.push(`${step * this._dt + side * this._rules.constant * this._dt},${insertion},${rotation}`);
+      }
+    }
+    return `${lines.join("\n")}\n`;
+  }
+}
+
+/** The wire and the catheters of a run; one of their hubs is held at a time. */
+export class HeldInstruments {
+  /**
+   * @param {Rules} rules @param {Parameters} parameters @param {{title: string, name: string, key: string,
+   *     choices: string[]}[]} instruments as described @param {boolean} hasHand @param {number} held
+   */
+  constructor(rules, parameters, instruments, hasHand, held) {
+    this._rules = rules;
+    this._parameters = parameters;
+    this._instruments = instruments;
+    this._hasHand = hasHand;
+    this.held = held;
+    this.steered = instruments.map(() => new Steered(rules, parameters));
+  }
+
+  /** What is asked of the held hub in a step, units and rad. @param {number} push @param {number} turn */
+  inAStep(push, turn) {
+    if (!this._hasHand) return [0, 0];
+    const metres = this._parameters.metresPerUnit;
+    return [metres === undefined ? push : exactPush(this._rules, push, metres), exactTurn(this._rules, turn)];
+  }
+
+  /** Notes a call. @param {number} push @param {number} turn in each step @param {number} step after it
+   * @param {import("./channels.js").State} state */
+  add(push, turn, step, state) {
+    const catheters = this._parameters.catheters ?? [];
+    this.steered.forEach((one, k) => {
+      const own = k === 0 ? this._parameters : catheters[k - 1];
+      const isFree = !catheters.length || own.hubForceLimit;
+      const reached = isFree ? null : (k === 0 ? state.hub : state[`catheter${k}`])[0];
+      one.add(k === this.held ? push : 0, k === this.held ? turn : 0, step, reached);
+    });
+  }
+
+  /** From here on no table says what was steered. @param {string} why */
+  invalidate(why) {
+    for (const one of this.steered) one.problem ||= why;
+  }
+
+  /** What a page shows of the instruments. */
+  status() {
+    return { held: this.held, instruments: this._instruments.map(({ title }) => title),
+      chosen: this._instruments.map(({ name }) => name),
+      named: this._instruments.map(({ choices }) => choices).filter(({ length }) => length),
+      steered: this.steered[0].problem };
+  }
+}

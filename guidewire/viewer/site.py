@@ -1,0 +1,175 @@
+"""`guidewire.py site`: the page with the simulation in it, as files for any web server.
+
+    index.html, boot.js, style.css, page.json.gz    the page; its modules are packed
+    show.json, pictures/                            scenes, and what the page shares with guidewire/viewer/live.py
+    worker.js, run.js, channels.js, steered.js      what steps a scene in the browser
+    framework/                                      the core for browsers, packed but for three modules
+    texts.json.gz, files/                           parameter files, tables, instruments; meshes
+
+Packed files are unpacked by the page, so no server has to compress.
+"""
+
+from __future__ import annotations
+
+import json
+import os
+import shutil
+import sys
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from PIL import Image
+
+from guidewire.prepare import ROOT, PreparationError
+from guidewire.runs import building, checking
+from guidewire.runs.key_table import read_key_table
+from guidewire.sessions.session import SessionError, session_of
+from guidewire.viewer.export import modules_of, pack, page_of_packed
+from guidewire.viewer.live import rules
+from guidewire.viewer.parts import PAGE, three
+from guidewire.viewer.server import page_files
+
+SCENES = {    # of params: title and sentence
+    "insertion": ("Arch", "A simple wire, pushed into a branch of an aortic arch."),
+    "insertion-accurate": ("Arch, nitinol wire", "A nitinol wire of 0.8 mm with a soft bent tip in the same arch."),
+    "sheath": ("Forked artery", "A wire of 0.36 mm out of its sheath: turn the bent tip to choose a branch."),
+    "catheter": ("Catheter in a bend", "A 5 F catheter over a 0.035 inch wire: the key I selects one of them."),
+    "catheter-branch": ("Catheter into a branch", "Catheter to the ostium, wire into the branch, catheter after it."),
+    "catheter-sheath": ("Catheter in a forked artery", "A 5 F catheter over a 0.035 inch wire, both out of a sheath."),
+    "microcatheter": ("Siphon", "A microcatheter over a 0.014 inch wire, out of a guide catheter through a siphon."),
+    "guide-catheter": ("Three instruments", "A microcatheter over a wire in a guide catheter."),
+}
+_WORKER = ("worker.js", "run.js", "channels.js", "steered.js")
+_PLAIN = (".js",)    # of the framework: a browser loads modules as they are
+_SHOW = "show.json"
+_TEXTS = (".json", ".csv")
+_PIXELS = 320
+_PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what belongs to the vessel of a scene
+_SEEN = 0.8    # part of its file's drive after which a scene is pictured
+_POLICY = ("default-src 'self'; script-src 'self' blob: 'wasm-unsafe-eval'; img-src 'self' data:; object-src 'none'; "
+           "base-uri 'none'")
+_BOOT = (f'<meta http-equiv="Content-Security-Policy" content="{_POLICY}">\n'
+         '<script type="module" src="./boot.js"></script>')
+
+
+@dataclass(frozen=True)
+class _Scene:
+    """A scene of the site.
+
+    Attributes
+    ----------
+    file : its name there.
+    files : what it needs, by their names there, itself among them.
+    picture : grey levels.
+    """
+
+    file: str
+    title: str
+    sentence: str
+    files: dict[str, Path]
+    picture: Image.Image
+
+
+def write_site(out: Path, scenes: Sequence[Path], is_compiled_ahead: bool, build_runner: Callable[[], list[str]]
+               ) -> int:
+    """Write the folder; nothing is left of a part of it.
+
+    Raises
+    ------
+    PreparationError : with one line, where a scene cannot be used or the folder is another one's.
+    """
+    if out.exists() and not (out / _SHOW).is_file() and (not out.is_dir() or any(out.iterdir())):
+        raise PreparationError(f"{out}: is there already and no site: give another folder")
+    checking.check_out(out.parent)
+    keys = read_key_table(build_runner())
+    found = [_read(file) for file in scenes or [ROOT / "params" / f"{name}.json" for name in SCENES]]
+    framework = building.build_browser(is_compiled_ahead, _say)
+    partial = out.with_name(out.name + ".partial")
+    shutil.rmtree(partial, ignore_errors=True)
+    try:
+        choices = {name: list(key.words) for name, key in keys.items() if key.words}
+        _write(partial, found, choices, framework)
+        shutil.rmtree(out, ignore_errors=True)
+        os.replace(partial, out)
+    finally:
+        shutil.rmtree(partial, ignore_errors=True)
+    meshes = sum(file.stat().st_size for file in (out / "files").rglob("*.gz"))
+    whole = sum(file.stat().st_size for file in out.rglob("*") if file.is_file())
+    print(f"site: {os.path.relpath(out)} ({len(found)} scenes; {(whole - meshes) / 1e6:.1f} MB, "
+          f"and meshes of {meshes / 1e6:.1f} MB)\n"
+          f"try it: python3 -m http.server --directory {os.path.relpath(out)}")
+    return 0
+
+
+def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]], framework: Path) -> None:
+    for name in ("framework", "pictures", "files"):
+        (folder / name).mkdir(parents=True)
+    (folder / "index.html").write_text(page_of_packed(_BOOT), encoding="utf-8")
+    (folder / "page.json.gz").write_bytes(modules_of(page_files(three(_say))))
+    for name in ("boot.js", "style.css", *_WORKER):
+        shutil.copyfile(PAGE / name, folder / name)
+    for file in framework.iterdir():
+        _put(folder / "framework" / file.name, file, file.suffix in _PLAIN)
+    texts = {f"instruments/{file.name}": file for file in sorted((ROOT / "instruments").glob("*.json"))}
+    listed = []
+    for scene in scenes:
+        picture = f"pictures/{Path(scene.file).stem}.png"
+        scene.picture.save(folder / picture)
+        meshes = [name for name in scene.files if not name.endswith(_TEXTS)]
+        listed.append({"file": scene.file, "title": scene.title, "sentence": scene.sentence, "picture": picture,
+                       "meshes": meshes})
+        texts |= {name: file for name, file in scene.files.items() if name.endswith(_TEXTS)}
+        for name in meshes:
+            (folder / "files" / name).parent.mkdir(parents=True, exist_ok=True)
+            _put(folder / "files" / name, scene.files[name], False)
+    block = json.dumps({name: file.read_text(encoding="utf-8") for name, file in texts.items()}).encode()
+    (folder / "texts.json.gz").write_bytes(pack(block))
+    wire = json.loads((ROOT / "params" / "sheath.json").read_text(encoding="utf-8"))
+    own = {key: value for key, value in wire.items() if key not in _PLACED}    # the wire of a mesh that is dropped
+    show = {"isLive": True, "recordings": 0, "site": {"rules": rules(choices), "scenes": listed, "wire": own}}
+    (folder / _SHOW).write_text(json.dumps(show), encoding="utf-8")
+
+
+def _put(place: Path, file: Path, is_plain: bool) -> None:
+    if is_plain:
+        shutil.copyfile(file, place)
+    else:
+        place.with_name(place.name + ".gz").write_bytes(pack(file.read_bytes()))
+
+
+def _read(file: Path) -> _Scene:
+    """A scene with what it names, pictured on the way of its own drive."""
+    checking.check_file(file)
+    try:
+        with session_of(file, native=False) as session:
+            steps = int(_SEEN * session.parameters["maxSimulationSteps"])
+            session.step(steps=max(1, steps))
+            picture = Image.fromarray(session.picture(pixels=_PIXELS))
+            named = [file, *_named(session.parameters)]
+    except SessionError as error:
+        raise PreparationError(str(error)) from error
+    files = {}
+    own = (file.parent / "instruments").glob("*.json")
+    for one in (*named, *own):
+        name = os.path.relpath(one, file.parent)
+        if name.startswith(".."):
+            raise PreparationError(f"{file}: names {name}: a site takes files of the scene's own folder and below")
+        files["params/" + Path(name).as_posix()] = Path(one)
+    title, sentence = SCENES.get(file.stem, (file.stem.replace("-", " "), ""))
+    return _Scene(f"params/{file.name}", title, sentence, files, picture)
+
+
+def _named(value: Any) -> Iterator[Path]:
+    """The files among the texts of effective values: there each has the path at which it was found."""
+    if isinstance(value, str):
+        if value.endswith((".csv", ".json", ".obj", ".stl", ".ply")) and Path(value).is_file():
+            yield Path(value)
+    elif isinstance(value, (dict, list)):
+        for one in value.values() if isinstance(value, dict) else value:
+            yield from _named(one)
+
+
+def _say(line: str) -> None:
+    print(f"guidewire: {line}", file=sys.stderr, flush=True)

@@ -1,0 +1,233 @@
+"""What a page without a server computes itself, against the server's: channels, frames, instruments, drive tables."""
+
+import base64
+import json
+import random
+import shutil
+import subprocess
+
+import numpy as np
+import pytest
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import connected_components
+
+from guidewire.prepare import ROOT
+from guidewire.sessions.session import Session
+from guidewire.viewer import live
+from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.parts import PAGE
+from guidewire.viewer.recording import facts_of, largest_shown, radius_of, sheath_of
+from guidewire.viewer.steered import RULES, exact_push, exact_turn
+
+SCENES = [*(pytest.param(name, {}, id=name) for name in ("insertion", "insertion-accurate", "catheter-branch")),
+          pytest.param("cantilever", {"solver": "xpbd", "timeStep": 0.001}, id="xpbd"),
+          pytest.param("sheath", {"sheath": {}, "inlet": None}, id="sheath", marks=pytest.mark.long("one sheath is there"))]
+
+
+def follow(script, **data):
+    """What a module of the page prints as JSON; `data` and `rules` are there."""
+    node = shutil.which("node")
+    if node is None:
+        pytest.skip("no Node.js")
+    text = f"""import {{ readFileSync }} from "node:fs";
+        const data = JSON.parse(readFileSync(0, "utf-8"));
+        const numbers = (text) => new Float64Array(Uint8Array.from(atob(text), (one) => one.charCodeAt(0)).buffer);
+        const told = (values) => Buffer.from(Float64Array.from(values).buffer).toString("base64");
+        {script}"""
+    done = subprocess.run([node, "--input-type=module", "-e", text], input=json.dumps(data), cwd=PAGE, text=True,
+                          capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    return json.loads(done.stdout)
+
+
+def doubles(text):
+    return np.frombuffer(base64.b64decode(text), "<f8")
+
+
+class Recorder:
+    """A session's host that keeps its answers."""
+
+    def __init__(self, host):
+        self.host, self.answers = host, []
+
+    def __getattr__(self, name):
+        return getattr(self.host, name)
+
+    def ask(self, line):
+        self.answers.append(self.host.ask(line))
+        return self.answers[-1]
+
+
+CHANNELS = """
+import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./channels.js";
+import { Run } from "./run.js";
+const messages = [];
+const queue = [...data.answers];
+// The program's answers are those that Python's session had: a page's own run takes them, one after the other.
+const program = { ask: ({ session }) => (session === "describe" ? data.described : queue.shift()),
+  walls: () => new Uint8Array(Buffer.from(data.walls, "base64")), step: () => new Float64Array([0, 0, 1, 0]) };
+const run = new Run(program, data.rules, [], 4, (message) => messages.push(message));
+run.hear({ do: "open", scene: "scene", hand: data.hand });
+run.hear({ do: "pause", value: true });
+const { recording } = messages.find((message) => message.recording);
+for (let k = 0; k < data.steps; k++) {
+  run.hear({ do: "step" });
+  run._go();
+  run.hear({ do: "shown" });
+}
+const frames = messages.filter((message) => message.frame).map(({ frame }) => told(new Float64Array(frame)));
+run._ports.port1.close();
+console.log(JSON.stringify({ frames, status: messages.filter((message) => message.status).pop().status,
+  recording: { ...recording, walls: recording.walls.map(({ kind, vertices, triangles }) =>
+    [kind, told(vertices), told(triangles)]), channels: recording.channels.map(({ values, ...channel }) =>
+    ({ ...channel, values: told(values) })) } }));
+"""
+
+
+@pytest.mark.parametrize("name, changes", SCENES)
+def test_channels_frames_and_status_are_those_of_the_server(runner_command, name, changes):
+    file = ROOT / "params" / f"{name}.json"
+    server = live.LiveRun({name: file}, name, {"solver": ["direct", "pbd"]})
+    with Session(file, hand=name != "cantilever", native=False, **live._ENDLESS, **changes) as session:
+        session._host = recorder = Recorder(session._host)
+        described, surfaces = session.describe(), session.walls()
+        walls = recorder.answers.pop()["walls"]
+        recorder.answers.clear()
+        server._session, server._walls = session, surfaces
+        server._instruments.begin(session, described)
+        states = [session.reset()]
+        states += [session.step(push=0.4 * session.hand, turn=0.01 * session.hand) for _ in range(4)]
+        wanted = [server._channels(session, state) for state in states]
+        parameters = session.parameters
+        status = server._status(None)
+    answers = [{**answer, "effective": dict(parameters), "hand": session.hand, "warnings": ["one"]}
+               for answer in recorder.answers]
+    got = follow(CHANNELS, answers=answers, described=described, walls=walls, rules=live.rules(server._choices),
+                 hand=session.hand, steps=len(states) - 1)
+    recording = got["recording"]
+    sheath = sheath_of(parameters, server._numbers(session, states[0]))
+    assert recording["facts"] == [list(fact) for fact in facts_of(parameters, None)]
+    assert recording["radius"] == radius_of(parameters) and recording["warnings"] == ["one"]
+    assert (sheath is None) == (recording["sheath"] is None)
+    if sheath is not None:
+        np.testing.assert_allclose(recording["sheath"], sheath, rtol=1e-13, atol=1e-9)
+    for (kind, vertices, triangles), surface in zip(recording["walls"], surfaces, strict=True):
+        np.testing.assert_array_equal(doubles(vertices), surface.vertices.astype("f4").ravel())
+        np.testing.assert_array_equal(doubles(triangles), surface.triangles.ravel())
+        assert kind == ("vessel" if surface is surfaces[0] and parameters.get("vessel") else "obstacle")
+    for channel, own in zip(wanted[0], recording["channels"], strict=True):
+        assert (own["name"], own["label"], own["unit"], own["place"], own["isSigned"], own["width"]) == (
+            channel.name, channel.label, channel.unit, channel.place, channel.is_signed, channel.values.shape[1])
+    most = largest_shown(wanted[0])
+    timed = [channel.name in ("stepTime", "realTime") for channel in wanted[0]]
+    for frame, channels in zip(got["frames"], wanted[1:], strict=True):
+        numbers = doubles(frame)
+        most = np.maximum(most, largest_shown(channels))
+        assert numbers[1] == 5    # scenes opened
+        for k, channel in enumerate(channels):
+            if not timed[k]:
+                assert numbers[2 + k] == pytest.approx(most[k], rel=1e-12, abs=1e-12), channel.name
+        at = 2 + len(channels)
+        for k, channel in enumerate(channels):
+            values = numbers[at:at + channel.values.size]
+            at += channel.values.size
+            exact = channel.name.startswith(("positions", "time", "step", "hub", "contactForces", "tip", "inBody"))
+            exact &= channel.name != "hubForce"
+            if not timed[k]:    # a processor's root and arc cosine are another library's here
+                near = {"rtol": 0.0, "atol": 0.0} if exact else {"rtol": 1e-9, "atol": 1e-7}
+                np.testing.assert_allclose(values, channel.values.ravel(), **near, err_msg=channel.name)
+    same = set(status) - {"opened", "scene", "scenes", "hand", "isFree", "isPaused"}
+    told = json.loads(json.dumps(status))
+    assert {key: got["status"][key] for key in same} == {key: told[key] for key in same}
+    assert set(got["status"]) == set(status)
+
+
+STEERED = """
+import { exactPush, exactTurn, HeldInstruments } from "./steered.js";
+const exact = data.pushes.map(([push, metres]) => exactPush(data.rules, push, metres));
+const turns = data.turns.map((turn) => exactTurn(data.rules, turn));
+const held = new HeldInstruments(data.rules, data.parameters, data.described.instruments, true, 0);
+const moves = data.calls.map(({ hub, push, turn, step, insertions }) => {
+  held.held = hub;
+  const move = held.inAStep(push, turn);
+  held.add(...move, step, { hub: [insertions[0]], catheter1: [insertions[1]] });
+  return move;
+});
+console.log(JSON.stringify({ exact: told(exact), turns: told(turns), moves: told(moves.flat()),
+  tables: held.steered.map((one) => one.toCsv()) }));
+"""
+
+
+def test_pushes_turns_and_drive_tables_are_those_of_the_server(runner_command):
+    dice = random.Random(65)
+    pushes = [(dice.choice([-1, 1]) * 10 ** dice.uniform(-9, 2), metres) for metres in (1e-3, 1.0, 0.0254, 1 / 3e3)
+              for _ in range(500)]
+    turns = [dice.uniform(-4, 4) for _ in range(500)] + [k * 0.5 * RULES["turnGrain"] for k in range(-4, 5)]
+    calls = []
+    with Session(ROOT / "params" / "catheter-branch.json", hand=True, native=False, **live._ENDLESS) as session:
+        own = HeldInstruments()
+        described = session.describe()
+        own.begin(session, described)
+        for _ in range(60):    # the catheter's hub runs against the wire's, and is stopped there
+            hub, steps = dice.choice([0, 1, 1, 1]), 2 ** dice.randrange(3)
+            call = {"hub": hub, "push": (5.0 if hub else -3.0) * dice.random(), "turn": dice.uniform(-0.1, 0.1)}
+            own.hold(hub)
+            push, turn = own.in_a_step(call["push"], call["turn"])
+            state = session.step(push * steps, turn * steps, steps, hub)
+            own.add(hub, push, turn, steps, state)
+            calls.append({**call, "step": state.step, "moved": (push, turn),
+                          "insertions": [state.hub.insertion, state.catheters[0].insertion]})
+        parameters = dict(session.parameters)
+    got = follow(STEERED, pushes=pushes, turns=turns, rules=RULES, parameters=parameters, described=described,
+                 calls=calls)
+    np.testing.assert_array_equal(doubles(got["exact"]), [exact_push(*one) for one in pushes])
+    np.testing.assert_array_equal(doubles(got["turns"]), [exact_turn(one) for one in turns])
+    np.testing.assert_array_equal(doubles(got["moves"]), np.ravel([one["moved"] for one in calls]))
+    tables = [np.loadtxt(own.to_csv(k).splitlines(), delimiter=",", skiprows=1) for k in range(2)]
+    assert max(np.diff(tables[1][:, 1])) > 0 and (np.diff(tables[1][:, 1]) == 0).sum() > 100
+    for mine, table in zip(got["tables"], tables, strict=True):
+        np.testing.assert_array_equal(np.loadtxt(mine.splitlines(), delimiter=",", skiprows=1), table)
+
+
+RIMS = """
+import { sceneOf } from "./rims.js";
+console.log(JSON.stringify(data.files.map(([name, text]) =>
+  sceneOf(name, new Uint8Array(Buffer.from(text, "base64")), data.wire))));
+"""
+
+
+def test_a_wire_starts_at_the_widest_end_of_a_mesh_alone(runner_command, tmp_path):
+    file = ROOT / "params" / "meshes" / "artery.obj"
+    rows = [line.split() for line in file.read_text().splitlines()]
+    vertices = np.array([row[1:4] for row in rows if row[:1] == ["v"]], dtype=float)
+    triangles = np.array([[one.split("/")[0] for one in row[1:]] for row in rows if row[:1] == ["f"]], dtype=int) - 1
+    edges, counts = np.unique(np.sort(triangles[:, [0, 1, 1, 2, 2, 0]].reshape(-1, 2)), axis=0, return_counts=True)
+    a, b = edges[counts == 1].T
+    number = len(vertices)
+    _, rim_of = connected_components(coo_matrix((np.ones(len(a)), (a, b)), (number, number)), directed=False)
+    ends = np.unique([a, b])
+    rims = [vertices[ends[rim_of[ends] == rim]] for rim in np.unique(rim_of[ends])]
+    radii = sorted((np.linalg.norm(rim - rim.mean(axis=0), axis=1).mean() for rim in rims), reverse=True)
+    corners = vertices[triangles].astype("<f4")
+    stl = np.zeros(len(corners), dtype=[("normal", "<f4", 3), ("corners", "<f4", (3, 3)), ("more", "<u2")])
+    stl["corners"] = corners
+    (tmp_path / "artery.stl").write_bytes(bytes(80) + np.uint32(len(stl)).tobytes() + stl.tobytes())
+    text = "\n".join("vertex {} {} {}".format(*corner) for corner in corners.reshape(-1, 3).tolist())
+    files = [("artery.obj", file.read_bytes()), ("artery.stl", (tmp_path / "artery.stl").read_bytes()),
+             ("text.stl", f"solid s\n{text}\nendsolid".encode())]
+    wire = json.loads((ROOT / "params" / "sheath.json").read_text())
+    wire = {key: value for key, value in wire.items() if key not in ("vessel", "sheath", "guidewireOffset")}
+    got = follow(RIMS, wire=wire, files=[(name, base64.b64encode(content).decode()) for name, content in files])
+    for (name, content), made in zip(files, got, strict=True):
+        ends = made["ends"]["ends"]
+        assert len(ends) == len(radii) >= 1
+        np.testing.assert_allclose(ends[0]["centre"], [0.0, 0.0, -20.0], atol=0.05)    # as params/sheath.json says
+        np.testing.assert_allclose(ends[0]["direction"], [0.0, 0.0, 1.0], atol=0.05)
+        np.testing.assert_allclose([end["radius"] for end in ends], radii, rtol=1e-5)
+        (tmp_path / name).write_bytes(content)
+        (tmp_path / f"{name}.ends.json").write_text(json.dumps(made["ends"]))
+        (tmp_path / f"{name}.json").write_text(json.dumps(made["scene"]))
+    with Session(tmp_path / "artery.obj.json", hand=True, native=False, **live._ENDLESS) as session:
+        before = session.state.positions[-1]
+        after = session.step(push=30.0, steps=20).positions[-1]
+    assert before[2] < after[2] and after[2] > 5.0

@@ -1,0 +1,193 @@
+"""`guidewire.py site`: the folder, and its page in browsers: steered by keys, repeated by the runner."""
+
+import gzip
+import http.server
+import json
+import subprocess
+import threading
+from functools import partial
+
+import numpy as np
+import pytest
+
+from guidewire.commands import commands
+from guidewire.logs.logs import read_log
+from guidewire.prepare import ROOT, PreparationError
+from guidewire.runs import building
+from guidewire.sessions.session import Session
+from guidewire.viewer import live
+from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.tests.browsing import from_npm
+
+SCENES = ("insertion", "sheath", "catheter-branch")
+MODEL = "viewer.shown.model"
+OPEN = ["until", f"globalThis.viewer?.shown?.model && viewer.stage.drawn > 0"]
+HUB = f"{MODEL}.recording.at('hubInsertion', {MODEL}.recording.count - 1)[0]"
+CATHETER = HUB.replace("hubInsertion", "hub1Insertion")
+STEP = f"{MODEL}.recording.at('step', {MODEL}.recording.count - 1)[0]"
+PAUSED = ["until", "viewer.shown.status.isPaused"]
+FASTEST = ["choose", ["#pace", "10"]]
+
+
+def site(*words):
+    return commands.run(commands.parse(["site", *map(str, words)]))
+
+
+@pytest.fixture
+def framework(tmp_path, monkeypatch):
+    """A folder that stands for the core for browsers."""
+    folder = tmp_path / "framework"
+    folder.mkdir()
+    (folder / "dotnet.js").write_text("export const dotnet = 1;")
+    (folder / "core.wasm").write_bytes(b"\0asm" * 1000)
+    monkeypatch.setattr(building, "build_browser", lambda is_ahead, tell: folder)
+    from_npm("dependencies")
+
+
+def test_a_site_has_all_that_its_scenes_name_and_replaces_an_earlier_one(framework, runner_command, tmp_path, capsys):
+    out = tmp_path / "site"
+    assert site(out, ROOT / "params" / "catheter-branch.json") == 0 and "1 scenes" in capsys.readouterr().out
+    show = json.loads((out / "show.json").read_text())["site"]
+    (scene,) = show["scenes"]
+    assert scene["file"] == "params/catheter-branch.json" and scene["sentence"]
+    assert scene["meshes"] == ["params/meshes/arch.obj"] and (out / scene["picture"]).stat().st_size > 1000
+    texts = json.loads(gzip.decompress((out / "texts.json.gz").read_bytes()))
+    for name in ("params/catheter-branch.json", "params/catheter-branch.csv", "params/catheter-branch-wire.csv",
+                 "instruments/catheter-angled-5f.json"):
+        assert texts[name] == (ROOT / name).read_text()
+    assert gzip.decompress((out / "files/params/meshes/arch.obj.gz").read_bytes()) == (
+        ROOT / "params/meshes/arch.obj").read_bytes()
+    assert gzip.decompress((out / "framework/core.wasm.gz").read_bytes()) == b"\0asm" * 1000
+    assert (out / "framework/dotnet.js").is_file() and show["rules"]["choices"]["solver"]
+    assert site(out, ROOT / "params" / "sheath.json") == 0    # an earlier site is replaced
+    assert not (out / "files/params/meshes/arch.obj.gz").exists() and not list(tmp_path.glob("*.partial"))
+
+
+def test_what_cannot_be_a_site_is_one_line_and_nothing_is_written(framework, runner_command, tmp_path):
+    (tmp_path / "mine").mkdir()
+    (tmp_path / "mine" / "notes.txt").write_text("mine")
+    with pytest.raises(PreparationError, match="is there already and no site"):
+        site(tmp_path / "mine")
+    (tmp_path / "scene.json").write_text('{"solver": "direct", "numberRodElement": 3}')
+    with pytest.raises(PreparationError, match="numberRodElements"):
+        site(tmp_path / "out", tmp_path / "scene.json")
+    (tmp_path / "mine" / "far.json").write_text(json.dumps({
+        "vessel": {"shape": "mesh", "file": str(ROOT / "params/meshes/arch.obj"), "openRims": {"entrance": [0, 0, -320]}},
+        "guidewireLength": 300.0, "guidewireOffset": -310.0, "maxSimulationSteps": 2}))
+    with pytest.raises(PreparationError, match="own folder and below"):
+        site(tmp_path / "out", tmp_path / "mine" / "far.json")
+    assert not list(tmp_path.glob("out*")) and (tmp_path / "mine" / "notes.txt").read_text() == "mine"
+
+
+@pytest.fixture(scope="module")
+def address(runner_command, tmp_path_factory):
+    """Of a plain server of files; with the site of three scenes."""
+    from_npm("dependencies")
+    folder = tmp_path_factory.mktemp("served") / "site"
+    assert site(folder, *(ROOT / "params" / f"{name}.json" for name in SCENES)) == 0
+    class Quiet(http.server.SimpleHTTPRequestHandler):
+        def log_message(self, *_):
+            pass
+    with http.server.ThreadingHTTPServer(("127.0.0.1", 0), partial(Quiet, directory=folder)) as server:
+        threading.Thread(target=server.serve_forever, daemon=True).start()
+        yield f"http://127.0.0.1:{server.server_port}/"
+        server.shutdown()
+
+
+BROWSERS = pytest.mark.parametrize("browser", ["browse", "firefox"])
+LONG = pytest.mark.long("the core for browsers is built, and interpreted: minutes")
+
+
+def steered(request, browser, address, name, *orders):
+    """What was seen, and the drive tables that the page saves; without another network."""
+    count = 2 if name.startswith("catheter") else 1
+    tables = f"Promise.all([0, 1].slice(0, {count}).map((k) => viewer.shown._connection.steered(k)))"
+    answer = request.getfixturevalue(browser)(
+        ["open", f"{address}?scene={name}"], OPEN, FASTEST, ["see", "document.activeElement.blur()"], *orders,
+        ["press", " "], PAUSED, ["see", f"[...{MODEL}.tip]"], ["see", STEP], ["see", tables])
+    assert all(asked.startswith((address, "blob:", "data:")) for asked in answer["asked"])
+    return answer["seen"][1:]
+
+
+def repeated(runner_command, folder, name, steps, tables):
+    """The tip of the runner's run with these tables."""
+    words = []
+    for k, table in enumerate(tables):
+        assert table["ok"], table["text"]
+        (folder / f"{k}.csv").write_text(table["text"])
+        own = "" if k == 0 else f"catheters[{k - 1}]."
+        words += [f"-{own}driveFile", str(folder / f"{k}.csv"), *([] if k else ["-insertionSpeed", "0"])]
+    subprocess.run([*runner_command, "-parameters", str(ROOT / "params" / f"{name}.json"), "-out", str(folder / "run"),
+                    *words, "-maxSimulationSteps", str(int(steps)), "-deltaThreshold", "0"], check=True,
+                   capture_output=True)
+    return read_log(folder / "run", "all").positions[-1, -1]
+
+
+@LONG
+@BROWSERS
+def test_gains_steered_by_keys_into_a_branch_have_the_bits_of_a_session(request, browser, address, runner_command):
+    at_rest = "for (const message of [{do: 'reset'}, {do: 'pause', value: true}]) viewer.shown.send(message)"
+    wire = f"{MODEL}.centreline(0)"
+    answer = request.getfixturevalue(browser)(
+        ["open", f"{address}?scene=insertion"], OPEN, ["see", f"(() => {{ {at_rest} }})()"],
+        ["until", f"viewer.shown.status.isPaused && viewer.shown.status.opened === 2 && {STEP} === 0"], FASTEST,
+        ["see", "document.activeElement.blur()"], ["down", "w"], ["until", "viewer.shown.steering.push === 1"],
+        ["press", " "], ["until", f"{wire}[2] >= -310 + 240"], ["press", " "], PAUSED, ["up", "w"],
+        ["see", STEP], ["see", f"[...{wire}]"], ["see", "viewer.shown._connection.steered(0)"])
+    step, positions, saved = answer["seen"][2:]
+    with Session(ROOT / "params" / "insertion.json", hand=True, native=False, **live._ENDLESS) as session:
+        own = HeldInstruments()
+        own.begin(session, session.describe())
+        push, _ = own.in_a_step(live.PUSH_SPEED * session.parameters["timeStep"], 0.0)
+        for _ in range(int(step)):
+            state = session.step(push)
+    np.testing.assert_array_equal(np.reshape(positions, (-1, 3)), state.positions)
+    x, y, z = state.positions[-1]
+    assert abs(x) < 10 and 30 < y < 80 and z > 205    # in the branch, as on the server's page
+    assert not saved["ok"] and "drive table" in saved["text"]
+
+
+@LONG
+@BROWSERS
+def test_a_wire_out_of_its_sheath_is_steered_into_a_branch_and_the_runner_repeats_it(
+        request, browser, address, runner_command, tmp_path):
+    tip, step, tables = steered(request, browser, address, "sheath", ["down", "w"], ["until", f"{HUB} > 0.15"],
+                                ["up", "w"])
+    np.testing.assert_allclose(repeated(runner_command, tmp_path, "sheath", step, tables), tip, atol=1e-6)
+    assert np.hypot(tip[0], tip[1]) > 20    # of the inlet's axis; the artery has a radius of 4
+
+
+@LONG
+@BROWSERS
+def test_a_catheter_and_its_wire_are_steered_into_a_branch_and_the_runner_repeats_it(
+        request, browser, address, runner_command, tmp_path):
+    held = lambda k: [["press", "i"], ["until", f"viewer.shown.status.held === {k}"]]    # noqa: E731
+    pushed = lambda hub, to: [["down", "w"], ["until", f"{hub} > {to}"], ["up", "w"]]    # noqa: E731
+    turn = CATHETER.replace("Insertion", "Turn")
+    orders = [*held(1), ["down", "d"], ["until", f"{turn} > 3.1"], ["up", "d"], *held(0)]
+    for to in (0.035, 0.07):
+        orders += [*pushed(HUB, to), *held(1), *pushed(CATHETER, to), *held(0)]
+    tip, step, tables = steered(request, browser, address, "catheter-branch", *orders, *pushed(HUB, 0.13))
+    np.testing.assert_allclose(repeated(runner_command, tmp_path, "catheter-branch", step, tables), tip, atol=1e-6)
+    assert np.hypot(tip[0], tip[1]) > 10
+
+
+@LONG
+def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ended(browse, address, runner_command,
+                                                                                  tmp_path):
+    slow = {"guidewireLength": 60, "guidewireOffset": -60, "numberRodElements": 2000, "constraintSolverSteps": 1_000_000}
+    wrong = json.dumps({"solver": "direct", "numberRodElement": 3})
+    (tmp_path / "wrong.json").write_text(wrong)
+    opens = ("((scene, text) => viewer.shown.send({do: 'open', scene, files: [{path: scene, bytes: new TextEncoder()"
+             ".encode(text)}]}))(%s, %s)")
+    status = "viewer.shown.status"
+    seen = browse(
+        ["open", address], ["until", "globalThis.viewer && document.querySelectorAll('#start button').length === 3"],
+        ["see", opens % ("'wrong.json'", json.dumps(wrong))], ["until", f"{status}?.problem"], ["see", f"{status}.problem"],
+        ["see", opens % ("'slow.json'", json.dumps(json.dumps(slow)))], ["until", f"{status}.opened === 1"],
+        ["see", "viewer.shown.send({do: 'reset'})"], ["until", f"{status}.opened === 2"], ["see", f"{status}.scene"],
+    )["seen"]
+    done = subprocess.run([*runner_command, "-parameters", "wrong.json", "-out", "run"], cwd=tmp_path, text=True,
+                          capture_output=True, check=False)
+    assert f"guidewire: {seen[1]}\n" == done.stderr
+    assert seen[-1] == "slow.json"
