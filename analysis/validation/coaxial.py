@@ -45,7 +45,7 @@ class Pair:
     nu : EI/GJ - 1 of both.
     lead : of the wire's hub behind the catheter's.
     turn : of the wire's hub, rad.
-    stretch : keys of the catheter's pieces beside those of its bending.
+    more, catheter : other keys of the scene and of the catheter.
     """
 
     elements: int
@@ -57,8 +57,8 @@ class Pair:
     lead: float = 0.0
     turn: float = 0.0
     rigid: float = 1.0
-    stretch: dict[str, float] = field(default_factory=dict)
     more: dict[str, Any] = field(default_factory=dict)
+    catheter: dict[str, Any] = field(default_factory=dict)
 
     def case(self, key: str) -> Case:
         """Its rest shape, or what `more` makes of it."""
@@ -72,7 +72,7 @@ class Pair:
             "catheters": [{"start": _units(self.lead), "length": _units(sum(piece[0] for piece in self.outer)),
                            "elements": self.elements, "wireRadius": _OUTER, "lumenRadius": _LUMEN,
                            **_material(self.rigid * _BENDING / tube, self.nu),
-                           "wireSections": [{**section, **self.stretch} for section in _sections(self.outer, 0.0)]}],
+                           "wireSections": _sections(self.outer, 0.0), **self.catheter}],
             **self.more})
 
 
@@ -315,9 +315,10 @@ _TURNED = 1.2  # rad
 
 def _hooked(n: int, extension: float, key: str) -> Case:
     """A wire with a hook through a catheter with a bent tip, a load on the outermost tip."""
-    load = np.array([0.1, 0.2, -0.1]) * _BENDING / _LENGTH**2
+    load = {"tipForce": (np.array([0.1, 0.2, -0.1]) * _BENDING / _LENGTH**2).tolist()}
+    is_wire = extension > 1e-9
     return Pair(n, 3 * n // 2, [(0.6, 0.0), (0.4, 1.5)], [(1.27, 0.0), (0.23, 3.0)], 0.5, 0.3, 0.5 - extension,
-                 _TURNED, more={"tipForce": load.tolist()}).case(key)
+                _TURNED, more=load if is_wire else {}, catheter={} if is_wire else load).case(key)
 
 
 def _sliding() -> Plan:
@@ -358,7 +359,6 @@ def _sliding() -> Plan:
 
 
 _LOAD = 0.6  # B/L^2, across
-_STIFF = 1e6  # N: where the chain stretches as the catheter does, none bends for it
 
 
 def _limits() -> Plan:
@@ -370,8 +370,7 @@ def _limits() -> Plan:
     # The wire alone by the clamp that coaxial instruments have.
     alike = {"tipForce": [0.0, -0.2 * _BENDING / _LENGTH**2, 0.05 * _BENDING / _LENGTH**2], "clampRule": "halfElement"}
     soft = {name: Pair(6, 10, [(0.6, 0.0 if name == "straight" else 2.0)], [(1.0, k)], 1.0, 0.3, rigid=1e-9,
-                        stretch={"axialStiffness": _STIFF, "shearStiffness": _STIFF},
-                        more=alike).case(f"none,{name}") for name, k in own.items()}
+                       more=alike).case(f"none,{name}") for name, k in own.items()}
     alone = {name: Case(f"alone,{name}", {key: value for key, value in case.overrides.items() if key != "catheters"})
              for name, case in soft.items()}
     runs = yield [*guides.values(), *soft.values(), *alone.values()]
