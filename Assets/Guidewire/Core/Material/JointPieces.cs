@@ -45,7 +45,8 @@ namespace Guidewire.Core
             return joint;
         }
 
-        /// <summary>The fraction, weighted by its hat function, of the length of joint k that is beyond a cut.</summary>
+        /// <summary>The fraction, weighted by its hat function, of the length of joint k that is beyond a
+        /// cut.</summary>
         /// <param name="stations">Of the nodes, m, as the cut.</param>
         public static double FractionBeyond(double[] stations, int k, double cut)
         {

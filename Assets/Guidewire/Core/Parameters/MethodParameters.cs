@@ -1,3 +1,5 @@
+using System.Threading;
+
 namespace Guidewire.Core
 {
     /// <summary>How a run is simulated: the method, its steps, and what ends it.</summary>
@@ -51,6 +53,11 @@ namespace Guidewire.Core
         /// <summary>Whether a run with a material states the support's force at the first sphere after each step; it
         /// costs a little of each. With pbd it is stated wherever there are walls.</summary>
         public bool StatesReactions { get; set; }
+
+        /// <summary>Ends a step of the direct solver that is still at work: <see cref="Simulation.Step"/> throws an
+        /// <see cref="System.OperationCanceledException"/>, the state stays that of the step before, and the run cannot
+        /// go on.</summary>
+        public CancellationToken Cancellation { get; set; }
 
         /// <summary>The same values; lists and walls are shared.</summary>
         internal MethodParameters Copy()

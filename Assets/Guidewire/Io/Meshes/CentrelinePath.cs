@@ -53,6 +53,9 @@ namespace Guidewire.Io
         /// <summary>Where distances begin.</summary>
         public VesselEnd Inlet { get; }
 
+        /// <summary>Where the tip is to come, units; null without a target.</summary>
+        public Vector3d? TargetPoint => Target < 0 ? (Vector3d?)null : _anatomy.Points[Target];
+
         /// <summary>Target of the tip: a point of the centreline; -1 without a target.</summary>
         public int Target { get; set; } = -1;
 

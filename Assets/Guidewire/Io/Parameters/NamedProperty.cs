@@ -1,12 +1,23 @@
 using System;
+using System.Diagnostics.CodeAnalysis;
+using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>Properties that keys name: guidewireLength is GuidewireLength. Accessors are looked up by name, so a
-    /// build that strips unused code has to keep them (Assets/Guidewire/link.xml).</summary>
+    /// <summary>Properties that keys name: guidewireLength is GuidewireLength.</summary>
+    /// <remarks>Accessors are looked up by name, which no linker sees. So the classes whose properties keys are stand
+    /// here for .NET's, and a step of Unity's builds keeps both assemblies whole.</remarks>
     internal static class NamedProperty
     {
         /// <summary>The property's name.</summary>
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(MethodParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(SceneParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(PbdParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(MaterialParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(ContactParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(DriveParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(WireSection))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(RunParameters))]
         public static string Of(string key)
         {
             return char.ToUpperInvariant(key[0]) + key.Substring(1);

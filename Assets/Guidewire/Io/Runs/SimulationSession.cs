@@ -5,6 +5,7 @@ using System.Globalization;
 using System.Linq;
 using System.Security.Cryptography;
 using System.Text;
+using System.Threading;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -27,10 +28,16 @@ namespace Guidewire.Io
         private RunFolder? _results;
         private bool _isNoted;
         private readonly byte[] _start;
+        private readonly CancellationToken _cancellation;
+        private readonly bool _limitsHubs;
 
         private SimulationSession(ParameterSource from, List<KeyValuePair<string, JToken>> overrides,
-            ParameterHandler handler, bool isSteered)
+            ParameterHandler handler, bool isSteered, bool limitsHubs = false,
+            CancellationToken cancellation = default)
         {
+            _cancellation = cancellation;
+            _limitsHubs = limitsHubs && isSteered;
+            Prepare(handler);
             _steering = isSteered ? new Steering() : null;
             _statesReactions = handler.Values.Simulation.Method.StatesReactions;
             handler.Values.Simulation.Drive.Steering = _steering;
@@ -72,6 +79,9 @@ namespace Guidewire.Io
             CentrelinePath? path = _handler.Values.Path;
             return path == null || path.Target < 0 ? null : path.RouteToTarget();
         }
+
+        /// <summary>Where the tip is to come, units; null where the run has no target.</summary>
+        public Vector3d? Target => _handler.Values.Path?.TargetPoint;
 
         /// <summary>A run at its start that is not logged, and states contact forces and reactions wherever its method
         /// has them.</summary>
@@ -115,13 +125,17 @@ namespace Guidewire.Io
         /// <param name="overrides">KEY=VALUE each: parameters that count instead of the source's.</param>
         /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
         /// <param name="isSteered">Whether the user holds the first element, instead of the drive.</param>
+        /// <param name="limitsHubs">Whether hubs slip in the hand where the parameters state no hubForceLimit: at the
+        /// push at which the instrument, coiled up in its lumen, would yield.</param>
+        /// <param name="cancellation">Ends a long step from another thread, with an <see
+        /// cref="OperationCanceledException"/>; the session can then only be disposed of.</param>
         public static SimulationSession Open(ParameterSource from, IEnumerable<string> overrides, string logFolder,
-            bool isSteered)
+            bool isSteered, bool limitsHubs = false, CancellationToken cancellation = default)
         {
             List<KeyValuePair<string, JToken>> given = CommandLineHandler.ReadAssignments(overrides);
             ParameterHandler handler = ParameterHandler.Load(from, given, isSteered);
             long before = Stopwatch.GetTimestamp();
-            var session = new SimulationSession(from, given, handler, isSteered);
+            var session = new SimulationSession(from, given, handler, isSteered, limitsHubs, cancellation);
             double setUp = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             if (logFolder.Length > 0)
             {
@@ -227,6 +241,12 @@ namespace Guidewire.Io
             return Get(_handler, key);
         }
 
+        /// <summary>The same as JSON text.</summary>
+        public string Text(string key)
+        {
+            return Get(key).ToString(Newtonsoft.Json.Formatting.None);
+        }
+
         private static bool CanStateReactions(MethodParameters method)
         {
             return ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
@@ -311,6 +331,12 @@ namespace Guidewire.Io
             Set(new[] { new KeyValuePair<string, JToken>(key, value) });
         }
 
+        /// <summary>The same, of a value as it stands behind KEY=.</summary>
+        public void Set(string key, string value)
+        {
+            Set(CommandLineHandler.ReadAssignments(new[] { key + "=" + value }));
+        }
+
         /// <summary>Changes parameters; the wire continues from its current state.</summary>
         /// <exception cref="ParameterException">A value is not allowed; nothing has changed.</exception>
         /// <exception cref="ArgumentException">This wire cannot go on with them; nothing has changed.</exception>
@@ -324,6 +350,7 @@ namespace Guidewire.Io
             }
             ParameterHandler handler = ParameterHandler.Load(_from, changed, _steering != null);
             MethodParameters method = handler.Values.Simulation.Method;
+            Prepare(handler);
             method.StatesReactions |= _statesReactions && CanStateReactions(method);
             handler.Values.Simulation.Drive.Steering = _steering;
             Simulation = Simulation.Continue(handler.Values.Simulation);
@@ -331,6 +358,15 @@ namespace Guidewire.Io
             _handler = handler;
             _overrides.Clear();
             _overrides.AddRange(changed);
+        }
+
+        private void Prepare(ParameterHandler handler)
+        {
+            handler.Values.Simulation.Method.Cancellation = _cancellation;
+            if (_limitsHubs)
+            {
+                HandLimit.Set(handler.Values.Simulation);
+            }
         }
 
         /// <summary>Changes a parameter of a few words to the next one that this run can go on with.</summary>

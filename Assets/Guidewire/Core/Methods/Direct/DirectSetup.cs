@@ -11,7 +11,10 @@ namespace Guidewire.Core
         public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms)
         {
             var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
-                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations);
+                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations)
+            {
+                Cancellation = parameters.Method.Cancellation,
+            };
             dynamics.Control.Tolerance = parameters.Method.TimeStepError;
             dynamics.Begin(scene.Velocities, scene.Spins,
                 parameters.Scene.InitialState == InitialState.Equilibrium);

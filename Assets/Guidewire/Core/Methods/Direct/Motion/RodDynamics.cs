@@ -1,5 +1,6 @@
 using System;
 using System.Globalization;
+using System.Threading;
 
 namespace Guidewire.Core
 {
@@ -90,6 +91,9 @@ namespace Guidewire.Core
 
         /// <summary>The forces from outside.</summary>
         public RodReactions Reactions => _stage.Reactions;
+
+        /// <summary>Asked before each interval, so that a host need not wait for a long one.</summary>
+        public CancellationToken Cancellation { get; set; }
 
         /// <summary>Divides steps into intervals.</summary>
         public Clock Clock { get; }
@@ -209,6 +213,7 @@ namespace Guidewire.Core
                 WallSolver.MostIterations = (int)Math.Min((long)Clock.IterationFactor * Solver.MostIterations,
                     int.MaxValue);
             }
+            Cancellation.ThrowIfCancellationRequested();
             string? failure = _stepper.Step(interval);
             Time = interval.End;
             return failure;

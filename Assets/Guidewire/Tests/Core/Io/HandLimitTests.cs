@@ -1,0 +1,57 @@
+using System;
+using System.Threading;
+using Guidewire.Core;
+using Guidewire.Io;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Runs that a hand steers in a host with frames: hubs that slip, and steps that another thread
+    /// ends.</summary>
+    public sealed class HandLimitTests
+    {
+        private const string Tube = "{\"solver\": \"direct\", \"guidewireLength\": 100, \"numberRodElements\": 20,"
+            + " \"guidewireOffset\": 10, \"wireRadius\": 0.0004, \"youngsModulus\": 50e9, \"proximalEnd\": \"clamped\","
+            + " \"vessel\": {\"shape\": \"tube\", \"radius\": 3, \"knots\": [[0, 0, 0], [0, 0, 200]]}}";
+
+        private static SimulationSession Open(bool isSteered, CancellationToken cancellation, params string[] overrides)
+        {
+            return SimulationSession.Open(ParameterSource.OfText("tube", Tube), overrides, "", isSteered,
+                limitsHubs: true, cancellation);
+        }
+
+        [Test]
+        public void SteeredHub_SlipsWhereTheCoiledWireWouldYield()
+        {
+            // F r/(2 EI) of curvature, times the radius a: 1 % of strain.
+            double stiffness = 50e9 * Math.PI / 4.0 * Math.Pow(0.0004, 4);
+            double limit = 2.0 * stiffness * 0.01 / (0.003 * 0.0004);
+            using SimulationSession session = Open(true, default);
+            Assert.That(session.Parameters.Drive.HubForceLimit, Is.EqualTo(limit).Within(1e-6).Percent);
+            session.Set("massDamping", "3");
+            Assert.That(session.Parameters.Drive.HubForceLimit, Is.EqualTo(limit).Within(1e-6).Percent);
+        }
+
+        [Test]
+        public void LimitOfTheParameters_AndRunsThatNobodySteers_AreLeftAlone()
+        {
+            using SimulationSession given = Open(true, default, "hubForceLimit=0.25");
+            Assert.That(given.Parameters.Drive.HubForceLimit, Is.EqualTo(0.25));
+            using SimulationSession driven = Open(false, default);
+            Assert.That(driven.Parameters.Drive.HubForceLimit, Is.Zero);
+        }
+
+        [Test]
+        public void CancelledStep_Throws_AndLeavesTheStateOfTheStepBefore()
+        {
+            using var cancel = new CancellationTokenSource();
+            using SimulationSession session = Open(true, cancel.Token);
+            session.Step(0.4, 0.0);
+            var before = (Vector3d[])session.Simulation.State.Positions.Clone();
+            cancel.Cancel();
+            Assert.Throws<OperationCanceledException>(() => session.Step(0.4, 0.0));
+            Assert.That(session.Simulation.StepCount, Is.EqualTo(1));
+            Assert.That(session.Simulation.State.Positions, Is.EqualTo(before));
+        }
+    }
+}
