@@ -56,11 +56,11 @@ namespace Guidewire.Unity.Tests
         public void Catheter_IsDrawnWithItsRadius_AroundItsCentreline()
         {
             Stage.Frames(3);
-            CatheterView view = Engine.Find<CatheterView>();
+            CatheterTubes view = Stage.Wire.Catheters;
             Assert.That(view.Count, Is.EqualTo(1));
             Assert.That(Engine.Drawn.Exists(one => one.Material.color.a is > 0.2f and < 0.8f), "seen through");
             TubeMesh tube = view.TubeOf(0);
-            Vector3d[] x = Catheter.Positions;
+            Vector3d[] x = Stage.Loop.Shown!.Catheters[0].Positions;
             double times = 5.0 / 6.0 / 0.4445;    // 5 F over 0.035 in
             for (int i = 0; i < x.Length; i += 10)
             {

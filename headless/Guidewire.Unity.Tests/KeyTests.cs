@@ -131,7 +131,7 @@ namespace Guidewire.Unity.Tests
             Stage.Frames(1);
             for (int i = 0; i < Stage.State.SphereCount; i++)
             {
-                Vector3 centre = Stage.State.Positions[i].ToUnity();
+                Vector3 centre = Stage.Shown.Positions[i].ToUnity();
                 bool isDrawn = Engine.Drawn.Exists(mark =>
                     Vector3.Distance(mark.Place.MultiplyPoint3x4(Vector3.zero), centre) < 1e-3f);
                 Assert.That(isDrawn, Is.True, "sphere " + i);
@@ -149,10 +149,10 @@ namespace Guidewire.Unity.Tests
             Stage.Frames(1);
             Assert.That(Engine.Drawn.Count - before, Is.EqualTo(3 * Stage.State.ElementCount));
 
-            // The third of element 0 lies along it: its far end is beyond the middle along d3.
-            RodState state = Stage.State;
+            // Behind the tube's: the third of element 0 lies along it: its far end is beyond the middle along d3.
+            RodState state = Stage.Shown;
             Vector3 middle = (0.5 * (state.Positions[0] + state.Positions[1])).ToUnity();
-            Matrix4x4 place = Engine.Drawn[2].Place;
+            Matrix4x4 place = Engine.Drawn[3].Place;
             Vector3 end = place.MultiplyPoint3x4(Vector3.forward) - middle;
             Assert.That(Vector3.Dot(end.normalized, state.Orientations[0].Director3.ToUnity()),
                 Is.EqualTo(1f).Within(1e-4f));
@@ -181,7 +181,7 @@ namespace Guidewire.Unity.Tests
             Stage.Tap(KeyCode.T);
             Stage.Frames(1);
             Transform camera = Engine.Find<OrbitCamera>().transform;
-            Vector3 tip = Stage.State.Positions[Stage.State.ElementCount].ToUnity();
+            Vector3 tip = Stage.Shown.Positions[Stage.Shown.ElementCount].ToUnity();
             Vector3 towards = (tip - camera.position).normalized;
             Assert.That(Vector3.Dot(towards, camera.rotation * Vector3.forward), Is.EqualTo(1f).Within(1e-5f));
         }

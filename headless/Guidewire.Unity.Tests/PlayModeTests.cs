@@ -1,4 +1,5 @@
 using System.Collections;
+using System.Threading;
 using UnityEngine.TestTools;
 
 namespace Guidewire.Unity.Tests
@@ -15,6 +16,7 @@ namespace Guidewire.Unity.Tests
             while (frames.MoveNext())
             {
                 Engine.Frame(Stage.Frame);
+                Thread.Sleep(2);    // a frame gives the loop's thread time
             }
             Assert.That(LogAssert.Problem(), Is.Empty);
         }

@@ -22,7 +22,6 @@ namespace Guidewire.Unity.Tests
         private GameObject _object = null!;
         private SimulationLoop _loop = null!;
         private LineRenderer _line = null!;
-        private OwnWire _own = null!;
 
         [TearDown]
         public void Leave()
@@ -84,14 +83,16 @@ namespace Guidewire.Unity.Tests
             var walls = (SceneVessel)vessel.Attach(typeof(SceneVessel));
             Set(walls, "_frictionCoefficient", 0.1f);
             _loop = (SimulationLoop)_object.Attach(typeof(SimulationLoop));
+            _loop.Stepping = SteppingMode.Frames;
+            _object.Attach(typeof(KeyInput));
             var parameters = new TextAsset(File.ReadAllText(Path.Combine(Sample, "wire.json"))) { name = "wire" };
             _loop.Choose("", Array.Empty<string>(), "", isSteered: true);
             _loop.Choose(parameters, walls);
             var view = new GameObject("Line");
             _line = (LineRenderer)view.Attach(typeof(LineRenderer));
-            _own = (OwnWire)view.Attach(typeof(OwnWire));
-            Set(_own, "_wire", _loop);
-            Set(_own, "_line", _line);
+            Component own = view.Attach(typeof(OwnWire));
+            Set(own, "_wire", _loop);
+            Set(own, "_line", _line);
             Engine.Enter(new[] { _object, vessel, view });
         }
 
@@ -115,7 +116,7 @@ namespace Guidewire.Unity.Tests
             Stage.Frames(300);
             Assert.That(_loop.Problem, Is.Empty);
             Assert.That(_line.positionCount, Is.EqualTo(25));
-            RodState state = _loop.Session!.Simulation.State;
+            RodState state = _loop.Shown!.Rod;
             for (int i = 0; i < 25; i++)
             {
                 Vector3 expected = Place + Turned * (Scale * state.Positions[i].ToUnity());
@@ -123,7 +124,7 @@ namespace Guidewire.Unity.Tests
             }
             float distance = Vector3.Distance(_line.GetPosition(24), start);
             Assert.That(distance, Is.EqualTo(0.2f).Within(0.02f), "5 s at 40 units of a millimetre a second");
-            Assert.That(_loop.Session.Simulation.Contacts!.Passages, Is.EqualTo(0));
+            Assert.That(_loop.Session!.Simulation.Contacts!.Passages, Is.EqualTo(0));
             Assert.That(state.Positions[24].X, Is.GreaterThan(5.0), "the vessel has bent it");
             Assert.That(Engine.Console, Is.Empty);
         }
@@ -182,7 +183,7 @@ namespace Guidewire.Unity.Tests
         public void Push_IsAnalogueAndBounded(float asked, float counted)
         {
             Build();
-            _own.enabled = false;
+            _object.GetComponent<KeyInput>().enabled = false;
             Stage.Frames(1);
             double before = _loop.Session!.Simulation.Hub()!.Insertion;
             _loop.Push = asked;
@@ -224,6 +225,7 @@ namespace Guidewire.Unity.Tests
             SimulationLoop first = _loop;
             GameObject other = Standing("Other", Place, Turned, Scale);
             var second = (SimulationLoop)other.Attach(typeof(SimulationLoop));
+            second.Stepping = SteppingMode.Frames;
             second.Choose("params/longitudinal.json", Array.Empty<string>(), "", isSteered: false);
             Engine.Enter(new[] { other });
             Engine.Press(KeyCode.UpArrow);
@@ -287,9 +289,8 @@ namespace Guidewire.Unity.Tests
             Set(input, "_push", push);
             Set(input, "_turn", turn);
             var loop = (SimulationLoop)made.Attach(typeof(SimulationLoop));
+            loop.Stepping = SteppingMode.Frames;
             loop.Choose("params/insertion.json", Array.Empty<string>(), "", isSteered: true);
-            typeof(InputSystemWire).GetMethod("OnEnable", BindingFlags.Instance | BindingFlags.NonPublic)!
-                .Invoke(input, null);
             Engine.Enter(new[] { made });
             push.action.Value = 0.5f;
             turn.action.Value = -0.75f;
@@ -304,12 +305,19 @@ namespace Guidewire.Unity.Tests
             GameObject made = Standing("Wire", Vector3.zero, Quaternion.identity, 1f);
             made.Attach(typeof(KeyInput));
             var loop = (SimulationLoop)made.Attach(typeof(SimulationLoop));
+            loop.Stepping = SteppingMode.Frames;
             loop.Choose("params/insertion.json", Array.Empty<string>(), "", isSteered: true);
             Engine.Enter(new[] { made });
             Engine.Press(KeyCode.W);
             Engine.Press(KeyCode.LeftArrow);
             Stage.Frames(2);
             Assert.That((loop.Push, loop.Turn), Is.EqualTo((1f, -1f)));
+            made.GetComponent<KeyInput>().enabled = false;
+            Stage.Frames(1);
+            Assert.That((loop.Push, loop.Turn), Is.EqualTo((0f, 0f)), "what is unticked lets go");
+            loop.Push = 0.5f;
+            Stage.Frames(2);
+            Assert.That(loop.Push, Is.EqualTo(0.5f), "and leaves a script alone");
         }
 
         [Test]

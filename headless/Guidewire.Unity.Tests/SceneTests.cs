@@ -36,9 +36,9 @@ namespace Guidewire.Unity.Tests
 
         private static void AssertMeshFollows()
         {
-            RodState state = Stage.State;
+            RodState state = Stage.Shown;
             TubeMesh tube = Stage.Wire.Tube!;
-            Mesh mesh = Stage.Wire.GetComponent<MeshFilter>().sharedMesh;
+            Mesh mesh = Stage.Wire.Mesh!;
             Vector3[] vertices = mesh.vertices;
             int sides = tube.RingOf(1) - tube.RingOf(0) == 0 ? 0 : (tube.RingOf(1) - tube.RingOf(0)) / 4;
             Assert.That(vertices, Has.Length.EqualTo(tube.Vertices.Length));

@@ -13,6 +13,9 @@ namespace Guidewire.Unity.Tests
 
         public static WireView Wire => Engine.Find<WireView>();
 
+        /// <summary>What the views draw.</summary>
+        public static RodState Shown => Loop.Shown!.Rod;
+
         public static RodState State => Loop.Session!.Simulation.State;
 
         /// <summary>Scenes in the order of the build settings.</summary>
@@ -35,9 +38,19 @@ namespace Guidewire.Unity.Tests
         }
 
         /// <summary>Opens a scene in a process that a test has made ready.</summary>
-        public static void Enter(string scene)
+        /// <param name="scene">Its path.</param>
+        /// <param name="stepping">Between frames each frame has the steps of its time, however long they take.</param>
+        public static void Enter(string scene, SteppingMode stepping = SteppingMode.Frames)
         {
-            Engine.Enter(SceneFile.Read(Root, scene, typeof(SimulationLoop).Assembly));
+            List<GameObject> objects = SceneFile.Read(Root, scene, typeof(SimulationLoop).Assembly);
+            foreach (GameObject one in objects)
+            {
+                if (one.GetComponent<SimulationLoop>() is SimulationLoop loop)
+                {
+                    loop.Stepping = stepping;
+                }
+            }
+            Engine.Enter(objects);
         }
 
         /// <summary>Opens the scene in which the wire is steered by hand.</summary>

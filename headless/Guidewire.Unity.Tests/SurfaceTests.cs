@@ -53,6 +53,18 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
+        public void NoPublicMember_NamesATypeOfAnotherLibrary()
+        {
+            foreach (Type type in typeof(SimulationLoop).Assembly.GetExportedTypes())
+            {
+                foreach (MemberInfo member in type.GetMembers(Own))
+                {
+                    Assert.That(member.ToString(), Does.Not.Contain("Newtonsoft"), type.Name + "." + member.Name);
+                }
+            }
+        }
+
+        [Test]
         public void ThePageShowsTheSample()
         {
             string page = File.ReadAllText(Path.Combine(Stage.Root, "docs", "unity.md"));

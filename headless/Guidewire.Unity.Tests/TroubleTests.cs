@@ -68,13 +68,13 @@ namespace Guidewire.Unity.Tests
             AssertResetWorks();
         }
 
-        [TestCase(double.NaN)]
-        [TestCase(-1.0)]
-        [TestCase(0.0)]
-        public void LiveValueOutOfRange(double value)
+        [TestCase("NaN")]
+        [TestCase("-1.0")]
+        [TestCase("0")]
+        public void LiveValueOutOfRange(string value)
         {
             Stage.Frames(5);
-            Stage.Loop.Live.timeStep = value;
+            Stage.Loop.Set("timeStep", value);
             AssertStopped("timeStep");
             AssertResetWorks();
         }

@@ -36,7 +36,7 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void PushedWire_StaysInTheVessel_AndItsContactsAreShown()
         {
-            Stage.Loop.Live.timeStep = 0.02;    // half the steps: the test is about what is seen
+            Stage.Loop.Set("timeStep", "0.02");    // half the steps: the test is about what is seen
             double before = Stage.State.Positions[30].Z;
             Engine.Press(KeyCode.W);
             bool wereDrawn = false;
@@ -56,7 +56,7 @@ namespace Guidewire.Unity.Tests
         {
             ContactShape wall = Stage.Loop.Session!.Parameters.Scene.Walls[0];
             bool any = false;
-            foreach ((Matrix4x4 place, Material _) in Engine.Drawn)
+            foreach ((Mesh _, Matrix4x4 place, Material _, int _) in Engine.Drawn)
             {
                 Vector3 centre = place.MultiplyPoint3x4(Vector3.zero);
                 float along = Vector3.Distance(place.MultiplyPoint3x4(Vector3.forward), centre);

@@ -10,6 +10,43 @@ namespace UnityEngine
     }
 
     [AttributeUsage(AttributeTargets.Class)]
+    public sealed class AddComponentMenu : Attribute
+    {
+        public AddComponentMenu(string menuName)
+        {
+        }
+    }
+
+    [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
+    public sealed class RequireComponent : Attribute
+    {
+        public RequireComponent(Type requiredComponent)
+        {
+            m_Type0 = requiredComponent;
+        }
+
+        public Type m_Type0;
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class CreateAssetMenuAttribute : Attribute
+    {
+        public string menuName { get; set; }
+
+        public string fileName { get; set; }
+
+        public int order { get; set; }
+    }
+
+    [AttributeUsage(AttributeTargets.Field)]
+    public sealed class TextAreaAttribute : PropertyAttribute
+    {
+        public TextAreaAttribute(int minLines, int maxLines)
+        {
+        }
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
     public sealed class DefaultExecutionOrder : Attribute
     {
         public DefaultExecutionOrder(int order)

@@ -41,10 +41,6 @@ namespace UnityEditor
         }
     }
 
-    public class SerializedProperty
-    {
-    }
-
     public static class EditorGUI
     {
         public static bool PropertyField(Rect position, SerializedProperty property, GUIContent label)

@@ -17,12 +17,19 @@ namespace UnityStubs
             public Action LateUpdate;
             public Action OnGUI;
             public Action OnDestroy;
+            public Action OnEnable;
+            public Action OnDisable;
+            public Action FixedUpdate;
             public int Order;
+            public bool IsAwake;
+            public bool IsEnabled;
             public bool IsStarted;
         }
 
         private static readonly List<Live> Behaviours = new List<Live>();
         private static readonly List<GameObject> Objects = new List<GameObject>();
+
+        private static float _fixedTime;
 
         /// <summary>Every line that was logged.</summary>
         public static List<(LogType Type, string Text)> Console { get; } = new List<(LogType, string)>();
@@ -31,7 +38,8 @@ namespace UnityStubs
         public static List<string> Labels { get; } = new List<string>();
 
         /// <summary>Where marks were drawn in the last frame, and in which material.</summary>
-        public static List<(Matrix4x4 Place, Material Material)> Drawn { get; } = new List<(Matrix4x4, Material)>();
+        public static List<(Mesh Mesh, Matrix4x4 Place, Material Material, int Layer)> Drawn { get; } =
+            new List<(Mesh, Matrix4x4, Material, int)>();
 
         /// <summary>What the process was ended with, or null.</summary>
         public static int? ExitCode { get; set; }
@@ -51,6 +59,11 @@ namespace UnityStubs
             Input.IsRefused = false;
             ExitCode = null;
             Click = null;
+            Screen.dpi = 96f;
+            UnityEngine.Rendering.GraphicsSettings.currentRenderPipeline = null;
+            UnityEngine.InputSystem.Keyboard.current = null;
+            UnityEngine.InputSystem.Mouse.current = null;
+            Application.platform = RuntimePlatform.LinuxEditor;
             Application.dataPath = System.IO.Path.Combine(projectRoot, "Assets");
             Application.isBatchMode = false;
             Application.isEditor = true;
@@ -60,8 +73,9 @@ namespace UnityStubs
         /// <summary>Takes objects whose components have their fields, and wakes them.</summary>
         public static void Enter(IEnumerable<GameObject> objects)
         {
-            Objects.AddRange(objects);
-            foreach (GameObject gameObject in Objects)
+            var entered = new List<GameObject>(objects);
+            Objects.AddRange(entered);
+            foreach (GameObject gameObject in entered)
             {
                 foreach (Component component in gameObject.components.ToArray())
                 {
@@ -94,10 +108,19 @@ namespace UnityStubs
             for (int i = 0; i < Behaviours.Count; i++)
             {
                 Live live = Behaviours[i];
-                if (live.Behaviour.enabled && !live.IsStarted)
+                if (live.IsEnabled && !live.IsStarted)
                 {
                     live.IsStarted = true;
                     live.Start?.Invoke();
+                }
+            }
+            _fixedTime += seconds;
+            while (_fixedTime >= Time.fixedDeltaTime)
+            {
+                _fixedTime -= Time.fixedDeltaTime;
+                for (int i = 0; i < Behaviours.Count; i++)
+                {
+                    Run(Behaviours[i], Behaviours[i].FixedUpdate);
                 }
             }
             for (int i = 0; i < Behaviours.Count; i++)
@@ -169,8 +192,8 @@ namespace UnityStubs
                 return;
             }
             int order = behaviour.GetType().GetCustomAttribute<DefaultExecutionOrder>()?.order ?? 0;
-            int place = Behaviours.FindIndex(live => live.Order > order);
-            Behaviours.Insert(place < 0 ? Behaviours.Count : place, new Live
+            int place = Behaviours.FindIndex(other => other.Order > order);
+            var live = new Live
             {
                 Behaviour = behaviour,
                 Order = order,
@@ -179,8 +202,41 @@ namespace UnityStubs
                 LateUpdate = Message(behaviour, "LateUpdate"),
                 OnGUI = Message(behaviour, "OnGUI"),
                 OnDestroy = Message(behaviour, "OnDestroy"),
-            });
-            Message(behaviour, "Awake")?.Invoke();
+                OnEnable = Message(behaviour, "OnEnable"),
+                OnDisable = Message(behaviour, "OnDisable"),
+                FixedUpdate = Message(behaviour, "FixedUpdate"),
+            };
+            Behaviours.Insert(place < 0 ? Behaviours.Count : place, live);
+            if (!Objects.Contains(behaviour.gameObject))
+            {
+                Objects.Add(behaviour.gameObject);
+            }
+            Update(live);
+        }
+
+        /// <summary>Sends what follows from objects and components that were switched on or off.</summary>
+        internal static void UpdateEnabled()
+        {
+            foreach (Live live in Behaviours.ToArray())
+            {
+                Update(live);
+            }
+        }
+
+        // Awake once its object is active, then OnEnable and OnDisable as they come.
+        private static void Update(Live live)
+        {
+            if (!live.IsAwake && live.Behaviour.gameObject.activeInHierarchy)
+            {
+                live.IsAwake = true;
+                Message(live.Behaviour, "Awake")?.Invoke();
+            }
+            bool isEnabled = live.IsAwake && live.Behaviour.isActiveAndEnabled;
+            if (isEnabled != live.IsEnabled)
+            {
+                live.IsEnabled = isEnabled;
+                (isEnabled ? live.OnEnable : live.OnDisable)?.Invoke();
+            }
         }
 
         internal static void Remove(Component component)
@@ -189,13 +245,20 @@ namespace UnityStubs
             if (live != null)
             {
                 Behaviours.Remove(live);
-                live.OnDestroy?.Invoke();
+                if (live.IsEnabled)
+                {
+                    live.OnDisable?.Invoke();
+                }
+                if (live.IsAwake)
+                {
+                    live.OnDestroy?.Invoke();
+                }
             }
         }
 
-        internal static void Draw(Matrix4x4 place, Material material)
+        internal static void Draw(Mesh mesh, Matrix4x4 place, Material material, int layer)
         {
-            Drawn.Add((place, material));
+            Drawn.Add((mesh, place, material, layer));
         }
 
         internal static void Show(string text)
@@ -219,7 +282,7 @@ namespace UnityStubs
 
         private static void Run(Live live, Action message)
         {
-            if (message != null && live.Behaviour.enabled && live.IsStarted)
+            if (message != null && live.IsEnabled && live.IsStarted)
             {
                 message();
             }

@@ -7,6 +7,8 @@ namespace UnityEngine
         public static float deltaTime { get; internal set; }
 
         public static float time { get; internal set; }
+
+        public static float fixedDeltaTime { get; set; } = 0.02f;
     }
 
     public static class Application
@@ -14,6 +16,8 @@ namespace UnityEngine
         public static string dataPath { get; internal set; } = "";
 
         public static bool isBatchMode { get; internal set; }
+
+        public static RuntimePlatform platform { get; internal set; } = RuntimePlatform.LinuxEditor;
 
         public static bool isEditor { get; internal set; } = true;
 
@@ -23,10 +27,26 @@ namespace UnityEngine
 
         public static int targetFrameRate { get; set; } = -1;
 
+        /// <summary>What a page was asked for last.</summary>
+        internal static string Opened;
+
+        public static void OpenURL(string url) => Opened = url;
+
         public static void Quit(int exitCode)
         {
             UnityStubs.Engine.ExitCode = exitCode;
         }
+    }
+
+    public enum RuntimePlatform
+    {
+        OSXEditor = 0,
+        WindowsPlayer = 2,
+        WindowsEditor = 7,
+        Android = 11,
+        LinuxPlayer = 13,
+        LinuxEditor = 16,
+        WebGLPlayer = 17,
     }
 
     public enum LogType
@@ -55,17 +75,28 @@ namespace UnityEngine
         B = 98,
         C = 99,
         D = 100,
+        E = 101,
         F = 102,
         G = 103,
         H = 104,
         I = 105,
+        J = 106,
+        K = 107,
+        L = 108,
         M = 109,
         N = 110,
+        O = 111,
+        P = 112,
+        Q = 113,
         R = 114,
         S = 115,
         T = 116,
+        U = 117,
         V = 118,
         W = 119,
+        X = 120,
+        Y = 121,
+        Z = 122,
         UpArrow = 273,
         DownArrow = 274,
         RightArrow = 275,
@@ -130,6 +161,8 @@ namespace UnityEngine
 
     public static class GUI
     {
+        public static Matrix4x4 matrix { get; set; } = Matrix4x4.identity;
+
         public static void Box(Rect position, GUIContent content)
         {
         }

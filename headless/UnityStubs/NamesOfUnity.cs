@@ -23,6 +23,11 @@ namespace UnityEngine
 
     public class ScriptableObject : Object
     {
+        public static T CreateInstance<T>()
+            where T : ScriptableObject
+        {
+            return (T)System.Activator.CreateInstance(typeof(T));
+        }
     }
 
     public class Collider : Component
@@ -57,6 +62,13 @@ namespace UnityEditor
     {
         public static void Refresh()
         {
+        }
+
+        public static T LoadAssetAtPath<T>(string assetPath)
+            where T : UnityEngine.Object
+        {
+            string root = System.IO.Path.GetDirectoryName(UnityEngine.Application.dataPath);
+            return UnityStubs.SceneFile.Prefab(root, assetPath) as T;
         }
     }
 }

@@ -160,6 +160,24 @@ namespace UnityEngine
             };
         }
 
+        public Matrix4x4 inverse
+        {
+            get
+            {
+                Vector3 a = Vector3.Cross(y, z);
+                Vector3 b = Vector3.Cross(z, x);
+                Vector3 c = Vector3.Cross(x, y);
+                float scale = 1f / Vector3.Dot(x, a);
+                var back = new Matrix4x4
+                {
+                    x = scale * new Vector3(a.x, b.x, c.x), y = scale * new Vector3(a.y, b.y, c.y),
+                    z = scale * new Vector3(a.z, b.z, c.z),
+                };
+                back.position = -back.MultiplyVector(position);
+                return back;
+            }
+        }
+
         public Vector3 MultiplyPoint3x4(Vector3 point) => position + MultiplyVector(point);
 
         public Vector3 MultiplyVector(Vector3 vector) => vector.x * x + vector.y * y + vector.z * z;

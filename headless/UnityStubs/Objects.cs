@@ -27,15 +27,25 @@ namespace UnityEngine
             {
                 return;
             }
-            obj.isDestroyed = true;
             if (obj is GameObject gameObject)
             {
+                foreach (Transform child in gameObject.transform.children.ToArray())
+                {
+                    DestroyImmediate(child.gameObject);
+                }
                 foreach (Component component in gameObject.components)
                 {
-                    component.isDestroyed = true;
                     UnityStubs.Engine.Remove(component);
+                    component.isDestroyed = true;
                 }
+                gameObject.transform.SetParent(null);
             }
+            else if (obj is Component component)
+            {
+                UnityStubs.Engine.Remove(component);
+                component.gameObject.components.Remove(component);
+            }
+            obj.isDestroyed = true;
         }
 
         public static implicit operator bool(Object exists) => !(exists == null);
@@ -79,13 +89,40 @@ namespace UnityEngine
             Attach(typeof(Transform));
         }
 
+        internal string prefabRoot;
+        internal string prefabPath;
+
         public Transform transform => (Transform)components[0];
 
         public int layer { get; set; }
 
+        public bool activeSelf { get; private set; } = true;
+
+        public bool activeInHierarchy => activeSelf
+            && (transform.parent is null || transform.parent.gameObject.activeInHierarchy);
+
+        public void SetActive(bool value)
+        {
+            activeSelf = value;
+            UnityStubs.Engine.UpdateEnabled();
+        }
+
         public T AddComponent<T>()
             where T : Component
         {
+            foreach (RequireComponent needed in typeof(T).GetCustomAttributes(typeof(RequireComponent), true))
+            {
+                if (!components.Exists(needed.m_Type0.IsInstanceOfType))
+                {
+                    UnityStubs.Engine.Awaken(Attach(needed.m_Type0));
+                }
+            }
+            // Of some there is at most one.
+            bool isOne = typeof(T) == typeof(MeshFilter) || typeof(T).IsSubclassOf(typeof(Renderer));
+            if (isOne && components.Exists(component => component is T))
+            {
+                return null;
+            }
             Component component = Attach(typeof(T));
             UnityStubs.Engine.Awaken(component);
             return (T)component;
@@ -101,6 +138,16 @@ namespace UnityEngine
                 }
             }
             return default;
+        }
+
+        public T GetComponentInChildren<T>()
+        {
+            T own = GetComponent<T>();
+            for (int k = 0; own is null && k < transform.children.Count; k++)
+            {
+                own = transform.children[k].gameObject.GetComponentInChildren<T>();
+            }
+            return own;
         }
 
         internal Component Attach(Type type)
@@ -119,31 +166,97 @@ namespace UnityEngine
         public Transform transform => gameObject.transform;
 
         public T GetComponent<T>() => gameObject.GetComponent<T>();
+
+        public bool TryGetComponent<T>(out T component)
+        {
+            component = gameObject.GetComponent<T>();
+            return component is object;
+        }
+
+        public T GetComponentInChildren<T>() => gameObject.GetComponentInChildren<T>();
+
+        public T GetComponentInParent<T>()
+        {
+            for (Transform above = transform; !(above is null); above = above.parent)
+            {
+                if (above.TryGetComponent(out T found))
+                {
+                    return found;
+                }
+            }
+            return default;
+        }
     }
 
     public class Transform : Component
     {
-        public Vector3 position { get; set; }
+        internal readonly List<Transform> children = new List<Transform>();
 
-        public Quaternion rotation { get; set; } = Quaternion.identity;
+        public Transform parent { get; private set; }
+
+        public Vector3 localPosition { get; set; }
+
+        public Quaternion localRotation { get; set; } = Quaternion.identity;
 
         public Vector3 localScale { get; set; } = Vector3.one;
 
-        public Matrix4x4 localToWorldMatrix => Matrix4x4.TRS(position, rotation, localScale);
+        public Vector3 position
+        {
+            get => localToWorldMatrix.position;
+            set => localPosition = parent is null ? value : parent.worldToLocalMatrix.MultiplyPoint3x4(value);
+        }
+
+        public Quaternion rotation
+        {
+            get => parent is null ? localRotation : parent.rotation * localRotation;
+            set => localRotation = parent is null ? value : Back(parent.rotation) * value;
+        }
+
+        /// <summary>As of parents that are not sheared.</summary>
+        public Vector3 lossyScale => parent is null ? localScale : new Vector3(parent.lossyScale.x * localScale.x,
+            parent.lossyScale.y * localScale.y, parent.lossyScale.z * localScale.z);
+
+        public Matrix4x4 localToWorldMatrix => parent is null ? Matrix4x4.TRS(localPosition, localRotation, localScale)
+            : parent.localToWorldMatrix * Matrix4x4.TRS(localPosition, localRotation, localScale);
+
+        public Matrix4x4 worldToLocalMatrix => localToWorldMatrix.inverse;
 
         public Vector3 TransformPoint(Vector3 position) => localToWorldMatrix.MultiplyPoint3x4(position);
 
-        public Vector3 InverseTransformPoint(Vector3 position)
+        public Vector3 InverseTransformPoint(Vector3 position) => worldToLocalMatrix.MultiplyPoint3x4(position);
+
+        public void SetParent(Transform parent) => SetParent(parent, true);
+
+        public void SetParent(Transform parent, bool worldPositionStays)
         {
-            Quaternion back = rotation;
-            Vector3 p = new Quaternion(-back.x, -back.y, -back.z, back.w) * (position - this.position);
-            return new Vector3(p.x / localScale.x, p.y / localScale.y, p.z / localScale.z);
+            (Vector3 position, Quaternion rotation) = (this.position, this.rotation);
+            this.parent?.children.Remove(this);
+            this.parent = parent;
+            parent?.children.Add(this);
+            if (worldPositionStays)
+            {
+                (this.position, this.rotation) = (position, rotation);
+            }
         }
+
+        private static Quaternion Back(Quaternion q) => new Quaternion(-q.x, -q.y, -q.z, q.w);
     }
 
     public class Behaviour : Component
     {
-        public bool enabled { get; set; } = true;
+        private bool _enabled = true;
+
+        public bool enabled
+        {
+            get => _enabled;
+            set
+            {
+                _enabled = value;
+                UnityStubs.Engine.UpdateEnabled();
+            }
+        }
+
+        public bool isActiveAndEnabled => !isDestroyed && enabled && gameObject.activeInHierarchy;
     }
 
     public class MonoBehaviour : Behaviour

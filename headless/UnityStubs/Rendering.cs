@@ -1,7 +1,26 @@
 using System;
+using System.Collections.Generic;
 
 namespace UnityEngine.Rendering
 {
+    public enum BlendMode
+    {
+        Zero = 0,
+        One = 1,
+        SrcAlpha = 5,
+        OneMinusSrcAlpha = 10,
+    }
+
+    public abstract class RenderPipelineAsset : ScriptableObject
+    {
+        public virtual Shader defaultShader => null;
+    }
+
+    public static class GraphicsSettings
+    {
+        public static RenderPipelineAsset currentRenderPipeline { get; internal set; }
+    }
+
     public enum IndexFormat
     {
         UInt16,
@@ -51,10 +70,29 @@ namespace UnityEngine
         public static Shader Find(string name) => new Shader { name = name };
     }
 
+    /// <summary>A material's properties are those of its shader; what it has not is not set.</summary>
     public sealed class Material : Object
     {
+        private static readonly Dictionary<string, string[]> Properties = new Dictionary<string, string[]>
+        {
+            ["Standard"] = new[] { "_Color", "_MainTex", "_Mode", "_SrcBlend", "_DstBlend", "_ZWrite" },
+            ["Universal Render Pipeline/Lit"] = new[]
+            {
+                "_BaseColor", "_BaseMap", "_Color", "_MainTex", "_Surface", "_SrcBlend", "_DstBlend", "_ZWrite",
+            },
+            ["HDRP/Lit"] = new[]
+            {
+                "_BaseColor", "_BaseColorMap", "_Color", "_MainTex", "_SurfaceType", "_SrcBlend", "_DstBlend",
+                "_AlphaDstBlend", "_ZWrite",
+            },
+        };
+
+        private readonly Dictionary<string, object> _values = new Dictionary<string, object>();
+        private readonly HashSet<string> _keywords = new HashSet<string>();
+
         public Material(Shader shader)
         {
+            this.shader = shader is null ? throw new ArgumentNullException(nameof(shader)) : shader;
         }
 
         public Material(Material source)
@@ -63,13 +101,61 @@ namespace UnityEngine
             {
                 throw new ArgumentNullException(nameof(source));
             }
-            color = source.color;
-            mainTexture = source.mainTexture;
+            shader = source.shader;
+            renderQueue = source.renderQueue;
+            foreach (KeyValuePair<string, object> value in source._values)
+            {
+                _values[value.Key] = value.Value;
+            }
+            _keywords.UnionWith(source._keywords);
         }
 
-        public Color color { get; set; }
+        public Shader shader { get; set; }
 
-        public Texture mainTexture { get; set; }
+        public int renderQueue { get; set; } = 2000;
+
+        public Color color
+        {
+            get => (Color)(Value("_BaseColor") ?? Value("_Color") ?? new Color(1f, 1f, 1f));
+            set => SetColor(HasProperty("_BaseColor") ? "_BaseColor" : "_Color", value);
+        }
+
+        public Texture mainTexture
+        {
+            get => (Texture)(Value("_BaseMap") ?? Value("_BaseColorMap") ?? Value("_MainTex"));
+            set => SetTexture("_MainTex", value);
+        }
+
+        public bool HasProperty(string name)
+        {
+            return Properties.TryGetValue(shader.name, out string[] names) && Array.IndexOf(names, name) >= 0;
+        }
+
+        public void SetColor(string name, Color value) => Set(name, value);
+
+        public void SetFloat(string name, float value) => Set(name, value);
+
+        public void SetTexture(string name, Texture value) => Set(name, value);
+
+        public void SetOverrideTag(string tag, string val)
+        {
+        }
+
+        public void EnableKeyword(string keyword) => _keywords.Add(keyword);
+
+        public bool IsKeywordEnabled(string keyword) => _keywords.Contains(keyword);
+
+        public float GetFloat(string name) => (float)(Value(name) ?? 0f);
+
+        private object Value(string name) => _values.TryGetValue(name, out object value) ? value : null;
+
+        private void Set(string name, object value)
+        {
+            if (HasProperty(name))
+            {
+                _values[name] = value;
+            }
+        }
     }
 
     /// <summary>Keeps what it is given, and refuses what Unity refuses.</summary>
@@ -80,6 +166,8 @@ namespace UnityEngine
         private int[] _triangles = Array.Empty<int>();
 
         public Rendering.IndexFormat indexFormat { get; set; }
+
+        public bool isReadable { get; internal set; } = true;
 
         public int vertexCount => _vertices.Length;
 
@@ -162,7 +250,17 @@ namespace UnityEngine
             {
                 throw new ArgumentNullException(mesh == null ? nameof(mesh) : nameof(material));
             }
-            UnityStubs.Engine.Draw(matrix, material);
+            UnityStubs.Engine.Draw(mesh, matrix, material, layer);
+        }
+    }
+
+    /// <summary>The materials of the package's folder Resources.</summary>
+    public static class Resources
+    {
+        public static T Load<T>(string path)
+            where T : Object
+        {
+            return UnityStubs.SceneFile.Resource(path) as T;
         }
     }
 
@@ -176,5 +274,7 @@ namespace UnityEngine
         public static int width => 1280;
 
         public static int height => 720;
+
+        public static float dpi { get; internal set; } = 96f;
     }
 }

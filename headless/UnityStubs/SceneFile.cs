@@ -44,6 +44,39 @@ namespace UnityStubs
             }
         }
 
+        /// <summary>The root of a prefab, its fields set, not in any scene.</summary>
+        internal static GameObject Prefab(string root, string path)
+        {
+            Assembly scripts = Assembly.Load("Guidewire.Runtime");
+            GameObject made = Read(root, path, scripts)[0];
+            made.name = Path.GetFileNameWithoutExtension(path);
+            (made.prefabRoot, made.prefabPath) = (root, path);
+            return made;
+        }
+
+        /// <summary>Another object of a prefab, in the scene.</summary>
+        internal static GameObject Copy(GameObject prefab)
+        {
+            GameObject copy = Prefab(prefab.prefabRoot, prefab.prefabPath);
+            Engine.Enter(new[] { copy });
+            return copy;
+        }
+
+        /// <summary>A material below a folder Resources.</summary>
+        internal static UnityEngine.Object Resource(string path)
+        {
+            foreach (string folder in Directory.GetDirectories(Application.dataPath, "Resources",
+                SearchOption.AllDirectories))
+            {
+                string file = Path.Combine(folder, path + ".mat");
+                if (File.Exists(file))
+                {
+                    return Asset(file);
+                }
+            }
+            return null;
+        }
+
         /// <summary>The objects of a scene, their fields set, not awake yet.</summary>
         /// <param name="root">Folder that holds Assets.</param>
         /// <param name="scene">Path of the scene from there.</param>
@@ -104,7 +137,11 @@ namespace UnityStubs
                 if (document.Class == 4)
                 {
                     var transform = (Transform)_objects[document.Id];
-                    transform.position = (Vector3)Value(typeof(Vector3), document.Values["m_LocalPosition"], null);
+                    transform.localPosition = (Vector3)Value(typeof(Vector3), document.Values["m_LocalPosition"], null);
+                    if (document.Values.TryGetValue("m_LocalScale", out string scale))
+                    {
+                        transform.localScale = (Vector3)Value(typeof(Vector3), scale, null);
+                    }
                 }
                 if (document.Class == 114)
                 {
@@ -136,9 +173,13 @@ namespace UnityStubs
             foreach (KeyValuePair<string, string> pair in document.Values)
             {
                 // As in Unity, a name that the class does not have is skipped: finding it is the checker's work.
-                FieldInfo field = target.GetType().GetField(pair.Key, Fields) ?? target.GetType().GetFields(Fields)
-                    .FirstOrDefault(renamed => renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
-                        .Any(former => former.oldName == pair.Key));
+                FieldInfo field = null;
+                for (Type type = target.GetType(); type != null && field == null; type = type.BaseType)
+                {
+                    field = type.GetField(pair.Key, Fields) ?? type.GetFields(Fields).FirstOrDefault(renamed =>
+                        renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
+                            .Any(former => former.oldName == pair.Key));
+                }
                 if (field != null)
                 {
                     field.SetValue(target, Value(field.FieldType, pair.Value, document.Lists[pair.Key]));
@@ -173,6 +214,10 @@ namespace UnityStubs
             if (typeof(UnityEngine.Object).IsAssignableFrom(type))
             {
                 Match guid = Guid.Match(text);
+                if (text.StartsWith("{fileID: 0", StringComparison.Ordinal))
+                {
+                    return null;
+                }
                 return guid.Success ? Asset(_paths[guid.Groups[1].Value])
                     : _objects[long.Parse(FileId.Match(text).Groups[1].Value, CultureInfo.InvariantCulture)];
             }
@@ -181,11 +226,18 @@ namespace UnityStubs
 
         private static UnityEngine.Object Asset(string path)
         {
+            if (path.EndsWith(".json", StringComparison.Ordinal))
+            {
+                return new TextAsset(File.ReadAllText(path)) { name = Path.GetFileNameWithoutExtension(path) };
+            }
             if (!path.EndsWith(".mat", StringComparison.Ordinal))
             {
                 throw new NotSupportedException(path);
             }
-            return new Material(new Shader()) { name = Path.GetFileNameWithoutExtension(path) };
+            bool isTransparent = File.ReadAllText(path).Contains("_Mode: 3", StringComparison.Ordinal);
+            var material = new Material(Shader.Find("Standard")) { name = Path.GetFileNameWithoutExtension(path) };
+            material.renderQueue = isTransparent ? 3000 : 2000;
+            return material;
         }
     }
 }

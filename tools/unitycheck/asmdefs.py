@@ -151,8 +151,8 @@ def check(project: Project) -> Iterator[Violation]:
                 yield Violation(asmdef.path, 0, "asmdef-reference", f"reference '{reference}' is no known assembly")
             elif target is asmdef:
                 yield Violation(asmdef.path, 0, "asmdef-reference", f"reference '{reference}' is the assembly itself")
-            elif target is None and OUTSIDE[reference] not in dependencies(project) \
-                    and dependencies(project) and OUTSIDE[reference] != "com.unity.ugui":
+            elif target is None and OUTSIDE[reference] not in dependencies(project) and dependencies(project) \
+                    and OUTSIDE[reference] != "com.unity.ugui" and OUTSIDE[reference] not in _optional(asmdef):
                 yield Violation(asmdef.path, 0, "asmdef-reference", f"'{reference}' needs {OUTSIDE[reference]}")
         meant = [target.path if target else reference for reference, target in references]
         for twice in sorted({name for name in meant if meant.count(name) > 1}):
@@ -164,6 +164,12 @@ def check(project: Project) -> Iterator[Violation]:
     for path in project.assets(".cs"):
         if owner(asmdefs, path) is None:
             yield Violation(path, 0, "asmdef-outside", "stands in no assembly definition's folder")
+
+
+def _optional(asmdef: Asmdef) -> set[str]:
+    """Packages for which an assembly has a define: it compiles without them too."""
+    defines = asmdef.data.get("versionDefines")
+    return {str(entry.get("name")) for entry in defines if isinstance(entry, dict)} if isinstance(defines, list) else set()
 
 
 def _form(asmdef: Asmdef, seen: dict[str, str]) -> Iterator[Violation]:

@@ -9,7 +9,7 @@ from tools.unitycheck.classids import CLASSES
 from tools.unitycheck.metas import guids
 from tools.unitycheck.project import Project
 from tools.unitycheck.scenes import components, documents, local_id, number
-from tools.unitycheck.scenetable import AT_ORIGIN, BESIDE, NEEDED
+from tools.unitycheck.scenetable import BESIDE, NEEDED
 from tools.unitycheck.sources import Field, Script, scripts
 from tools.unitycheck.unityyaml import Document
 from tools.unitycheck.violation import Violation
@@ -217,24 +217,11 @@ class _Scene:
             elif name in BESIDE and BESIDE[name] not in {CLASSES.get(other.class_id) for other in
                                                          self._beside(self._seen[held[0]])}:
                 yield self._violation(self._seen[held[0]], "scene-needs", f"{name} needs a {BESIDE[name]} beside it")
-            elif name in AT_ORIGIN:
-                yield from self._origin(self._seen[held[0]], name)
 
     def _beside(self, document: Document) -> list[Document]:
         """The components of a component's object."""
         game_object = self._seen.get(local_id(document.data.get("m_GameObject")))
         return [self._seen[i] for i in components(game_object) if i in self._seen] if game_object is not None else []
-
-    def _origin(self, document: Document, name: str) -> Iterator[Violation]:
-        identity = {"m_LocalPosition": "000", "m_LocalRotation": "0001", "m_LocalScale": "111"}
-        for transform in self._beside(document):
-            for key, expected in identity.items():
-                value = transform.data.get(key)
-                if transform.class_id == 4 and isinstance(value, dict) and \
-                        [number(part) for part in value.values()] != [float(digit) for digit in expected]:
-                    yield self._violation(transform, "scene-place",
-                                          f"{name} draws in its own coordinates: {key} must be "
-                                          f"({', '.join(expected)})")
 
     def _lights(self) -> Iterator[Violation]:
         lights = [document for document in self._seen.values() if document.class_id == 108]

@@ -34,11 +34,17 @@ KEYWORDS = {"_ALPHABLEND_ON", "_ALPHAPREMULTIPLY_ON", "_ALPHATEST_ON", "_DETAIL_
 # Standard's rendering mode: keyword, source and destination factor, whether it writes depth, first render queue.
 MODES = {0: ("", 1, 0, 1, 2000), 1: ("_ALPHATEST_ON", 1, 0, 1, 2450), 2: ("_ALPHABLEND_ON", 5, 10, 0, 3000),
          3: ("_ALPHAPREMULTIPLY_ON", 1, 10, 0, 3000)}
+# What the lit shaders of URP and HDRP name otherwise, for code that serves all three pipelines.
+LIT_FLOATS = {"_Surface", "_SurfaceType", "_AlphaDstBlend"}
+LIT_COLOURS = {"_BaseColor"}
+LIT_TEXTURES = {"_BaseMap", "_BaseColorMap"}
 _ALPHA = {"_ALPHATEST_ON", "_ALPHABLEND_ON", "_ALPHAPREMULTIPLY_ON"}
-_CALLS = {"SetFloat": FLOATS, "GetFloat": FLOATS, "SetColor": COLOURS, "GetColor": COLOURS, "SetTexture": TEXTURES,
-          "SetInt": FLOATS, "SetInteger": FLOATS, "HasProperty": FLOATS | COLOURS | TEXTURES,
-          "PropertyToID": FLOATS | COLOURS | TEXTURES, "EnableKeyword": KEYWORDS, "DisableKeyword": KEYWORDS,
-          "IsKeywordEnabled": KEYWORDS}
+_FLOATS, _COLOURS, _TEXTURES = FLOATS | LIT_FLOATS, COLOURS | LIT_COLOURS, TEXTURES | LIT_TEXTURES
+_KEYWORDS = KEYWORDS | {"_SURFACE_TYPE_TRANSPARENT"}
+_CALLS = {"SetFloat": _FLOATS, "GetFloat": _FLOATS, "SetColor": _COLOURS, "GetColor": _COLOURS,
+          "SetTexture": _TEXTURES, "SetInt": _FLOATS, "SetInteger": _FLOATS,
+          "HasProperty": _FLOATS | _COLOURS | _TEXTURES, "PropertyToID": _FLOATS | _COLOURS | _TEXTURES,
+          "EnableKeyword": _KEYWORDS, "DisableKeyword": _KEYWORDS, "IsKeywordEnabled": _KEYWORDS}
 
 
 def check(project: Project) -> Iterator[Violation]:

@@ -41,5 +41,3 @@ SCENES = (
 # What every scene holds once, switched on; and what one of these needs on its own object.
 NEEDED = ("SimulationLoop", "KeyboardControl", "Hud", "WireView", "ContactView", "VesselView", "OrbitCamera")
 BESIDE = {"OrbitCamera": "Camera"}
-# Draws in the coordinates of its own object what others draw in the world's: it stays where the world's origin is.
-AT_ORIGIN = ("WireView",)

@@ -1,4 +1,4 @@
-"""Writes the scenes of the project, their materials and the build's list of scenes, the same bytes every time.
+"""Writes the scenes of the project, the package's prefab and materials, and the build's list of scenes, the same bytes every time.
 
 Everything that a scene can leave to the scripts is left to them: a scene holds a camera, a light and the components
 with their fields. Meshes and everything that depends on the number of elements are made when it is played.
@@ -14,7 +14,8 @@ from tools.unitycheck.scenetable import SCENES, Scene
 from tools.unitycheck.textfiles import HEADER
 
 FOLDER = "Assets/Guidewire/Scenes"
-MATERIALS = "Assets/Guidewire/Materials"
+MATERIALS = "Assets/Guidewire/Runtime/Resources/Guidewire"
+PREFABS = "Assets/Guidewire/Prefabs"
 BUILD = "ProjectSettings/EditorBuildSettings.asset"
 ROOTS = 2**63 - 1
 _NONE = {"fileID": 0}
@@ -151,10 +152,6 @@ def _script(file_id: int, game_object: int, path: str, fields: dict[str, Any]) -
     return document(114, file_id, "MonoBehaviour", _component(game_object, keys))
 
 
-def _material_reference(name: str) -> dict[str, Any]:
-    return {"fileID": 2100000, "guid": stable_guid(f"{MATERIALS}/{name}.mat"), "type": 2}
-
-
 def scene_text(scene: Scene) -> str:
     """The whole .unity file of a scene."""
     upright = {"x": 0, "y": 0, "z": 0, "w": 1}
@@ -183,12 +180,11 @@ def scene_text(scene: Scene) -> str:
         _game_object(400, "Wire", [401, 402], "Untagged"),
         _transform(401, 400, upright, _ZERO),
         _script(402, 400, "Views/WireView", {
-            "_loop": loop, "_material": _material_reference("Wire"),
-            "_catheterMaterial": _material_reference("Vessel"), "_colouring": scene.colouring}),
+            "_loop": loop, "_material": _NONE, "_catheterMaterial": _NONE, "_colouring": scene.colouring}),
         _game_object(500, "Vessel", [501, 502, 503], "Untagged"),
         _transform(501, 500, upright, _ZERO),
-        _script(502, 500, "Views/ContactView", {"_loop": loop, "_material": _material_reference("Wire")}),
-        _script(503, 500, "Views/VesselView", {"_loop": loop, "_material": _material_reference("Vessel")}),
+        _script(502, 500, "Views/ContactView", {"_loop": loop, "_material": _NONE}),
+        _script(503, 500, "Views/VesselView", {"_loop": loop, "_material": _NONE}),
         document(1660057539, ROOTS, "SceneRoots", {
             "m_ObjectHideFlags": 0, "m_Roots": [{"fileID": number} for number in (101, 201, 301, 401, 501)]}),
     ]
@@ -215,9 +211,23 @@ def material_text(name: str, is_translucent: bool, colour: tuple[float, float, f
     return HEADER + document(21, 2100000, "Material", keys)
 
 
+def prefab_text() -> str:
+    """A wire in a vessel, a unit of it a millimetre of a scene of metres; views find their loop, input steers it."""
+    upright = {"x": 0, "y": 0, "z": 0, "w": 1}
+    text_asset = {"fileID": 4900000, "guid": stable_guid(f"{PREFABS}/WireInVessel.json"), "type": 3}
+    transform = _transform(101, 100, upright, _ZERO).replace(
+        "m_LocalScale: {x: 1, y: 1, z: 1}", "m_LocalScale: {x: 0.001, y: 0.001, z: 0.001}")
+    return HEADER + "".join((
+        _game_object(100, "Wire in a vessel", [101, 102, 103, 104, 105, 106], "Untagged"), transform,
+        _script(102, 100, "Loop/SimulationLoop", {"_parameterAsset": text_asset, "_isSteered": True}),
+        _script(103, 100, "Loop/KeyInput", {}), _script(104, 100, "Views/WireView", {}),
+        _script(105, 100, "Views/VesselView", {}), _script(106, 100, "Views/ContactView", {})))
+
+
 def files() -> dict[str, str]:
     """Every file that this module writes, by repository path."""
     result = {f"{FOLDER}/{scene.name}.unity": scene_text(scene) for scene in SCENES}
+    result[f"{PREFABS}/WireInVessel.prefab"] = prefab_text()
     result[f"{MATERIALS}/Wire.mat"] = material_text("Wire", False, (1.0, 1.0, 1.0, 1.0))
     result[f"{MATERIALS}/Vessel.mat"] = material_text("Vessel", True, (0.85, 0.35, 0.3, 0.25))
     listed = [f"  - enabled: 1\n    path: {FOLDER}/{scene.name}.unity\n"

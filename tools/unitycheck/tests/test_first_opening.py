@@ -140,7 +140,7 @@ RIGHT = {
     "unknown kind of file": with_meta(f"{GUIDEWIRE}/A.xyz", "", "SomeNewImporter"),
     "definition without a line end": lambda project: {
         f"{RUNTIME}/Guidewire.Runtime.asmdef": project.data(f"{RUNTIME}/Guidewire.Runtime.asmdef").rstrip()},
-    "define of a version": replace(f"{RUNTIME}/Guidewire.Runtime.asmdef", r'"versionDefines": \[\]',
+    "define of a version": replace(f"{GUIDEWIRE}/Editor/Guidewire.Editor.asmdef", r'"versionDefines": \[\]',
                                    '"versionDefines": [{"name": "com.unity.burst", "expression": "1.8", '
                                    '"define": "HAS_BURST"}]'),
     "constraint of this editor": replace(f"{RUNTIME}/Guidewire.Runtime.asmdef", r'"defineConstraints": \[\]',

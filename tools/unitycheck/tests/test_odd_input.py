@@ -19,7 +19,7 @@ ASMDEF = f"{GUIDEWIRE}/Io/Guidewire.Io.asmdef"
 ASMREF = f"{GUIDEWIRE}/Runtime/Views/A.asmref"
 LOCK = "Packages/packages-lock.json"
 TAGS = "ProjectSettings/TagManager.asset"
-MATERIAL = f"{GUIDEWIRE}/Materials/Wire.mat"
+MATERIAL = f"{GUIDEWIRE}/Runtime/Resources/Guidewire/Wire.mat"
 JSON_FILES = (ASMDEF, ASMREF, MANIFEST, LOCK)
 YAML_FILES = (SCENE, MATERIAL, TAGS, "ProjectSettings/EditorBuildSettings.asset",
               "ProjectSettings/ProjectSettings.asset",

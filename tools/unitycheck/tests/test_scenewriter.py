@@ -22,7 +22,7 @@ def test_parameter_files_exist() -> None:
 
 
 def test_writing_twice_changes_nothing(tmp_path: Path) -> None:
-    assert len(scenewriter.write(tmp_path)) == len(SCENES) + 3
+    assert len(scenewriter.write(tmp_path)) == len(SCENES) + 4
     assert scenewriter.write(tmp_path) == []
 
 

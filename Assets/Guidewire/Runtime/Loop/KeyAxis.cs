@@ -22,11 +22,10 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>1 or -1 while a key of that direction is down, 0 with none or both.</summary>
-        public float Value => (IsHeld(_up, _alsoUp) ? 1f : 0f) - (IsHeld(_down, _alsoDown) ? 1f : 0f);
-
-        private static bool IsHeld(KeyCode key, KeyCode other)
+        internal float Value(in HostInput input)
         {
-            return Input.GetKey(key) || Input.GetKey(other);
+            return (input.IsHeld(_up) || input.IsHeld(_alsoUp) ? 1f : 0f)
+                - (input.IsHeld(_down) || input.IsHeld(_alsoDown) ? 1f : 0f);
         }
     }
 }

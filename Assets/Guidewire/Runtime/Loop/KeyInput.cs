@@ -2,7 +2,9 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Steers the loop of its object by keys, with the legacy Input Manager.</summary>
+    /// <summary>Steers the loop of its object by keys, with whatever input the project has.</summary>
+    [RequireComponent(typeof(SimulationLoop))]
+    [AddComponentMenu("Guidewire/Key Input")]
     public sealed class KeyInput : MonoBehaviour, IWireInput
     {
         [SerializeField]
@@ -11,17 +13,17 @@ namespace Guidewire.Runtime
         [SerializeField]
         private KeyAxis _turn = new KeyAxis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
 
-        private bool _isThere;
+        private HostInput _input;
 
         /// <inheritdoc/>
-        public float Push => _isThere ? _push.Value : 0f;
+        public float Push => _push.Value(_input);
 
         /// <inheritdoc/>
-        public float Turn => _isThere ? _turn.Value : 0f;
+        public float Turn => _turn.Value(_input);
 
-        private void Awake()
+        private void OnEnable()
         {
-            _isThere = LegacyInput.IsThere();
+            _input = HostInput.Find();
         }
     }
 }

@@ -3,6 +3,7 @@ using UnityEngine;
 namespace Guidewire.Runtime
 {
     /// <summary>Keys that steer the wire and the loop. <see cref="Help"/> lists them all.</summary>
+    [AddComponentMenu("Guidewire/Keyboard Control")]
     [DefaultExecutionOrder(-100)]    // before the loop, so that a key acts in the frame in which it goes down
     public sealed class KeyboardControl : MonoBehaviour
     {
@@ -12,7 +13,9 @@ namespace Guidewire.Runtime
             + "I: select the next instrument\nC: colour     B: spheres     G: directors\nF: contact forces     H: this "
             + "text\nright mouse button: orbit     wheel: zoom     T: look at the tip";
 
+        [Tooltip("What the keys steer; empty: the loop of this object, or of the nearest above.")]
         [SerializeField] private SimulationLoop _loop = null!;
+
         [SerializeField] private WireView _wire = null!;
         [SerializeField] private ContactView _contacts = null!;
         [SerializeField] private Hud _hud = null!;
@@ -20,42 +23,80 @@ namespace Guidewire.Runtime
 
         private readonly KeyAxis _push = new KeyAxis(KeyCode.W, KeyCode.UpArrow, KeyCode.S, KeyCode.DownArrow);
         private readonly KeyAxis _turn = new KeyAxis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
+        private HostInput _input;
 
         private void Awake()
         {
-            enabled = LegacyInput.IsThere();
+            _input = HostInput.Find();
+            if (!_loop)
+            {
+                _loop = GetComponentInParent<SimulationLoop>();
+            }
+        }
+
+        private void OnDisable()
+        {
+            if (_loop)
+            {
+                _loop.Push = 0f;
+                _loop.Turn = 0f;
+            }
         }
 
         private void Update()
         {
-            _loop.Push = _push.Value;
-            _loop.Turn = _turn.Value;
-            _loop.IsPaused ^= Input.GetKeyDown(KeyCode.Space);
-            _wire.ShowsSpheres ^= Input.GetKeyDown(KeyCode.B);
-            _wire.ShowsDirectors ^= Input.GetKeyDown(KeyCode.G);
-            _contacts.IsShown ^= Input.GetKeyDown(KeyCode.F);
-            _hud.ShowsHelp ^= Input.GetKeyDown(KeyCode.H);
-            _camera.FollowsTip ^= Input.GetKeyDown(KeyCode.T);
-            if (Input.GetKeyDown(KeyCode.C))
+            if (!_input.IsThere)
             {
-                _wire.NextColouring();
+                return;
             }
-            if (Input.GetKeyDown(KeyCode.N))
+            if (_loop)
             {
-                _loop.IsPaused = true;
-                _loop.Step();
+                SteerLoop(_loop);
             }
-            if (Input.GetKeyDown(KeyCode.R))
+            if (_wire)
             {
-                _loop.Load();
+                _wire.ShowsSpheres ^= _input.WasPressed(KeyCode.B);
+                _wire.ShowsDirectors ^= _input.WasPressed(KeyCode.G);
+                if (_input.WasPressed(KeyCode.C))
+                {
+                    _wire.NextColouring();
+                }
             }
-            if (Input.GetKeyDown(KeyCode.I))
+            if (_contacts)
             {
-                _loop.HoldNext();
+                _contacts.IsShown ^= _input.WasPressed(KeyCode.F);
             }
-            if (Input.GetKeyDown(KeyCode.M))
+            if (_hud)
             {
-                _loop.TakeAlternative();
+                _hud.ShowsHelp ^= _input.WasPressed(KeyCode.H);
+            }
+            if (_camera)
+            {
+                _camera.FollowsTip ^= _input.WasPressed(KeyCode.T);
+            }
+        }
+
+        private void SteerLoop(SimulationLoop loop)
+        {
+            loop.Push = _push.Value(_input);
+            loop.Turn = _turn.Value(_input);
+            loop.IsPaused ^= _input.WasPressed(KeyCode.Space);
+            if (_input.WasPressed(KeyCode.N))
+            {
+                loop.IsPaused = true;
+                loop.Step();
+            }
+            if (_input.WasPressed(KeyCode.R))
+            {
+                loop.Load();
+            }
+            if (_input.WasPressed(KeyCode.I))
+            {
+                loop.HoldNext();
+            }
+            if (_input.WasPressed(KeyCode.M))
+            {
+                loop.TakeAlternative();
             }
         }
     }

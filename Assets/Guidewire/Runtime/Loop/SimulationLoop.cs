@@ -1,24 +1,22 @@
 using System;
 using System.Collections.Generic;
-using System.Diagnostics;
 using System.IO;
-using System.Linq;
 using Guidewire.Core;
 using Guidewire.Io;
-using Newtonsoft.Json.Linq;
 using UnityEngine;
-using Debug = UnityEngine.Debug;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Gives a simulation its frames (thesis 3.2.6): fixed dt, as many steps a frame as the pace asks for and
-    /// the budget allows. The wire is built from the parameter file at the start (3.2.5); the scene knows no
-    /// n.</summary>
-    /// <remarks>Update, not FixedUpdate: that one catches up on lost time without a limit that knows what a step costs.
-    /// What goes wrong stops the loop and stands in <see cref="Problem"/> and in the console; a reset starts
-    /// anew.</remarks>
+    /// <summary>Gives a simulation its frames (thesis 3.2.6): fixed dt, as many steps as the pace asks for. The wire is
+    /// built from the parameters at the start (3.2.5); the scene knows no n.</summary>
+    /// <remarks>A thread makes the steps, and opens the run: a frame waits for neither. Where it is late the wire slows
+    /// down (<see cref="Speed"/>). What goes wrong stops the loop and stands in <see cref="Problem"/> and in the
+    /// console; <see cref="Load"/> starts anew.</remarks>
+    [AddComponentMenu("Guidewire/Simulation Loop")]
     public sealed class SimulationLoop : MonoBehaviour
     {
+        private const int Patience = 100;          // ms, for the thread at the end
+
         [Tooltip("Parameter file, from the project's folder or, in a player, from the folder that holds it.")]
         [SerializeField] private string _parameterFile = "params/default.json";
 
@@ -41,47 +39,76 @@ namespace Guidewire.Runtime
         [SerializeField] private string[] _alternativeOverrides = Array.Empty<string>();
 
         [Header("Pace")]
+        [Tooltip("Who makes the steps: a thread, or Update or FixedUpdate between two frames.")]
+        [SerializeField] private SteppingMode _stepping = SteppingMode.Worker;
+
         [Tooltip("Simulated seconds per second of real time.")]
         [SerializeField, Range(0.01f, 10f)] private float _pace = 1f;
 
-        [Tooltip("Largest number of steps per frame.")]
+        [Tooltip("Largest number of steps per frame, without a thread.")]
         [SerializeField, Range(1, 1000)] private int _stepsPerFrame = 100;
 
-        [Tooltip("Largest wall time of the steps of a frame, in ms; at least one step is made.")]
+        [Tooltip("Largest wall time of the steps of a frame, in ms, without a thread; at least one step is made.")]
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
         [Header("Steering")]
-        [Tooltip("Whether keys push and turn the wire, instead of the parameter file's drive.")]
+        [Tooltip("Whether input pushes and turns the wire, instead of the parameter file's drive.")]
         [SerializeField] private bool _isSteered;
 
-        [Tooltip("Speed of sphere 0 while a push or pull key is down, in units per second of simulated time.")]
+        [Tooltip("Speed of the hub at full push, in units per second of simulated time.")]
         [SerializeField, Range(0f, 500f)] private float _pushSpeed = 40f;
 
-        [Tooltip("Rotation speed while a turn key is down, in degrees per second of simulated time.")]
+        [Tooltip("Rotation speed at full turn, in degrees per second of simulated time.")]
         [SerializeField, Range(0f, 720f)] private float _turnSpeed = 180f;
 
-        [Header("Parameters while it runs")]
-        [SerializeField] private LiveParameters _live = new LiveParameters();
-
-        private readonly Stopwatch _frame = new Stopwatch();
-        private double _pending;    // s of in-game time asked for and not simulated
+        private readonly FrameBudget _budget = new FrameBudget();
         private readonly TouchedSpheres _touched = new TouchedSpheres();
-        private bool _isReported;
+        private WireRun? _run;
+        private ShownStates? _opened;       // of the run, once the loop has taken notice of it
+        private string[]? _taken;           // overrides with which it was opened, of those that were tried
+        private readonly SpeedMeter _speed = new SpeedMeter();
+        private readonly RunReport _report = new RunReport();
+        private readonly InputSource _input = new InputSource();
+        private bool _isLoaded;
 
-        /// <summary>The run, or null where it could not be built.</summary>
-        public SimulationSession? Session { get; private set; }
+        /// <summary>The run itself, with forces, records and snapshots; null where there is none.</summary>
+        /// <exception cref="InvalidOperationException">The loop's thread makes its steps: use <see cref="State"/>, or
+        /// <see cref="Do"/>.</exception>
+        public SimulationSession? Session => _run?.Session;
+
+        /// <summary>The state after the newest step; null where there is no run, or not yet.</summary>
+        public WireState? State => _opened?.Newest;
+
+        /// <summary>What this frame shows: between the two newest states.</summary>
+        public WireState? Shown => _opened?.Shown;
+
+        /// <summary>The effective parameters, to be read only; null where there is no run, or not yet.</summary>
+        public SimulationParameters? Parameters => Description?.Parameters;
 
         /// <summary>Counts the runs built, so that views know when to rebuild.</summary>
         public int Generation { get; private set; }
 
         /// <summary>What stopped the loop, in one line; empty where nothing did.</summary>
-        public string Problem { get; private set; } = "";
+        public string Problem => _report.Problem;
+
+        /// <summary>What is being done until a run is open; empty otherwise.</summary>
+        public string Progress => _run == null || _opened != null || Problem.Length > 0 ? "" : _run.Progress;
+
+        /// <summary>Simulated time over the time that the pace asked for, in the last second: 1 where the steps keep
+        /// up.</summary>
+        public double Speed => _speed.Speed;
 
         /// <summary>Real time that the run has been going for, in s, pauses not counted.</summary>
         public double RealTime { get; private set; }
 
         /// <summary>Whether the loop waits.</summary>
         public bool IsPaused { get; set; }
+
+        /// <summary>Who makes the steps, from the next <see cref="Load"/> on.</summary>
+        public SteppingMode Stepping { get => _stepping; set => _stepping = value; }
+
+        /// <summary>Simulated seconds per second of real time.</summary>
+        public float Pace { get => _pace; set => _pace = value; }
 
         /// <summary>From -1, pull at full speed, to 1, push; what is beyond counts as full.</summary>
         public float Push { get; set; }
@@ -93,33 +120,51 @@ namespace Guidewire.Runtime
         /// k.</summary>
         public int Held { get; private set; }
 
-        /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: nobody but their
-        /// setters.</summary>
+        /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: a component of this object
+        /// that is enabled, or else nobody but their setters.</summary>
         public IWireInput? Input { get; set; }
 
-        /// <summary>Number of spheres, n + 1; 0 without a run.</summary>
-        public int SphereCount => Session?.Simulation.State.SphereCount ?? 0;
+        /// <summary>Takes what the run is commanded, from the next <see cref="Load"/> on; null: nothing does.</summary>
+        public SteeringRecord? Record { get; set; }
 
-        /// <summary>Raised with a sphere's index after a step in which a wall has begun to act on it.</summary>
+        /// <summary>What the run is commanded instead of what the hand does, from the next <see cref="Load"/>
+        /// on.</summary>
+        public SteeringRecord? Played { get; set; }
+
+        /// <summary>Number of spheres, n + 1; 0 without a run.</summary>
+        public int SphereCount => State?.Rod.SphereCount ?? 0;
+
+        /// <summary>Raised with a sphere's index in the frame in which a wall has begun to act on it.</summary>
         public event Action<int>? ContactBegan;
 
-        /// <summary>Raised with a sphere's index after a step in which a wall has ceased to act on it.</summary>
+        /// <summary>Raised with a sphere's index in the frame in which a wall has ceased to act on it.</summary>
         public event Action<int>? ContactEnded;
 
         /// <summary>Raised once where a run has ended by itself, with how and why.</summary>
         public event Action<Outcome, string>? Ended;
 
-        /// <summary>The parameters that the Inspector changes.</summary>
-        public LiveParameters Live => _live;
-
         /// <summary>Folder that paths in the Inspector start from.</summary>
         public static string Root => Path.GetDirectoryName(Application.dataPath) ?? ".";
+
+        /// <summary>What of the run does not change from step to step.</summary>
+        internal RunDescription? Description => _opened == null ? null : _run?.Description;
+
+        /// <summary>Overrides of the parameters, KEY=VALUE each.</summary>
+        internal string[] Overrides => _overrides;
+
+        /// <summary>Another text where the next run would be opened from something else.</summary>
+        internal string OpeningKey => string.Join("\n", _overrides) + "\n" + _parameterFile + "\n" + _isSteered
+            + (_parameterAsset ? _parameterAsset!.text : "") + string.Join("\n", Array.ConvertAll(_vessels,
+                vessel => vessel ? vessel.Key(transform) : ""));
+
+        /// <summary>Whether a view shows where the wire touches: it costs a little of each step.</summary>
+        internal bool WantsContactPoints { get; set; }
 
         /// <summary>Names what the next <see cref="Load"/> reads, instead of the Inspector.</summary>
         /// <param name="parameterFile">Parameter file, from <see cref="Root"/>.</param>
         /// <param name="overrides">KEY=VALUE each.</param>
         /// <param name="logFolder">Folder of the results; empty for a run that is not logged.</param>
-        /// <param name="isSteered">Whether keys steer the wire instead of the drive.</param>
+        /// <param name="isSteered">Whether input steers the wire instead of the drive.</param>
         public void Choose(string parameterFile, string[] overrides, string logFolder, bool isSteered)
         {
             _isSteered = isSteered;
@@ -137,16 +182,13 @@ namespace Guidewire.Runtime
             _vessels = vessels;
         }
 
-        /// <summary>Positions of all spheres in the world, by this object's transform. No garbage.</summary>
+        /// <summary>Positions of all spheres in the world, as this frame shows them, by this object's transform. No
+        /// garbage.</summary>
         /// <param name="positions">Takes them; <see cref="SphereCount"/> long.</param>
         /// <exception cref="ArgumentException">It has another length.</exception>
         public void GetPositions(Vector3[] positions)
         {
-            CheckLength(positions.Length, SphereCount);
-            for (int i = 0; i < positions.Length; i++)
-            {
-                positions[i] = transform.TransformPoint(Session!.Simulation.State.Positions[i].ToUnity());
-            }
+            WorldFrames.GetPositions(transform, Shown, positions);
         }
 
         /// <summary>Orientations of all elements in the world: forward is along the wire. No garbage.</summary>
@@ -154,11 +196,7 @@ namespace Guidewire.Runtime
         /// <exception cref="ArgumentException">It has another length.</exception>
         public void GetOrientations(Quaternion[] orientations)
         {
-            CheckLength(orientations.Length, Math.Max(0, SphereCount - 1));
-            for (int j = 0; j < orientations.Length; j++)
-            {
-                orientations[j] = transform.rotation * Session!.Simulation.State.Orientations[j].ToUnity();
-            }
+            WorldFrames.GetOrientations(transform, Shown, orientations);
         }
 
         /// <summary>Takes the alternative's parameters instead of the present ones, and rebuilds the wire; does
@@ -178,7 +216,7 @@ namespace Guidewire.Runtime
         /// <summary>Selects the next instrument to steer: wire, catheters, wire again.</summary>
         public void HoldNext()
         {
-            Held = Session == null ? 0 : (Held + 1) % Session.InstrumentCount;
+            Held = Description == null ? 0 : (Held + 1) % Description.Titles.Count;
         }
 
         /// <summary>Takes the next name of the folders of instruments with which an instrument can be built, and builds
@@ -186,168 +224,119 @@ namespace Guidewire.Runtime
         /// <param name="instrument">0 the wire, k catheter k.</param>
         public void TakeNextInstrument(int instrument)
         {
-            IReadOnlyList<string>? names = Session?.ChoicesOf(instrument);
-            if (names == null || names.Count == 0)
+            IReadOnlyList<string[]>? choices = Description?.NextOf(instrument, _overrides);
+            if (choices != null && choices.Count > 0)
             {
-                return;
-            }
-            string now = Session!.NameOf(instrument);
-            int first = 0;
-            for (int k = 0; k < names.Count; k++)
-            {
-                first = names[k] == now ? k + 1 : first;
-            }
-            string key = SimulationSession.KeyOf(instrument) + "=";
-            var others = new List<string>(_overrides);
-            others.RemoveAll(one => one.StartsWith(key, StringComparison.Ordinal));
-            for (int k = 0; k == 0 || (k < names.Count && Problem.Length > 0); k++)
-            {
-                _overrides = others.Append(key + names[(first + k) % names.Count]).ToArray();
-                Load();
+                Load(choices);
             }
         }
 
-        /// <summary>Rebuilds the wire from the parameter file.</summary>
+        /// <summary>Rebuilds the wire from the parameters. The loop's thread opens it, while frames go on.</summary>
         public void Load()
         {
-            Close();
-            Problem = "";
-            RealTime = 0.0;
-            _pending = 0.0;
-            _isReported = false;
-            try
-            {
-                string log = _logFolder.Length == 0 ? "" : Path.Combine(Root, _logFolder);
-                ParameterSource source = _parameterAsset
-                    ? ParameterSource.OfText(_parameterAsset!.name, _parameterAsset.text)
-                    : ParameterSource.OfFile(Path.Combine(Root, _parameterFile));
-                Session = SimulationSession.Open(
-                    source.With(Array.ConvertAll(_vessels, vessel => vessel.Create(transform))), _overrides, log,
-                    _isSteered);
-                Held = Held < Session.InstrumentCount ? Held : 0;
-                _touched.Begin(SphereCount);
-                _live.Read(Session.Parameters);
-                foreach (string warning in Session.Warnings)
-                {
-                    Debug.LogWarning("guidewire: " + warning);
-                }
-            }
-            catch (Exception error)
-            {
-                Stop(error);
-            }
-            Generation++;
+            Load(new[] { _overrides });
         }
 
-        /// <summary>Makes the steps of a frame.</summary>
+        /// <summary>Makes the steps of a frame, or asks the loop's thread for them, and takes over what has been
+        /// made.</summary>
         /// <param name="seconds">Real time since the last frame in s.</param>
         public void Advance(float seconds)
         {
-            if (!CanStep() || IsPaused)
+            if (_run == null)
             {
                 return;
             }
-            RealTime += seconds;
-            _pending += _pace * seconds;
-            _frame.Restart();
-            int steps = 0;
-            while (CanStep() && _pending >= Session!.Parameters.Method.TimeStep && steps < _stepsPerFrame
-                && (steps == 0 || _frame.Elapsed.TotalMilliseconds < _frameBudget))
+            bool goes = !IsPaused && CanStep();
+            double asked = goes ? _pace * (double)seconds : 0.0;
+            if (goes)
             {
-                _pending -= Session.Parameters.Method.TimeStep;
-                Step();
-                steps++;
+                RealTime += seconds;
+                Steer();
+                _run.Ask(asked, Parameters!.Method.TimeStep);
             }
-
-            // A frame that was too slow is not made up for: the wire would only become slower still.
-            _pending = Math.Min(_pending, Session!.Parameters.Method.TimeStep);
+            else if (IsPaused)
+            {
+                _run.Forget(0.0);
+            }
+            if (!_run.HasThread)
+            {
+                _budget.Work(_run, Stepping == SteppingMode.FixedSteps ? int.MaxValue : _stepsPerFrame,
+                    Stepping == SteppingMode.FixedSteps ? double.PositiveInfinity : _frameBudget);
+            }
+            Take();
+            if (_opened != null)
+            {
+                _speed.Ask(asked, _pace, _opened.Newest.Time);    // over a second
+            }
+            _opened?.Show(IsPaused ? double.PositiveInfinity : _pace * (double)seconds);
         }
 
         /// <summary>Makes one step, also while the loop is paused.</summary>
         public void Step()
         {
-            if (!CanStep())
+            if (CanStep())
             {
-                return;
+                Steer();
+                _run!.AskStep();
+                WorkAtOnce();
             }
-            try
-            {
-                double dt = Session!.Parameters.Method.TimeStep;
-                Session.Step(Mathf.Clamp(Push, -1f, 1f) * _pushSpeed * dt,
-                    Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed * dt * Math.PI / 180.0, Held);
-                _touched.Update(Session.Simulation.Contacts, ContactBegan, ContactEnded);
-                Report(Session.Simulation);
-            }
-            catch (Exception error)
-            {
-                Stop(error);
-            }
+        }
+
+        /// <summary>Does something with the run between two steps, such as saving or restoring it: on the loop's
+        /// thread, or at once where it has none. What it throws stops the loop.</summary>
+        public void Do(Action<SimulationSession> change)
+        {
+            _run?.Do(change);
+            WorkAtOnce();
         }
 
         /// <summary>Changes a parameter while the wire goes on; a value that is not allowed stops the loop.</summary>
-        public void Set(string key, JToken value)
+        /// <param name="key">As in a file.</param>
+        /// <param name="value">As behind KEY= in the Inspector.</param>
+        public void Set(string key, string value)
         {
-            try
-            {
-                Session?.Set(key, value);
-            }
-            catch (Exception error)
-            {
-                Stop(error);
-            }
+            Do(session => session.Set(key, value));
         }
 
-        /// <summary>Takes over what the Inspector has changed.</summary>
-        internal void TakeLive()
-        {
-            string? key;
-            while (Session != null && Problem.Length == 0
-                && (key = _live.FirstChange(Session.Parameters, out JToken? value)) != null)
-            {
-                Set(key, value!);
-            }
-        }
-
-        /// <summary>Ends the run and its log.</summary>
+        /// <summary>Ends the run and its log; a thread in the middle of a step ends within 100 ms.</summary>
         public void Close()
         {
-            try
-            {
-                Session?.Dispose();
-            }
-            finally
-            {
-                Session = null;
-            }
+            WireRun? run = _run;
+            _run = null;
+            _opened = null;
+            run?.Stop(Patience);
+            run?.Dispose();
         }
 
         private void Awake()
         {
-            Input ??= GetComponent<IWireInput>();
-            if (PlayerBatch.IsAsked)
-            {
-                enabled = false;
-                return;
-            }
-            Application.runInBackground = true;
-            QualitySettings.vSyncCount = 0;
-            Application.targetFrameRate = 60;
-        }
-
-        private void Start()
-        {
-            Load();
+            enabled &= !PlayerBatch.IsAsked;
         }
 
         private void Update()
         {
-            if (Input != null)
+            if (!_isLoaded)    // the first frame, or the first after scripts were compiled anew in Play Mode
             {
-                Push = Input.Push;
-                Turn = Input.Turn;
+                Load();
             }
-            TakeLive();
-            Advance(Time.deltaTime);
+            _input.Steer(this);
+            if (_stepping != SteppingMode.FixedSteps)
+            {
+                Advance(Time.deltaTime);
+            }
+        }
+
+        private void FixedUpdate()
+        {
+            if (_isLoaded && _stepping == SteppingMode.FixedSteps)
+            {
+                Advance(Time.fixedDeltaTime);
+            }
+        }
+
+        private void OnDisable()
+        {
+            _run?.Forget(0.0);
         }
 
         private void OnDestroy()
@@ -355,44 +344,107 @@ namespace Guidewire.Runtime
             Close();
         }
 
-        private static void CheckLength(int given, int needed)
+        private void Load(IReadOnlyList<string[]> choices)
         {
-            if (given != needed)
+            WireRun? before = _run;
+            _run = null;
+            _opened = null;
+            _isLoaded = true;
+            (RealTime, _taken) = (0.0, null);
+            _report.Begin();
+            _speed.Begin();
+            try
             {
-                throw new ArgumentException("an array of length " + given + " is given, and " + needed + " are needed");
+                before?.Dispose();
+                RunOpening opening = Opening(isLogged: true);
+                _run = new WireRun((report, cancellation) => opening.Open(choices, before, taken => _taken = taken,
+                    report, cancellation), Record, Played);
+            }
+            catch (Exception error)
+            {
+                _report.Stop(error);
+                Generation++;
+                return;
+            }
+            if (WireRun.TakesThread(_stepping))
+            {
+                _run.StartThread();
+            }
+            WorkAtOnce();
+        }
+
+        /// <summary>Takes from the scene what a run is opened from.</summary>
+        /// <exception cref="ArgumentException">A vessel that is none.</exception>
+        internal RunOpening Opening(bool isLogged)
+        {
+            VesselMesh[] vessels = Array.ConvertAll(_vessels, vessel => vessel ? vessel.Read(transform)
+                : throw new ArgumentException("an entry of the vessels names no object"));
+            string log = _logFolder.Length == 0 || !isLogged ? "" : Path.Combine(Root, _logFolder);
+            return new RunOpening(_parameterAsset ? _parameterAsset!.name : Path.Combine(Root, _parameterFile),
+                _parameterAsset ? _parameterAsset!.text : null, vessels, log, _isSteered);
+        }
+
+        private void Steer()
+        {
+            _run!.Steer(new SteeringCommand
+            {
+                Held = Held,
+                Push = Mathf.Clamp(Push, -1f, 1f) * _pushSpeed,
+                Turn = Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed,
+            }, WantsContactPoints);
+            WantsContactPoints = false;    // views ask anew each frame
+        }
+
+        // Without a thread: what is asked for beside the frames' steps.
+        private void WorkAtOnce()
+        {
+            if (_run != null && !_run.HasThread)
+            {
+                while (_run.IsAskedAtOnce && _run.Work())
+                {
+                }
+                Take();
+                _opened?.Show(double.PositiveInfinity);
             }
         }
 
         private bool CanStep()
         {
-            return Session != null && Problem.Length == 0 && Session.Simulation.Outcome == Outcome.Running;
+            return _opened != null && Problem.Length == 0 && _opened.Newest.Outcome == Outcome.Running;
         }
 
-        private void Report(Simulation simulation)
+        // Takes over what has been made since the last time.
+        private void Take()
         {
-            if (simulation.Outcome == Outcome.Running || _isReported)
+            if (_run == null)
             {
                 return;
             }
-            _isReported = true;
-            string line = simulation.Outcome.ToString().ToLowerInvariant() + ": " + simulation.Reason;
-            if (simulation.Outcome == Outcome.Diverged || simulation.Outcome == Outcome.Failed)
+            if (_opened == null && _run.Opened != null)
             {
-                Problem = line;
-                Debug.LogError("guidewire: " + line);
+                _opened = _run.Opened;
+                _overrides = _taken ?? _overrides;
+                Held = Held < Description!.Titles.Count ? Held : 0;
+                _touched.Begin(SphereCount);
+                Generation++;
+                foreach (string warning in Description.Warnings)
+                {
+                    Debug.LogWarning("guidewire: " + warning);
+                }
             }
-            else
+            if (_run.Failure != null && Problem.Length == 0)
             {
-                Debug.Log("guidewire: " + line);
+                Generation += _opened == null ? 1 : 0;
+                _report.Stop(_run.Failure);
             }
-            Ended?.Invoke(simulation.Outcome, simulation.Reason);
-        }
-
-        private void Stop(Exception error)
-        {
-            bool isExpected = error is ParameterException || error is ArgumentException;
-            Problem = isExpected ? error.Message : "internal error: " + error.Message;
-            Debug.LogError("guidewire: " + (isExpected ? error.Message : error.ToString()));
+            if (_run.Take())
+            {
+                _touched.Update(State!.ContactForces, ContactBegan, ContactEnded);
+                if (_report.Take(State))
+                {
+                    Ended?.Invoke(State.Outcome, State.Reason);
+                }
+            }
         }
     }
 }

@@ -15,15 +15,14 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Takes over a step.</summary>
-        /// <param name="contacts">Its contacts, or null without walls.</param>
+        /// <param name="forces">Of the walls on each sphere; empty without walls.</param>
         /// <param name="began">Called with the index of each sphere that a wall acts on now and did not before.</param>
         /// <param name="ended">Called with the index of each one that it no longer acts on.</param>
-        public void Update(ContactRecord? contacts, Action<int>? began, Action<int>? ended)
+        public void Update(Vector3d[] forces, Action<int>? began, Action<int>? ended)
         {
-            Vector3d[]? forces = contacts?.Forces;
             for (int i = 0; i < _touched.Length; i++)
             {
-                bool isTouched = forces != null && i < forces.Length && forces[i].LengthSquared > 0.0;
+                bool isTouched = i < forces.Length && forces[i].LengthSquared > 0.0;
                 if (isTouched != _touched[i])
                 {
                     _touched[i] = isTouched;

@@ -6,80 +6,80 @@ namespace Guidewire.Runtime
 {
     /// <summary>Shows where the wire touches a wall (balls) and the walls' force on each sphere (sticks). The longest
     /// stick has a fixed length; what it stands for is the largest force of late.</summary>
-    public sealed class ContactView : MonoBehaviour
+    [AddComponentMenu("Guidewire/Contact View")]
+    public sealed class ContactView : LoopView
     {
         private const double Fading = 0.99;    // fraction of the largest force that is left a frame later
 
-        [SerializeField] private SimulationLoop _loop = null!;
-
-        [Tooltip("Material of the marks.")]
-        [SerializeField] private Material _material = null!;
+        [Tooltip("Material of the marks, taken as it is; empty: a yellow one of the pipeline.")]
+        [SerializeField] private Material? _material;
 
         [Tooltip("Length of the longest force line, in units.")]
         [SerializeField] private float _length = 40f;
 
-        private Mesh _ball = null!;
-        private Material _yellow = null!;
-        private int[] _hints = Array.Empty<int>();    // one a wall and element, see ContactShape.Nearest
-        private int _generation;
+        private Mesh? _ball;
+        private Material? _yellow;
         private double _largest;
 
         /// <summary>Whether contacts are drawn.</summary>
         [field: SerializeField] public bool IsShown { get; set; } = true;
 
-        private void Awake()
+        /// <summary>Material of the marks, taken as it is; null: a yellow one of the pipeline.</summary>
+        public Material? Material
         {
-            _ball = Marks.CreateSphere();
-            _yellow = Marks.Coloured(_material, 1f, 0.85f, 0.1f);
+            get => _material;
+            set => _material = value;
+        }
+
+        /// <summary>Length of the longest force line, in units.</summary>
+        public float Length
+        {
+            get => _length;
+            set => _length = value;
         }
 
         private void LateUpdate()
         {
-            Simulation? simulation = _loop.Session?.Simulation;
-            if (simulation == null || simulation.Contacts == null || !IsShown)
+            bool isNew = IsNewRun();
+            WireState? state = Loop == null ? null : Loop.Shown;
+            if (state == null || !IsShown)
             {
                 return;
             }
-            SimulationParameters parameters = _loop.Session!.Parameters;
-            RodState state = simulation.State;
-            if (_generation != _loop.Generation)
+            Loop!.WantsContactPoints = true;
+            _largest = isNew ? 0.0 : _largest;
+            if (!_ball)
             {
-                _generation = _loop.Generation;
-                _hints = new int[parameters.Scene.Walls.Length * state.ElementCount];
-                Array.Fill(_hints, -1);
-                _largest = 0.0;
+                _ball = Marks.CreateSphere();
+                _yellow = LitMaterial.Create(new Color(1f, 0.85f, 0.1f));
             }
-            DrawPoints(state, parameters);
-            DrawForces(state, simulation.Contacts.Forces);
+            Material material = _material ? _material! : _yellow!;
+            DrawPoints(state, 0.3f * (float)Loop.Parameters!.Contact.SphereRadius, material);
+            DrawForces(state, material);
         }
 
         private void OnDestroy()
         {
-            Destroy(_ball);
-            Destroy(_yellow);
-        }
-
-        private void DrawPoints(RodState state, SimulationParameters parameters)
-        {
-            Matrix4x4 place = transform.localToWorldMatrix;
-            double range = parameters.Contact.SphereRadius + parameters.Contact.CollisionMargin;
-            float radius = 0.3f * (float)parameters.Contact.SphereRadius;
-            for (int k = 0; k < _hints.Length; k++)
+            if (_ball)
             {
-                int j = k % state.ElementCount;
-                ContactShape wall = parameters.Scene.Walls[k / state.ElementCount];
-                Vector3d a = state.Positions[j];
-                Vector3d b = state.Positions[j + 1];
-                if (wall.Nearest(a, b, range, ref _hints[k], out SurfaceContact contact))
-                {
-                    Marks.DrawSphere(_ball, place, contact.Point.ToUnity(), radius, _yellow);
-                }
+                Destroy(_ball!);
+                Destroy(_yellow!);
             }
         }
 
-        private void DrawForces(RodState state, Vector3d[] forces)
+        private void DrawPoints(WireState state, float radius, Material material)
         {
-            Matrix4x4 place = transform.localToWorldMatrix;
+            Matrix4x4 place = Place;
+            for (int k = 0; k < state.ContactPointCount; k++)
+            {
+                Marks.DrawSphere(_ball!, place, state.ContactPoints[k].ToUnity(), radius, material, gameObject.layer);
+            }
+        }
+
+        private void DrawForces(WireState state, Material material)
+        {
+            Matrix4x4 place = Place;
+            Vector3d[] forces = state.ContactForces;
             _largest *= Fading;
             for (int i = 0; i < forces.Length; i++)
             {
@@ -88,7 +88,8 @@ namespace Guidewire.Runtime
             for (int i = 0; i < forces.Length && _largest > 0.0; i++)
             {
                 Vector3 stick = (_length / _largest * forces[i]).ToUnity();
-                Marks.DrawStick(_ball, place, state.Positions[i].ToUnity(), stick, 1f, _yellow);
+                Marks.DrawStick(_ball!, place, state.Rod.Positions[i].ToUnity(), stick, 1f, material,
+                    gameObject.layer);
             }
         }
     }

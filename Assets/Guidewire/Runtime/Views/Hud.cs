@@ -1,37 +1,35 @@
 using System;
-using System.Collections.Generic;
 using System.Globalization;
 using System.Text;
 using Guidewire.Core;
-using Guidewire.Io;
 using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Times, errors and outcome as text, and buttons for what can be switched while the wire goes on. The
+    /// <summary>Times, forces and outcome as text, and buttons for what can be switched while the wire goes on. The
     /// text is made a few times a second, because each making leaves garbage.</summary>
-    public sealed class Hud : MonoBehaviour
+    [AddComponentMenu("Guidewire/Hud")]
+    public sealed class Hud : LoopView
     {
         private const float Every = 0.2f;     // s between two texts
-        private const float Width = 380f;     // pixels
+        private const float Width = 380f;     // pixels of a screen of 96 dots per inch
         private const float Line = 18f;
+        private const float Dots = 96f;       // per inch
+        private const double Slow = 0.95;     // of the pace, below which the text says so
 
         private static readonly string[] Units = { "", "", "1/unit", "rad/unit" };    // of each colouring
 
-        // Keys with a few words each that a wire can be switched between while it goes on.
-        private static readonly string[] Switchable = { "solver", "integrator", "sweepOrder", "elementContact" };
+        [Tooltip("Whose colours are explained; empty: none.")]
+        [SerializeField] private WireView? _wire;
 
-        [SerializeField] private SimulationLoop _loop = null!;
-        [SerializeField] private WireView _wire = null!;
+        [Tooltip("Size of the text; on a screen of 96 dots per inch 1 is 18 pixels a line.")]
+        [SerializeField, Range(0.5f, 4f)] private float _size = 1f;
 
         private readonly StringBuilder _builder = new StringBuilder(512);
-        private readonly List<ParameterEntry> _switches = new List<ParameterEntry>();
-        private readonly List<string> _labels = new List<string>();
-        private readonly List<string> _instruments = new List<string>();    // buttons that take the next one
         private float _age = Every;
         private int _lines;
-        private int _labelled;    // generation of the buttons of instruments
-        private bool _hasInput;
+        private RunDescription? _description;
+        private HostInput _input;
 
         /// <summary>Whether the keys are listed.</summary>
         [field: SerializeField] public bool ShowsHelp { get; set; } = true;
@@ -39,71 +37,52 @@ namespace Guidewire.Runtime
         /// <summary>The text as it stands on the screen.</summary>
         public string Text { get; private set; } = "";
 
+        /// <summary>Pixels of the screen for one of a screen of 96 dots per inch.</summary>
+        internal float Scale => _size * (Screen.dpi > 0f ? Mathf.Max(1f, Screen.dpi / Dots) : 1f);
+
         /// <summary>Makes the text anew.</summary>
         public void Refresh()
         {
             _age = 0f;
             _builder.Clear();
             _lines = 0;
-            SimulationSession? session = _loop.Session;
-            if (session != null)
+            SimulationLoop? loop = Loop;
+            _description = loop == null ? null : loop.Description;
+            if (loop == null)
             {
-                Write(session);
-                LabelInstruments(session);
-                for (int i = 0; i < _switches.Count; i++)
-                {
-                    _labels[i] = _switches[i].Key + ": " + session.Get(_switches[i].Key);
-                }
+                Append("no loop");
             }
-            if (_loop.Problem.Length > 0)
+            else if (loop.State != null)
             {
-                Append("STOPPED: {0}", _loop.Problem);
+                Write(loop, loop.State, _description!);
+            }
+            else if (loop.Progress.Length > 0)
+            {
+                Append("{0} ...", loop.Progress);
+            }
+            if (loop != null && loop.Problem.Length > 0)
+            {
+                Append("STOPPED: {0}", loop.Problem);
                 Append("R starts anew");
             }
-            if (!_hasInput)
+            if (!_input.IsThere)
             {
-                Append("no keys, no mouse: set Project Settings > Player >");
-                Append("Active Input Handling to Input Manager (Old) or Both");
+                Append("no keys, no mouse: see Project Settings > Player >");
+                Append("Active Input Handling, or add the Input System package");
             }
             Text = _builder.ToString();
         }
 
-        private void LabelInstruments(SimulationSession session)
-        {
-            if (_labelled == _loop.Generation)
-            {
-                return;
-            }
-            _labelled = _loop.Generation;
-            _instruments.Clear();
-            for (int k = 0; k < session.InstrumentCount; k++)
-            {
-                int names = session.ChoicesOf(k).Count;
-                if (names > 0)
-                {
-                    _instruments.Add((k == 0 ? "wire: " : "catheter: ") + session.TitleOf(k) + " (1 of " + names + ")");
-                }
-            }
-        }
-
         private void Awake()
         {
-            _hasInput = LegacyInput.IsThere();
-            foreach (string key in Switchable)
-            {
-                ParameterEntry? entry = ParameterTable.Find(key);
-                if (entry != null)
-                {
-                    _switches.Add(entry);
-                    _labels.Add(key);
-                }
-            }
+            _input = HostInput.Find();
         }
 
         private void Update()
         {
             _age += Time.deltaTime;
-            if (_age >= Every || _loop.Problem.Length > 0 != Text.Contains("STOPPED"))
+            bool isStopped = Loop != null && Loop.Problem.Length > 0;
+            if (_age >= Every || isStopped != Text.Contains("STOPPED"))
             {
                 Refresh();
             }
@@ -111,91 +90,99 @@ namespace Guidewire.Runtime
 
         private void OnGUI()
         {
+            Matrix4x4 before = GUI.matrix;
+            GUI.matrix = Matrix4x4.TRS(Vector3.zero, Quaternion.identity, new Vector3(Scale, Scale, 1f));
             float height = Line * (_lines + 1);
             GUI.Box(new Rect(8f, 8f, Width, height), GUIContent.none);
             GUI.Label(new Rect(16f, 12f, Width - 16f, height), Text);
             float y = 12f + height;
-            for (int i = 0; i < _switches.Count; i++)
+            for (int i = 0; _description != null && i < _description.Switches.Count; i++)
             {
-                if (GUI.Button(new Rect(8f, y, 0.5f * Width, Line + 4f), _labels[i]) && _loop.Session != null)
+                if (GUI.Button(new Rect(8f, y, 0.5f * Width, Line + 4f), _description.Switches[i].Label))
                 {
-                    bool isSwitched = _loop.Session.Switch(_switches[i].Key);
-                    Refresh();
-                    _labels[i] += isSwitched ? "" : " (only)";
+                    Switch(_description.Switches[i].Key);
                 }
                 y += Line + 6f;
             }
-            for (int k = 0; k < _instruments.Count; k++)
+            for (int k = 0; _description != null && k < _description.Choices.Count; k++)
             {
-                if (GUI.Button(new Rect(8f, y, 0.8f * Width, Line + 4f), _instruments[k]))
+                if (_description.Choices[k].Length > 0)
                 {
-                    _loop.TakeNextInstrument(k);
-                    Refresh();
+                    if (GUI.Button(new Rect(8f, y, 0.8f * Width, Line + 4f), _description.Choices[k]))
+                    {
+                        Loop!.TakeNextInstrument(k);
+                        Refresh();
+                    }
+                    y += Line + 6f;
                 }
-                y += Line + 6f;
             }
             if (ShowsHelp)
             {
-                GUI.Label(new Rect(16f, Screen.height - 9f * Line, 2f * Width, 9f * Line), KeyboardControl.Help);
+                GUI.Label(new Rect(16f, Screen.height / Scale - 9f * Line, 2f * Width, 9f * Line),
+                    KeyboardControl.Help);
             }
+            GUI.matrix = before;
         }
 
-        private void Write(SimulationSession session)
+        private void Switch(string key)
         {
-            Simulation simulation = session.Simulation;
-            Append("in-game time {0:0.000} s   real time {1:0.0} s", simulation.Time, _loop.RealTime);
-            Append("step {0}   {1:0.000} ms a step", simulation.StepCount, session.StepTime);
-            Append("prediction error {0:0.0e+0} units", simulation.PredictionError);
-            Append("{0}{1}   {2} elements", simulation.Outcome.ToString().ToLowerInvariant(),
-                _loop.IsPaused ? " (paused)" : "", simulation.State.ElementCount);
-            if (simulation.Outcome != Outcome.Running)
+            Loop!.Do(session => session.Switch(key));
+            Refresh();
+        }
+
+        private void Write(SimulationLoop loop, WireState state, RunDescription description)
+        {
+            Append("in-game time {0:0.000} s   real time {1:0.0} s", state.Time, loop.RealTime);
+            Append("step {0}   {1:0.000} ms a step", state.StepCount, state.StepTime);
+            if (loop.Speed < Slow && !loop.IsPaused)
             {
-                Append("{0}", simulation.Reason);
+                Append("the steps take too long: {0:0} % of the speed", 100.0 * loop.Speed);
             }
-            ContactRecord? contacts = simulation.Contacts;
-            if (contacts != null)
+            Append("prediction error {0:0.0e+0} units", state.PredictionError);
+            Append("{0}{1}   {2} elements", state.Outcome.ToString().ToLowerInvariant(),
+                loop.IsPaused ? " (paused)" : "", state.Rod.ElementCount);
+            if (state.Outcome != Outcome.Running)
             {
-                Append("walls: force {0:0.00e+0}, user: force {1:0.00e+0} {2}", contacts.Total.Length,
-                    contacts.Reaction.Length, HasMaterial(session) ? "N" : "mass unit unit/s\u00b2");
-                Append("drive: {0:0.0} units, shortfall: {1:0.0}   passages {2}", contacts.DriveAsked,
-                    contacts.DriveShortfall, contacts.Passages);
+                Append("{0}", state.Reason);
             }
-            HubRecord? hub = simulation.Hub();
-            if (hub != null)
+            if (state.ContactForces.Length > 0)
             {
-                Append("hub: {0:0.0} mm in, turned by {1:0} degrees", 1e3 * hub.Insertion,
-                    180.0 / Math.PI * hub.Turn);
-                Append("push {0:0.0} mN, torque {1:0.000} mN m", 1e3 * hub.Force, 1e3 * hub.Torque);
-                Append("largest curvature {0:0.0} 1/m", hub.LargestCurvature);
+                bool hasMaterial = MethodTable.Of(description.Parameters.Method.Solver).TakesMaterial;
+                Append("walls: force {0:0.00e+0}, user: force {1:0.00e+0} {2}", state.ContactForce.Length,
+                    state.Reaction.Length, hasMaterial ? "N" : "mass unit unit/s\u00b2");
+                Append("passages {0}", state.Passages);
             }
-            WriteCatheters(session);
-            if (_wire.Colouring != Colouring.Plain)
+            if (state.Hub != null)
+            {
+                WriteHub("hub", state.Hub.Value);
+                Append("largest curvature {0:0.0} 1/m", state.LargestCurvature);
+            }
+            for (int k = 0; k < state.Catheters.Count; k++)
+            {
+                WriteHub(description.Titles[k + 1], state.Catheters[k].Hub);
+                Append("overlap {0:0.0} mm", 1e3 * state.Catheters[k].Overlap);
+            }
+            if (state.Catheters.Count > 0 && description.IsSteered)
+            {
+                Append("the hand holds {0}", description.Titles[loop.Held]);
+            }
+            if (state.IsJammed)
+            {
+                Append("JAMMED: the hub slips; pulling back frees it");
+            }
+            if (_wire && _wire!.Colouring != Colouring.Plain)
             {
                 Append("colour: {0}, red at {1} {2}", _wire.Colouring.ToString().ToLowerInvariant(), _wire.Range,
                     Units[(int)_wire.Colouring]);
             }
         }
 
-        private void WriteCatheters(SimulationSession session)
+        private void WriteHub(string name, in HubState hub)
         {
-            IReadOnlyList<CoaxialRecord> catheters = session.Simulation.Catheters();
-            for (int k = 0; k < catheters.Count; k++)
-            {
-                CoaxialRecord one = catheters[k];
-                Append("{0}: {1:0.0} mm in, turned by {2:0} degrees", session.TitleOf(k + 1), 1e3 * one.Insertion,
-                    180.0 / Math.PI * one.Turn);
-                Append("push {0:0.0} mN, torque {1:0.000} mN m, overlap {2:0.0} mm", 1e3 * one.Force,
-                    1e3 * one.Torque, 1e3 * one.Overlap);
-            }
-            if (catheters.Count > 0 && session.IsSteered)
-            {
-                Append("the hand holds {0}", session.TitleOf(_loop.Held));
-            }
-        }
-
-        private static bool HasMaterial(SimulationSession session)
-        {
-            return MethodTable.Of(session.Parameters.Method.Solver).TakesMaterial;
+            Append("{0}: {1:0.0} mm in, turned by {2:0} degrees", name, 1e3 * hub.Insertion,
+                180.0 / Math.PI * hub.Turn);
+            Append("push {0:0.0} mN, torque {1:0.000} mN m, slipped {2:0.0} mm", 1e3 * hub.Force, 1e3 * hub.Torque,
+                1e3 * hub.Shortfall);
         }
 
         private void Append(string format, params object[] values)

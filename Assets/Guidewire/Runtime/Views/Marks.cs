@@ -39,34 +39,29 @@ namespace Guidewire.Runtime
             return mesh;
         }
 
-        /// <summary>A material of one colour, made from another.</summary>
-        public static Material Coloured(Material from, float red, float green, float blue)
-        {
-            return new Material(from) { mainTexture = null, color = new Color(red, green, blue) };
-        }
-
         /// <summary>Draws a ball; nothing where its position is not finite.</summary>
         /// <param name="place">From the wire's frame to the world.</param>
-        public static void DrawSphere(Mesh ball, in Matrix4x4 place, Vector3 centre, float radius, Material material)
+        public static void DrawSphere(Mesh ball, in Matrix4x4 place, Vector3 centre, float radius, Material material,
+            int layer)
         {
             if (centre.IsFinite())
             {
                 Matrix4x4 own = Matrix4x4.TRS(centre, Quaternion.identity, radius * Vector3.one);
-                Graphics.DrawMesh(ball, place * own, material, 0);
+                Graphics.DrawMesh(ball, place * own, material, layer);
             }
         }
 
         /// <summary>Draws a ball drawn out to a stick from a point along a vector.</summary>
         /// <param name="place">From the wire's frame to the world.</param>
         public static void DrawStick(Mesh ball, in Matrix4x4 place, Vector3 from, Vector3 along, float radius,
-            Material material)
+            Material material, int layer)
         {
             float half = 0.5f * along.magnitude;
             if (from.IsFinite() && half > 0f && !float.IsInfinity(half))
             {
                 Quaternion rotation = Quaternion.FromToRotation(Vector3.forward, along);
                 var scale = new Vector3(radius, radius, half);
-                Graphics.DrawMesh(ball, place * Matrix4x4.TRS(from + 0.5f * along, rotation, scale), material, 0);
+                Graphics.DrawMesh(ball, place * Matrix4x4.TRS(from + 0.5f * along, rotation, scale), material, layer);
             }
         }
     }

@@ -3,11 +3,11 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>A camera that circles a point: right mouse button turns, wheel zooms.</summary>
-    public sealed class OrbitCamera : MonoBehaviour
+    /// <summary>A camera that circles a point of a loop's frame: right mouse button turns, wheel zooms. Lengths are the
+    /// wire's units, wherever the loop's object stands and however it is scaled.</summary>
+    [AddComponentMenu("Guidewire/Orbit Camera")]
+    public sealed class OrbitCamera : LoopView
     {
-        [SerializeField] private SimulationLoop _loop = null!;
-
         [Tooltip("Point at the centre of the view, in units.")]
         [SerializeField] private Vector3 _target;
 
@@ -23,43 +23,57 @@ namespace Guidewire.Runtime
         [Tooltip("Degrees per pixel of mouse motion.")]
         [SerializeField] private float _turnSpeed = 0.3f;
 
-        private Vector3 _lastMouse;
-        private bool _hasMouse;
+        private HostInput _input;
+        private Vector2 _lastMouse;
 
         /// <summary>Whether the tip of the wire is kept in the middle.</summary>
         public bool FollowsTip { get; set; }
 
+        /// <summary>Point at the centre of the view, in units of the loop's frame.</summary>
+        public Vector3 Target
+        {
+            get => _target;
+            set => _target = value;
+        }
+
+        /// <summary>Distance from it, in units.</summary>
+        public float Distance
+        {
+            get => _distance;
+            set => _distance = value;
+        }
+
         private void Awake()
         {
-            _hasMouse = LegacyInput.IsThere();
+            _input = HostInput.Find();
         }
 
         private void LateUpdate()
         {
-            if (_hasMouse)
+            FollowMouse(_input.Mouse);
+            SimulationLoop? loop = Loop;
+            if (FollowsTip && loop != null && loop.Shown != null)
             {
-                FollowMouse(Input.mousePosition);
-            }
-            if (FollowsTip && _loop.Session != null)
-            {
-                RodState state = _loop.Session.Simulation.State;
+                RodState state = loop.Shown.Rod;
                 Vector3 tip = state.Positions[state.ElementCount].ToUnity();
                 _target = tip.IsFinite() ? tip : _target;
             }
             Quaternion rotation = Quaternion.Euler(_pitch, _yaw, 0f);
-            transform.position = _target - rotation * Vector3.forward * _distance;
+            Vector3 middle = loop == null ? _target : loop.transform.TransformPoint(_target);
+            float unit = loop == null ? 1f : loop.transform.lossyScale.magnitude / Vector3.one.magnitude;
+            transform.position = middle - rotation * Vector3.forward * (_distance * unit);
             transform.rotation = rotation;
         }
 
-        private void FollowMouse(Vector3 mouse)
+        private void FollowMouse(Vector2 mouse)
         {
-            if (Input.GetMouseButton(1))
+            if (_input.IsRightButtonDown)
             {
                 _yaw += _turnSpeed * (mouse.x - _lastMouse.x);
                 _pitch = Mathf.Clamp(_pitch - _turnSpeed * (mouse.y - _lastMouse.y), -89f, 89f);
             }
             _lastMouse = mouse;
-            _distance = Mathf.Clamp(_distance * Mathf.Exp(-0.1f * Input.mouseScrollDelta.y), 1f, 5000f);
+            _distance = Mathf.Clamp(_distance * Mathf.Exp(-0.1f * _input.Wheel), 1f, 5000f);
         }
     }
 }

@@ -45,6 +45,9 @@ namespace Guidewire.Runtime
             WriteTriangles(rings);
         }
 
+        /// <summary>n + 1.</summary>
+        public int Spheres => _spheres;
+
         /// <summary>Vertices in units.</summary>
         public Vector3[] Vertices { get; }
 

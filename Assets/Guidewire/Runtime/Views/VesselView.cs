@@ -5,63 +5,73 @@ using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Shows the walls, translucent: from outside the far wall is seen through the near one, because a wall's
-    /// front is the side that the wire sees.</summary>
-    public sealed class VesselView : MonoBehaviour
+    /// <summary>Shows the walls, translucent; one without bounds up to half the wire's length from its middle. From
+    /// outside the far wall is seen through the near one, because a wall's front is the side that the wire
+    /// sees.</summary>
+    [AddComponentMenu("Guidewire/Vessel View")]
+    public sealed class VesselView : LoopView
     {
-        [SerializeField] private SimulationLoop _loop = null!;
+        private static readonly Color Flesh = new Color(0.85f, 0.35f, 0.3f, 0.25f);
 
-        [Tooltip("Material of the walls.")]
-        [SerializeField] private Material _material = null!;
-
-        [Tooltip("Distance from the middle of the wire up to which an infinite wall is drawn, in units.")]
-        [SerializeField] private float _reach = 150f;
+        [Tooltip("Material of the walls, taken as it is; empty: a transparent one of the pipeline.")]
+        [SerializeField] private Material? _material;
 
         private readonly List<Mesh> _meshes = new List<Mesh>();
-        private int _generation;
+        private Material? _own;
 
         /// <summary>The walls' meshes.</summary>
         public IReadOnlyList<Mesh> Meshes => _meshes;
 
+        /// <summary>Material of the walls, taken as it is; null: a transparent one of the pipeline.</summary>
+        public Material? Material
+        {
+            get => _material;
+            set => _material = value;
+        }
+
         private void LateUpdate()
         {
-            if (_generation != _loop.Generation)
+            if (IsNewRun())
             {
-                _generation = _loop.Generation;
                 Build();
             }
-            Matrix4x4 place = transform.localToWorldMatrix;
             for (int i = 0; i < _meshes.Count; i++)
             {
-                Graphics.DrawMesh(_meshes[i], place, _material, gameObject.layer);
+                Graphics.DrawMesh(_meshes[i], Place, _material ? _material! : Own(), gameObject.layer);
             }
         }
 
         private void OnDestroy()
         {
             Clear();
+            if (_own)
+            {
+                Destroy(_own!);
+            }
+        }
+
+        private Material Own()
+        {
+            if (!_own)
+            {
+                _own = LitMaterial.Create(Flesh);
+            }
+            return _own!;
         }
 
         private void Build()
         {
             Clear();
-            if (_loop.Session == null)
+            SimulationLoop? loop = Loop;
+            if (loop == null || loop.Description == null)
             {
                 return;
             }
-            RodState state = _loop.Session.Simulation.State;
-            Vector3d middle = state.Positions[state.ElementCount];
-            foreach (ContactShape wall in _loop.Session.Parameters.Scene.Walls)
+            foreach (WallMesh wall in loop.Description.Walls)
             {
-                WallSurface surface = WallSurface.Create(wall, middle, _reach);
-                var vertices = new Vector3[surface.Vertices.Count];
-                for (int i = 0; i < vertices.Length; i++)
-                {
-                    vertices[i] = surface.Vertices[i].ToUnity();
-                }
                 var mesh = new Mesh { name = "Wall", indexFormat = IndexFormat.UInt32 };
-                mesh.SetVertices(vertices);
-                mesh.SetTriangles(new List<int>(surface.Triangles).ToArray(), 0);
+                mesh.SetVertices(wall.Vertices);
+                mesh.SetTriangles(wall.Triangles, 0);
                 mesh.RecalculateNormals();
                 mesh.RecalculateBounds();
                 _meshes.Add(mesh);

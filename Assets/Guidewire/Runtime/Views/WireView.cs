@@ -1,30 +1,28 @@
+using System;
 using Guidewire.Core;
-using Guidewire.Io;
 using UnityEngine;
 using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Shows the wire as one tube, and where asked for its spheres and directors. Meshes are made when a wire
-    /// is built and rewritten after that. All is drawn at this object's transform: it stands on the loop's object, or
-    /// below it.</summary>
-    public sealed class WireView : MonoBehaviour
+    /// <summary>Shows the wire as one tube, its catheters as others, and where asked for its spheres and directors.
+    /// Meshes are made when a wire is built and rewritten after that.</summary>
+    [AddComponentMenu("Guidewire/Wire View")]
+    public sealed class WireView : LoopView
     {
-        [SerializeField] private SimulationLoop _loop = null!;
+        private const double ThinnestOfLength = 1.0 / 300.0;
 
-        [Tooltip("Material of the tube; its texture becomes the colour map.")]
-        [SerializeField] private Material _material = null!;
+        [Tooltip("Material of the plain wire, taken as it is; empty: a lit one of the pipeline.")]
+        [SerializeField] private Material? _material;
 
-        [Tooltip("Transparent material of catheters, so that the wire inside is visible.")]
-        [SerializeField] private Material _catheterMaterial = null!;
+        [Tooltip("Material of catheters, taken as it is; empty: transparent ones of the pipeline.")]
+        [SerializeField] private Material? _catheterMaterial;
 
         [Tooltip("Rings per element.")]
         [SerializeField, Range(1, 16)] private int _ringsPerElement = 4;
 
         [Tooltip("Vertices per ring.")]
         [SerializeField, Range(3, 32)] private int _sides = 12;
-
-        private const double ThinnestOfLength = 1.0 / 300.0;
 
         [Tooltip("Radius of the tube over sphereRadius, or over the radius of a wire with a material.")]
         [SerializeField, Range(0.05f, 1f)] private float _thickness = 1f;
@@ -40,14 +38,14 @@ namespace Guidewire.Runtime
         [Tooltip("Twist at the end of the colour scale, in rad/unit.")]
         [SerializeField] private float _twistRange = 0.02f;
 
-        private TubeMesh _tube = null!;
-        private Mesh _mesh = null!;
-        private Mesh _ball = null!;
-        private Material _coloured = null!;
-        private Material[] _directors = null!;
-        private float[] _colours = null!;
-        private CatheterView _catheters = null!;
-        private int _generation;
+        private readonly CatheterTubes _catheters = new CatheterTubes();
+        private TubeMesh? _tube;
+        private Mesh? _mesh;
+        private Mesh? _ball;
+        private Material? _coloured;
+        private Texture2D? _map;
+        private Material[] _directors = Array.Empty<Material>();
+        private float[] _colours = Array.Empty<float>();
 
         /// <summary>Whether the spheres are drawn.</summary>
         [field: SerializeField] public bool ShowsSpheres { get; set; }
@@ -56,7 +54,32 @@ namespace Guidewire.Runtime
         [field: SerializeField] public bool ShowsDirectors { get; set; }
 
         /// <summary>What the colour shows.</summary>
-        public Colouring Colouring => _colouring;
+        public Colouring Colouring
+        {
+            get => _colouring;
+            set => _colouring = value;
+        }
+
+        /// <summary>Material of the plain wire, taken as it is; null: a lit one of the pipeline.</summary>
+        public Material? Material
+        {
+            get => _material;
+            set => _material = value;
+        }
+
+        /// <summary>Material of catheters, taken as it is; null: transparent ones of the pipeline.</summary>
+        public Material? CatheterMaterial
+        {
+            get => _catheterMaterial;
+            set => _catheterMaterial = value;
+        }
+
+        /// <summary>Radius of the tube over sphereRadius, or over the radius of a wire with a material.</summary>
+        public float Thickness
+        {
+            get => _thickness;
+            set => _thickness = value;
+        }
 
         /// <summary>The value of the last colour.</summary>
         public float Range => _colouring == Colouring.Stretch ? _stretchRange
@@ -68,63 +91,57 @@ namespace Guidewire.Runtime
         /// <summary>The tube as it was last drawn, or null before the first wire.</summary>
         internal TubeMesh? Tube => _tube;
 
+        /// <summary>Its mesh.</summary>
+        internal Mesh? Mesh => _mesh;
+
+        /// <summary>The tubes of the catheters.</summary>
+        internal CatheterTubes Catheters => _catheters;
+
         /// <summary>Shows the next of plain, stretch, bending, twist.</summary>
         public void NextColouring()
         {
             _colouring = (Colouring)(((int)_colouring + 1) % 4);
         }
 
-        /// <summary>Draws the wire as it is now.</summary>
+        /// <summary>Draws the wire as this frame has it.</summary>
         public void Draw()
         {
-            SimulationSession? session = _loop.Session;
-            if (session == null)
+            bool isNew = IsNewRun();
+            WireState? state = Loop == null ? null : Loop.Shown;
+            if (state == null)
             {
                 return;
             }
-            RodState state = session.Simulation.State;
-            float radius = _thickness * (float)Radius(session.Parameters);
+            SimulationParameters parameters = Loop!.Parameters!;
+            float radius = _thickness * (float)Radius(parameters);
             DrawnRadius = radius;
-            if (_generation != _loop.Generation)
+            if (isNew || _tube == null || _tube.Spheres != state.Rod.SphereCount)
             {
-                Build(state);
-                _generation = _loop.Generation;
+                Build(state.Rod);
+                _catheters.Build(parameters, state.Catheters);
             }
             for (int i = 0; i < _colours.Length; i++)
             {
-                _colours[i] = ColourMap.Coordinate(Value(state, i), Range);
+                _colours[i] = ColourMap.Coordinate(Value(state.Rod, i), Range);
             }
-            if (_tube.Write(state, ShowsSpheres ? 0.5f * radius : radius, _colours))
+            if (_tube!.Write(state.Rod, ShowsSpheres ? 0.5f * radius : radius, _colours))
             {
-                _mesh.SetVertices(_tube.Vertices);
+                _mesh!.SetVertices(_tube.Vertices);
                 _mesh.SetNormals(_tube.Normals);
                 _mesh.SetUVs(0, _tube.Colours);
                 _mesh.RecalculateBounds();
             }
+            Material wire = _colouring == Colouring.Plain && _material ? _material! : Coloured();
+            Graphics.DrawMesh(_mesh!, Place, wire, gameObject.layer);
             if (ShowsSpheres)
             {
-                DrawSpheres(state, radius);
+                DrawSpheres(state.Rod, radius, wire);
             }
             if (ShowsDirectors)
             {
-                DrawDirectors(state, radius);
+                DrawDirectors(state.Rod, radius);
             }
-            _catheters.Draw();
-        }
-
-        private void Awake()
-        {
-            _coloured = new Material(_material) { mainTexture = ColourMap.Create() };
-            _directors = new[]
-            {
-                Marks.Coloured(_material, 0.9f, 0.2f, 0.2f), Marks.Coloured(_material, 0.2f, 0.8f, 0.3f),
-                Marks.Coloured(_material, 0.3f, 0.4f, 0.9f),
-            };
-            _ball = Marks.CreateSphere();
-            _catheters = gameObject.AddComponent<CatheterView>();
-            _catheters.Begin(_loop, this, _catheterMaterial);
-            gameObject.AddComponent<MeshFilter>();
-            gameObject.AddComponent<MeshRenderer>().sharedMaterial = _coloured;
+            _catheters.Draw(state.Catheters, radius, Place, _catheterMaterial, gameObject.layer);
         }
 
         private void LateUpdate()
@@ -134,26 +151,50 @@ namespace Guidewire.Runtime
 
         private void OnDestroy()
         {
-            Destroy(_coloured.mainTexture);
-            Destroy(_coloured);
-            Destroy(_ball);
-            Destroy(_mesh);
+            if (_coloured)
+            {
+                Destroy(_map!);
+                Destroy(_coloured!);
+            }
+            if (_mesh)
+            {
+                Destroy(_mesh!);
+            }
+            if (_ball)
+            {
+                Destroy(_ball!);
+            }
             foreach (Material material in _directors)
             {
                 Destroy(material);
             }
+            _catheters.Clear();
         }
 
         private void Build(RodState state)
         {
-            Destroy(_mesh);
+            if (_mesh)
+            {
+                Destroy(_mesh!);
+            }
             _tube = new TubeMesh(state.SphereCount, _ringsPerElement, _sides);
             _colours = new float[state.SphereCount];
             _mesh = new Mesh { name = "Wire", indexFormat = IndexFormat.UInt32 };
             _mesh.MarkDynamic();
             _mesh.SetVertices(_tube.Vertices);
             _mesh.SetTriangles(_tube.Triangles, 0);
-            GetComponent<MeshFilter>().sharedMesh = _mesh;
+        }
+
+        // Made when it is first needed: a view may be told its material after it was added.
+        private Material Coloured()
+        {
+            if (!_coloured)
+            {
+                _map = ColourMap.Create();
+                _coloured = LitMaterial.Create(new Color(1f, 1f, 1f));
+                LitMaterial.SetTexture(_coloured, _map);
+            }
+            return _coloured!;
         }
 
         private double Value(RodState state, int i)
@@ -179,29 +220,49 @@ namespace Guidewire.Runtime
                 return parameters.Contact.SphereRadius;
             }
             double own = parameters.Material.WireRadius / parameters.Scene.MetresPerUnit;
-            return System.Math.Max(own, ThinnestOfLength * parameters.Scene.GuidewireLength);
+            return Math.Max(own, ThinnestOfLength * parameters.Scene.GuidewireLength);
         }
 
-        private void DrawSpheres(RodState state, float radius)
+        private Mesh Ball()
         {
-            Matrix4x4 place = transform.localToWorldMatrix;
+            if (!_ball)
+            {
+                _ball = Marks.CreateSphere();
+            }
+            return _ball!;
+        }
+
+        private void DrawSpheres(RodState state, float radius, Material material)
+        {
             for (int i = 0; i < state.SphereCount; i++)
             {
-                Marks.DrawSphere(_ball, place, state.Positions[i].ToUnity(), radius, _coloured);
+                Marks.DrawSphere(Ball(), Place, state.Positions[i].ToUnity(), radius, material, gameObject.layer);
             }
         }
 
         private void DrawDirectors(RodState state, float radius)
         {
-            Matrix4x4 place = transform.localToWorldMatrix;
+            if (_directors.Length == 0)
+            {
+                _directors = new[]
+                {
+                    LitMaterial.Create(new Color(0.9f, 0.2f, 0.2f)), LitMaterial.Create(new Color(0.2f, 0.8f, 0.3f)),
+                    LitMaterial.Create(new Color(0.3f, 0.4f, 0.9f)),
+                };
+            }
+            Matrix4x4 place = Place;
+            int layer = gameObject.layer;
             float length = radius + 0.5f * (float)state.ElementLength;
             for (int j = 0; j < state.ElementCount; j++)
             {
                 Vector3 middle = (0.5 * (state.Positions[j] + state.Positions[j + 1])).ToUnity();
                 Quaterniond q = state.Orientations[j];
-                Marks.DrawStick(_ball, place, middle, length * q.Director1.ToUnity(), 0.1f * radius, _directors[0]);
-                Marks.DrawStick(_ball, place, middle, length * q.Director2.ToUnity(), 0.1f * radius, _directors[1]);
-                Marks.DrawStick(_ball, place, middle, length * q.Director3.ToUnity(), 0.1f * radius, _directors[2]);
+                Marks.DrawStick(Ball(), place, middle, length * q.Director1.ToUnity(), 0.1f * radius, _directors[0],
+                    layer);
+                Marks.DrawStick(Ball(), place, middle, length * q.Director2.ToUnity(), 0.1f * radius, _directors[1],
+                    layer);
+                Marks.DrawStick(Ball(), place, middle, length * q.Director3.ToUnity(), 0.1f * radius, _directors[2],
+                    layer);
             }
         }
     }

@@ -1,7 +1,7 @@
 using Guidewire.Runtime;
 using UnityEngine;
 
-/// <summary>Steers a wire by keys of its own and draws it with a line renderer; the vessel is a SceneVessel.</summary>
+/// <summary>Draws a wire with a line renderer and counts its contacts; KeyInput beside the loop steers it.</summary>
 public sealed class OwnWire : MonoBehaviour
 {
     [SerializeField] private SimulationLoop _wire = null!;
@@ -18,8 +18,6 @@ public sealed class OwnWire : MonoBehaviour
 
     private void LateUpdate()
     {
-        _wire.Push = Input.GetKey(KeyCode.UpArrow) ? 1f : Input.GetKey(KeyCode.DownArrow) ? -0.5f : 0f;
-        _wire.Turn = Input.GetKey(KeyCode.RightArrow) ? 0.25f : Input.GetKey(KeyCode.LeftArrow) ? -0.25f : 0f;
         if (_positions.Length != _wire.SphereCount)
         {
             _positions = new Vector3[_wire.SphereCount];

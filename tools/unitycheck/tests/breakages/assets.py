@@ -7,15 +7,15 @@ from tools.unitycheck.tests.breakages import (
     write,
 )
 
-WIRE = f"{GUIDEWIRE}/Materials/Wire.mat"
-VESSEL = f"{GUIDEWIRE}/Materials/Vessel.mat"
+WIRE = f"{GUIDEWIRE}/Runtime/Resources/Guidewire/Wire.mat"
+VESSEL = f"{GUIDEWIRE}/Runtime/Resources/Guidewire/Vessel.mat"
 CORE = f"{GUIDEWIRE}/Core/Guidewire.Core.asmdef"
 BUILD = "ProjectSettings/EditorBuildSettings.asset"
 EDITOR = "ProjectSettings/EditorSettings.asset"
 VERSION = "ProjectSettings/ProjectVersion.txt"
 LOCK = "Packages/packages-lock.json"
 PLAYER = f"{GUIDEWIRE}/Editor/PlayerBuild.cs"
-DRAWER = f"{GUIDEWIRE}/Editor/ParameterDrawer.cs"
+DRAWER = f"{GUIDEWIRE}/Editor/LoopInspector.cs"
 ENTRY = f"{GUIDEWIRE}/Editor/BatchEntry.cs"
 GUIDE = "docs/unity.md"
 META = f"{VECTOR}.meta"
@@ -61,7 +61,6 @@ BREAKAGES = {
     "material's name": edit(WIRE, "m_Name: Wire", "m_Name: Wires", "material-name"),
     "no material in the file": edit(WIRE, "--- !u!21 &2100000\nMaterial:", "--- !u!28 &2100000\nTexture2D:",
                                     "material-shader"),
-    "material gone": Breakage(both(remove(WIRE), remove(f"{WIRE}.meta")), SCENE, "guid-unknown"),
     "property set by a wrong name": Breakage(insert(WIRE_VIEW,
                                                     'private void Shine() { _coloured.SetFloat("_Shine", 1f); }'),
                                              WIRE_VIEW, "material-property"),
@@ -160,7 +159,7 @@ BREAKAGES = {
     "menu entry that returns": edit(PLAYER, r"static void Windows\(\)", "static int Windows()", "menu-item"),
     "menu check that returns nothing": edit(PLAYER, r'"Guidewire/Build player for Windows"',
                                             '"Guidewire/Build player for Windows", true', "menu-item"),
-    "drawer without its attribute": edit(DRAWER, r"    \[CustomPropertyDrawer\([^]]*\]\n", "", "editor-drawer"),
+    "inspector without its attribute": edit(DRAWER, r"    \[CustomEditor\([^]]*\]\n", "", "editor-drawer"),
     "menu of the guide": edit(PLAYER, "Guidewire/Build player for (Linux.*)Guidewire/Build",
                               r"Wire/Build player for \1Wire/Build",
                               "guide", GUIDE),

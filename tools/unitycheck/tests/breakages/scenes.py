@@ -9,6 +9,8 @@ from tools.unitycheck.tests.breakages import (
 TRANSFORM_301 = r"(--- !u!4 &301\n.*?)"
 VIEW_502 = r"(--- !u!114 &502\n.*?)"
 LOOP_302 = r"(--- !u!114 &302\n.*?)"
+KEYS_303 = r"(--- !u!114 &303\n.*?)"
+MATERIAL = r"_material: \{fileID: 0\}"
 
 
 def scene(old: str, new: str, rule: str) -> Breakage:
@@ -27,22 +29,24 @@ BREAKAGES = {
     "wire and contacts exchanged": scene(r"_wire: \{fileID: 402\}\n  _contacts: \{fileID: 502\}",
                                          "_wire: {fileID: 502}\n  _contacts: {fileID: 402}", "reference-class"),
     "camera that is Unity's, not ours": scene(r"_camera: \{fileID: 103\}", "_camera: {fileID: 102}", "reference-class"),
-    "material that is a script": scene(r"_material: \{fileID: 2100000, guid: \w+, type: 2\}",
+    "material that is a script": scene(MATERIAL,
                                        "_material: {fileID: 11500000, guid: 6d4a4dc862553179a68f75fd04d3751d, type: 3}",
                                        "reference-class"),
     "material that is a built-in mesh": scene(
-        r"_material: \{fileID: 2100000, guid: \w+, type: 2\}",
+        MATERIAL,
         "_material: {fileID: 10202, guid: 0000000000000000e000000000000000, type: 0}", "reference-class"),
-    "material that is a camera": scene(r"_material: \{[^}]*\}", "_material: {fileID: 102}", "reference-class"),
-    "loop unset": scene(r"_loop: \{fileID: 302\}", "_loop: {fileID: 0}", "reference-unset"),
-    "loop left out": scene(r"  _loop: \{fileID: 302\}\n", "", "reference-unset"),
-    "material unset": scene(r"_material: \{[^}]*\}", "_material: {fileID: 0}", "reference-unset"),
+    "material that is a camera": scene(MATERIAL, "_material: {fileID: 102}", "reference-class"),
+    "loop unset": scene(KEYS_303 + r"_loop: \{fileID: 302\}", r"\1_loop: {fileID: 0}", "reference-unset"),
+    "loop left out": scene(KEYS_303 + r"  _loop: \{fileID: 302\}\n", r"\1", "reference-unset"),
+    "contacts unset": scene(r"_contacts: \{[^}]*\}", "_contacts: {fileID: 0}", "reference-unset"),
     "hud left out": scene(r"  _hud: \{fileID: 304\}\n", "", "reference-unset"),
     "reference that is a number": scene(r"_wire: \{fileID: 402\}", "_wire: 402", "field-value"),
     "reference to nothing there": scene(r"_hud: \{fileID: 304\}", "_hud: {fileID: 3040}", "reference-local"),
-    "material's guid unknown": scene(r"_material: \{fileID: 2100000, guid: .{8}", "_material: {fileID: 2100000, guid: "
-                                     "00000000", "guid-unknown"),
-    "material's file ID": scene(r"_material: \{fileID: 2100000", "_material: {fileID: 2100001", "reference-fileid"),
+    "material's guid unknown": scene(MATERIAL, "_material: {fileID: 2100000, guid: 0123456789abcdef0123456789abcdef, "
+                                     "type: 2}", "guid-unknown"),
+    "material's file ID": Breakage(lambda project: {SCENE: project.data(SCENE).replace(
+        b"_material: {fileID: 0}", b"_material: {fileID: 2100001, guid: "
+        + _guid(project, "Resources/Guidewire/Wire.mat", "") + b", type: 2}")}, SCENE, "reference-fileid"),
     # Scripts
     "script swapped for one of the same fields": scene(
         VIEW_502 + r"guid: \w+", r"\1guid: 4b6ca4a4e1b5b9d5b4c9b4c9b4c9b4c9", "guid-unknown"),
@@ -57,7 +61,7 @@ BREAKAGES = {
             _guid(project, "Loop/SimulationLoop"), _guid(project, "Views/TubeMesh"))}, SCENE, "scene-script"),
     "script that is a material": Breakage(
         lambda project: {SCENE: project.data(SCENE).replace(
-            _guid(project, "Views/Hud"), _guid(project, "../Materials/Wire.mat", ""))}, SCENE, "scene-script"),
+            _guid(project, "Views/Hud"), _guid(project, "Resources/Guidewire/Wire.mat", ""))}, SCENE, "scene-script"),
     "loop twice in a scene": Breakage(
         lambda project: {SCENE: project.data(SCENE).replace(
             _guid(project, "Views/Hud"), _guid(project, "Loop/SimulationLoop"))}, SCENE, "scene-needs"),
@@ -94,8 +98,6 @@ BREAKAGES = {
     "position that is no number": scene(r"m_LocalPosition: \{x: 0, y: 300", "m_LocalPosition: {x: nan, y: 300",
                                         "scene-place"),
     "rotation of length 0": scene(TRANSFORM_301 + r"w: 1\}", r"\1w: 0}", "scene-place"),
-    "wire's object moved": scene(r"(--- !u!4 &401\n.*?)m_LocalPosition: \{x: 0", r"\1m_LocalPosition: {x: 5",
-                                 "scene-place"),
     "root listed twice": scene(r"(  - \{fileID: 401\}\n)", r"\1\1", "scene-roots"),
     "root of another number": scene(r"&9223372036854775807", "&9223372036854775806", "scene-roots"),
     "object without its switch": scene(r"(--- !u!1 &400\n.*?)  m_IsActive: 1\n", r"\1", "scene-key"),
@@ -162,7 +164,7 @@ BREAKAGES = {
                                                         "SimulationLoop : ScriptableObject"), SCENE, "scene-script"),
     "enum shorter than a scene's value": Breakage(
         replace(f"{RUNTIME}/Views/Colouring.cs", r"Bending,.*Twist,", "Twist = 7,"), SCENE, "field-value"),
-    "type of a field changed": Breakage(replace(f"{RUNTIME}/Views/OrbitCamera.cs", "SimulationLoop _loop",
+    "type of a field changed": Breakage(replace(f"{RUNTIME}/Loop/KeyboardControl.cs", "SimulationLoop _loop",
                                                 "WireView _loop"), SCENE, "reference-class"),
     "scene and its .meta gone": Breakage(both(remove(SCENE), remove(f"{SCENE}.meta")),
                                          "ProjectSettings/EditorBuildSettings.asset", "build-scenes"),

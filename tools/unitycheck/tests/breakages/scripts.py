@@ -5,7 +5,8 @@ from __future__ import annotations
 from tools.unitycheck.tests.breakages import HUD, LOOP, ODD, RUNTIME, WIRE_VIEW, Breakage, behaviour, insert, move, odd
 from tools.unitycheck.tests.breakages import replace, write
 
-LIVE = f"{RUNTIME}/Loop/LiveParameters.cs"
+AXIS = f"{RUNTIME}/Loop/KeyAxis.cs"
+INPUT = f"{RUNTIME}/Loop/KeyInput.cs"
 BATCH = f"{RUNTIME}/Batch/PlayerBatch.cs"
 KEYS = f"{RUNTIME}/Loop/KeyboardControl.cs"
 
@@ -46,12 +47,9 @@ BREAKAGES = {
     "object": stored("[SerializeField] private object _thing;"),
     "Tooltip on a field that is not stored": stored('[Tooltip("x")] private float _speed;'),
     "Header on a property": stored('[Header("x")] public float Speed { get; set; }'),
-    "live parameters no longer Serializable": Breakage(replace(LIVE, r"    \[Serializable\]\n", ""), LOOP,
-                                                       "field-stored"),
-    "live parameter private": Breakage(replace(LIVE, "public double damping", "private double damping"), LIVE,
-                                       "field-stored"),
-    "live parameter readonly": Breakage(replace(LIVE, "public double damping", "public readonly double damping"), LIVE,
-                                        "field-stored"),
+    "key axis no longer Serializable": Breakage(replace(AXIS, r"    \[Serializable\]\n", ""), INPUT, "field-stored"),
+    "key readonly": Breakage(replace(AXIS, "private KeyCode _up;", "private readonly KeyCode _up;"), AXIS,
+                             "field-stored"),
     "loop field a property": Breakage(replace(LOOP, r"private float _pace = 1f;", "private float _pace { get; set; }"),
                                       LOOP, "field-stored"),
     "SerializeField where nothing is stored": Breakage(
@@ -76,11 +74,11 @@ BREAKAGES = {
     "Random in an initialiser": odd("private float _x = Random.value;", "field-initialiser"),
     "search in an initialiser": odd("private Camera _c = FindObjectOfType<Camera>();", "field-initialiser"),
     "resource in an initialiser": odd('private Mesh _m = Resources.Load<Mesh>("a");', "field-initialiser"),
-    "Mesh made in an initialiser": Breakage(replace(WIRE_VIEW, "private Mesh _ball = null!",
-                                                    "private Mesh _ball = new Mesh()"),
+    "Mesh made in an initialiser": Breakage(replace(WIRE_VIEW, r"private Mesh\? _ball",
+                                                    "private Mesh? _ball = new Mesh()"),
                                             WIRE_VIEW, "field-initialiser"),
-    "live value from the clock": Breakage(replace(LIVE, "public double damping;", "public double damping = "
-                                                  "UnityEngine.Time.deltaTime;"), LIVE, "field-initialiser"),
+    "key from the clock": Breakage(replace(AXIS, "private KeyCode _up;", "private KeyCode _up = (KeyCode)"
+                                           "UnityEngine.Time.deltaTime;"), AXIS, "field-initialiser"),
     # Scripts
     "behaviour nested": Breakage(insert(HUD, "public sealed class Inner : MonoBehaviour { }"), HUD, "script-name"),
     "second behaviour in a file": Breakage(replace(HUD, r"^namespace Guidewire.Runtime\n\{",
@@ -112,15 +110,15 @@ BREAKAGES = {
                                            "script-message"),
     "message with a letter more": Breakage(replace(WIRE_VIEW, r"void LateUpdate\(\)", "void LateUpdates()"), WIRE_VIEW,
                                            "script-message"),
-    "message in small letters": Breakage(replace(LOOP, r"void Start\(\)", "void start()"), LOOP, "script-message"),
+    "message in small letters": Breakage(replace(LOOP, r"void Awake\(\)", "void awake()"), LOOP, "script-message"),
     "public message misspelt": odd("public void OnEnabled() { }", "script-message"),
     "message with a parameter": Breakage(replace(LOOP, r"void Update\(\)", "void Update(float dt)"), LOOP,
                                          "script-message"),
     "message with the wrong parameter": odd("private void OnCollisionEnter(Collider other) { }", "script-message"),
     "pause without its bool": odd("private void OnApplicationPause(int pause) { }", "script-message"),
-    "static message": Breakage(replace(LOOP, r"private void Start\(\)", "private static void Start()"), LOOP,
+    "static message": Breakage(replace(LOOP, r"private void Awake\(\)", "private static void Awake()"), LOOP,
                                "script-message"),
-    "message that returns a number": Breakage(replace(LOOP, r"void Start\(\)", "int Start()"), LOOP, "script-message"),
+    "message that returns a number": Breakage(replace(LOOP, r"void Awake\(\)", "int Awake()"), LOOP, "script-message"),
     "Update as a coroutine": Breakage(replace(LOOP, r"private void Update\(\)",
                                               "private System.Collections.IEnumerator "
                                               "Update()"), LOOP, "script-message"),

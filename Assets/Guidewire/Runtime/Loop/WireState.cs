@@ -1,0 +1,196 @@
+using System;
+using System.Collections.Generic;
+using Guidewire.Core;
+using Guidewire.Io;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>A run after one of its steps: a copy, which the thread that steps no longer touches. Its arrays are
+    /// made once.</summary>
+    public sealed class WireState
+    {
+        private readonly CatheterState[] _catheters;
+        private readonly int[] _hints;              // one a wall and element, see ContactShape.Nearest
+
+        internal WireState(SimulationSession session)
+        {
+            Simulation run = session.Simulation;
+            Rod = new RodState(run.State.ElementCount, run.State.ElementCount * run.State.ElementLength, 1.0, 0.0);
+            Array.Copy(run.State.ElementLengths, Rod.ElementLengths, Rod.ElementCount);
+            ContactForces = run.Contacts == null ? Array.Empty<Vector3d>() : new Vector3d[Rod.SphereCount];
+            _hints = new int[session.Parameters.Scene.Walls.Length * Rod.ElementCount];
+            Array.Fill(_hints, -1);
+            ContactPoints = new Vector3d[_hints.Length];
+            _catheters = new CatheterState[run.Catheters().Count];
+            for (int k = 0; k < _catheters.Length; k++)
+            {
+                _catheters[k] = new CatheterState(run.Catheters()[k].Orientations.Length);
+            }
+        }
+
+        /// <summary>Positions, orientations and lengths of the wire; velocities and masses are not copied.</summary>
+        public RodState Rod { get; }
+
+        /// <summary>In-game time, s.</summary>
+        public double Time { get; private set; }
+
+        /// <summary>Steps done.</summary>
+        public int StepCount { get; private set; }
+
+        /// <summary>How the run ended, or Running.</summary>
+        public Outcome Outcome { get; private set; }
+
+        /// <summary>Why it ended, in one line; empty while it runs.</summary>
+        public string Reason { get; private set; } = "";
+
+        /// <summary>Wall time of a step, ms, smoothed over some 50 steps.</summary>
+        public double StepTime { get; private set; }
+
+        /// <summary>The prediction's error in the last step, units.</summary>
+        public double PredictionError { get; private set; }
+
+        /// <summary>Force of the walls on each sphere, N with a material; empty without walls.</summary>
+        public Vector3d[] ContactForces { get; }
+
+        /// <summary>Their sum.</summary>
+        public Vector3d ContactForce { get; private set; }
+
+        /// <summary>Force of the first sphere's support.</summary>
+        public Vector3d Reaction { get; private set; }
+
+        /// <summary>Points of the wire that have passed a wall; 0 but with pbd.</summary>
+        public long Passages { get; private set; }
+
+        /// <summary>The wire's hub; null where the method has none.</summary>
+        public HubState? Hub { get; private set; }
+
+        /// <summary>Largest curvature of the wire, 1/m; 0 with pbd.</summary>
+        public double LargestCurvature { get; private set; }
+
+        /// <summary>The catheters, outermost first.</summary>
+        public IReadOnlyList<CatheterState> Catheters => _catheters;
+
+        /// <summary>Whether the hub that is held made less than half of what the last step asked of it: the instrument
+        /// is jammed. Pulling back frees it.</summary>
+        public bool IsJammed { get; private set; }
+
+        /// <summary>Where elements are within reach of a wall, units, if a view has asked for it.</summary>
+        internal Vector3d[] ContactPoints { get; }
+
+        /// <summary>How many they are.</summary>
+        internal int ContactPointCount { get; private set; }
+
+        /// <summary>Whether nobody has taken it yet; for <see cref="StateExchange"/>.</summary>
+        internal volatile bool IsNew;
+
+        /// <summary>Displacement that a hub was asked and has not made, m; 0 where nothing states it.</summary>
+        /// <param name="held">0 the wire's, k that of catheter k.</param>
+        internal static double ShortfallOf(SimulationSession session, int held)
+        {
+            CoaxialRecord? outermost = session.Simulation.Coaxial();
+            if (outermost == null)
+            {
+                return (session.Simulation.Contacts?.DriveShortfall ?? 0.0) * session.Parameters.Scene.MetresPerUnit;
+            }
+            return held == 0 ? outermost.WireShortfall : session.Simulation.Catheters()[held - 1].Shortfall;
+        }
+
+        /// <summary>Copies a run as it is.</summary>
+        /// <param name="isJammed">Whether its last step lost most of what was asked.</param>
+        /// <param name="withPoints">Whether the points of contact are wanted too.</param>
+        internal void Take(SimulationSession session, bool isJammed, bool withPoints)
+        {
+            Simulation run = session.Simulation;
+            Array.Copy(run.State.Positions, Rod.Positions, Rod.SphereCount);
+            Array.Copy(run.State.Orientations, Rod.Orientations, Rod.ElementCount);
+            (Time, StepCount, StepTime) = (run.Time, run.StepCount, session.StepTime);
+            (Outcome, PredictionError, IsJammed) = (run.Outcome, run.PredictionError, isJammed);
+            Reason = run.Outcome == Outcome.Running ? "" : run.Reason;
+            ContactRecord? contacts = run.Contacts;
+            if (contacts != null)
+            {
+                Array.Copy(contacts.Forces, ContactForces, ContactForces.Length);
+                (ContactForce, Reaction, Passages) = (contacts.Total, contacts.Reaction, contacts.Passages);
+            }
+            IReadOnlyList<CoaxialRecord> catheters = run.Catheters();
+            for (int k = 0; k < _catheters.Length; k++)
+            {
+                _catheters[k].Take(catheters[k]);
+            }
+            HubRecord? hub = run.Hub();
+            Hub = null;
+            if (hub != null)
+            {
+                LargestCurvature = hub.LargestCurvature;
+                Hub = new HubState
+                {
+                    Insertion = hub.Insertion,
+                    Turn = hub.Turn,
+                    Force = hub.Force,
+                    Torque = hub.Torque,
+                    Shortfall = ShortfallOf(session, 0),
+                };
+            }
+            ContactPointCount = 0;
+            if (withPoints)
+            {
+                FindContactPoints(session.Parameters);
+            }
+        }
+
+        /// <summary>Sets positions between two states, and all else as in the newer one.</summary>
+        /// <param name="t">0 the older one, 1 the newer one.</param>
+        internal void Interpolate(WireState older, WireState newer, double t)
+        {
+            Interpolate(older.Rod.Positions, newer.Rod.Positions, t, Rod.Positions);
+            Interpolate(older.Rod.Orientations, newer.Rod.Orientations, t, Rod.Orientations);
+            Array.Copy(newer.ContactForces, ContactForces, ContactForces.Length);
+            Array.Copy(newer.ContactPoints, ContactPoints, newer.ContactPointCount);
+            for (int k = 0; k < _catheters.Length; k++)
+            {
+                _catheters[k].Interpolate(older._catheters[k], newer._catheters[k], t);
+            }
+            Time = older.Time + t * (newer.Time - older.Time);
+            (StepCount, StepTime, PredictionError) = (newer.StepCount, newer.StepTime, newer.PredictionError);
+            (Outcome, Reason, IsJammed) = (newer.Outcome, newer.Reason, newer.IsJammed);
+            (ContactForce, Reaction, Passages) = (newer.ContactForce, newer.Reaction, newer.Passages);
+            (Hub, LargestCurvature) = (newer.Hub, newer.LargestCurvature);
+            ContactPointCount = newer.ContactPointCount;
+        }
+
+        internal static void Interpolate(Vector3d[] older, Vector3d[] newer, double t, Vector3d[] result)
+        {
+            for (int i = 0; i < result.Length; i++)
+            {
+                result[i] = t == 1.0 ? newer[i] : Vector3d.Lerp(older[i], newer[i], t);
+            }
+        }
+
+        // q and -q are one orientation: along the shorter way.
+        internal static void Interpolate(Quaterniond[] older, Quaterniond[] newer, double t, Quaterniond[] result)
+        {
+            for (int j = 0; j < result.Length; j++)
+            {
+                Quaterniond q = newer[j];
+                Quaterniond p = older[j];
+                double sign = p.X * q.X + p.Y * q.Y + p.Z * q.Z + p.W * q.W < 0.0 ? -1.0 : 1.0;
+                result[j] = t == 1.0 ? q : Quaterniond.Normalize((1.0 - t) * p + (sign * t) * q);
+            }
+        }
+
+        private void FindContactPoints(SimulationParameters parameters)
+        {
+            double range = parameters.Contact.SphereRadius + parameters.Contact.CollisionMargin;
+            for (int k = 0; k < _hints.Length; k++)
+            {
+                int j = k % Rod.ElementCount;
+                ContactShape wall = parameters.Scene.Walls[k / Rod.ElementCount];
+                if (wall.Nearest(Rod.Positions[j], Rod.Positions[j + 1], range, ref _hints[k],
+                    out SurfaceContact contact))
+                {
+                    ContactPoints[ContactPointCount++] = contact.Point;
+                }
+            }
+        }
+    }
+}

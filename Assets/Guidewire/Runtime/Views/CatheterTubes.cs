@@ -1,0 +1,103 @@
+using System.Collections.Generic;
+using Guidewire.Core;
+using UnityEngine;
+using UnityEngine.Rendering;
+
+namespace Guidewire.Runtime
+{
+    /// <summary>The catheters over a wire as a tube each, in a colour of its own through which the wire is seen. Meshes
+    /// are made when a run is built, and rewritten.</summary>
+    internal sealed class CatheterTubes
+    {
+        private const int RingsPerElement = 4;
+        private const int Sides = 12;
+        private const float Opacity = 0.5f;   // as in rendered pictures
+
+        private static readonly Color[] Colours =
+        {
+            new Color(1f, 0.62f, 0.18f, Opacity), new Color(0.71f, 0.55f, 1f, Opacity),
+            new Color(0.37f, 0.83f, 0.55f, Opacity),
+        };
+
+        private readonly List<Drawn> _drawn = new List<Drawn>();
+
+        private sealed class Drawn
+        {
+            public Drawn(int spheres, Material material, float times)
+            {
+                Tube = new TubeMesh(spheres, RingsPerElement, Sides);
+                Mesh = new Mesh { name = "Catheter", indexFormat = IndexFormat.UInt32 };
+                Mesh.MarkDynamic();
+                Mesh.SetVertices(Tube.Vertices);
+                Mesh.SetTriangles(Tube.Triangles, 0);
+                Material = material;
+                Times = times;
+                Colours = new float[spheres];
+            }
+
+            public TubeMesh Tube { get; }
+
+            public Mesh Mesh { get; }
+
+            public Material Material { get; }
+
+            // In the colour map, which its material does not have.
+            public float[] Colours { get; }
+
+            // Its radius over the wire's.
+            public float Times { get; }
+        }
+
+        /// <summary>How many catheters are drawn.</summary>
+        public int Count => _drawn.Count;
+
+        /// <summary>The tube of a catheter as it was last drawn.</summary>
+        public TubeMesh TubeOf(int catheter)
+        {
+            return _drawn[catheter].Tube;
+        }
+
+        /// <summary>Makes the meshes of another run.</summary>
+        public void Build(SimulationParameters parameters, IReadOnlyList<CatheterState> catheters)
+        {
+            Clear();
+            for (int k = 0; k < catheters.Count; k++)
+            {
+                _drawn.Add(new Drawn(catheters[k].Positions.Length, LitMaterial.Create(Colours[k % Colours.Length]),
+                    (float)(parameters.Scene.Catheters[k].Material.WireRadius / parameters.Material.WireRadius)));
+            }
+        }
+
+        /// <summary>Draws the catheters.</summary>
+        /// <param name="radius">That the wire is drawn with, units.</param>
+        /// <param name="place">From units of the wire to the world.</param>
+        /// <param name="material">Instead of their own, or null.</param>
+        public void Draw(IReadOnlyList<CatheterState> catheters, float radius, in Matrix4x4 place, Material? material,
+            int layer)
+        {
+            for (int k = 0; k < _drawn.Count; k++)
+            {
+                Drawn drawn = _drawn[k];
+                if (drawn.Tube.Write(catheters[k].Positions, catheters[k].Orientations[0], drawn.Times * radius,
+                    drawn.Colours))
+                {
+                    drawn.Mesh.SetVertices(drawn.Tube.Vertices);
+                    drawn.Mesh.SetNormals(drawn.Tube.Normals);
+                    drawn.Mesh.RecalculateBounds();
+                }
+                Graphics.DrawMesh(drawn.Mesh, place, material ? material! : drawn.Material, layer);
+            }
+        }
+
+        /// <summary>Destroys the meshes.</summary>
+        public void Clear()
+        {
+            foreach (Drawn drawn in _drawn)
+            {
+                Object.Destroy(drawn.Mesh);
+                Object.Destroy(drawn.Material);
+            }
+            _drawn.Clear();
+        }
+    }
+}
