@@ -18,6 +18,7 @@ from guidewire.sessions.session import Session, SessionError
 KEPT = Path(__file__).parent / "formats"
 CASES = sorted(path.parent for path in KEPT.glob("*/*/given.json"))
 SAME = 1e-6  # of the wire's length; what a later program may compute otherwise is not the concern here
+SHEARED = 1e-5
 ONE_LINE = r"^[^\n]*formatVersion = {} is not allowed: [^\n]* versions 1 to 1$"
 
 
@@ -44,7 +45,8 @@ def test_a_parameter_file_gives_its_run(kept, file):
     log = read_log(kept / "run", "all")
     with Session(kept / file, hand=False, native=False) as session:
         end = session.step(steps=6)
-    near = SAME * session.parameters["guidewireLength"]
+    # Shear of instruments in one another was the outermost one's alone then.
+    near = (SHEARED if end.catheters else SAME) * session.parameters["guidewireLength"]
     np.testing.assert_allclose(end.positions, log.positions[-1], atol=near)
     for catheter, logged in zip(end.catheters, log.catheters, strict=True):
         np.testing.assert_allclose(catheter.positions, logged[-1], atol=near)
