@@ -6,10 +6,11 @@ namespace Guidewire.Core
     /// <summary>Divides a step into intervals. Each is the least of what limits it: an equal part that the barriers can
     /// follow, a piece that was halved, the next jump of a load or row of its table, the length by the tolerance.
     /// </summary>
-    /// <remarks>An interval without a solution is tried by the scheme's start, then halved, down to 1/4096 of a part: in
-    /// a snap or a violent release the wire moves far within a step, and its end depends on the path. Pieces are doubled
-    /// again once some of one length are solved, twice as many after each doubling that failed, half as many after one
-    /// that did not. So where only short pieces have a solution, for many steps as it may be, few longer ones are tried.
+    /// <remarks>An interval without a solution is tried by the scheme's start, then halved, down to 1/4096 of a part:
+    /// in a snap or a violent release the wire moves far within a step, and its end depends on the path. Pieces are
+    /// doubled again once some of one length are solved, twice as many after each doubling that failed, half as many
+    /// after one that did not. So where only short pieces have a solution, for many steps as it may be, few longer ones
+    /// are tried.
     /// The next step begins with the length with which the last one ended.
     ///
     /// A wire that snaps between walls is far from where it was after however short a piece: Newton's method then
@@ -96,7 +97,8 @@ namespace Guidewire.Core
         public bool Accepts(in Interval tried, string? failure, long iterations, int mostIterations)
         {
             bool isSolved = failure == null;
-            bool isKept = _stepper.Control.Accepts(isSolved ? _stepper.Error : 0.0, tried.Length, LengthOf(_ticks), isSolved);
+            bool isKept = _stepper.Control.Accepts(isSolved ? _stepper.Error : 0.0, tried.Length, LengthOf(_ticks),
+                isSolved);
             if (isKept && isSolved)
             {
                 Advance(tried);
