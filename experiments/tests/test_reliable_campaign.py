@@ -76,3 +76,32 @@ def test_the_judge_finds_a_run_that_warns_without_reason(run):
         assert "says otherwise" in reliable_claims.violations(scene, said, log, WARNINGS)[0]
         assert reliable_claims.violations(scene, {**said, "reliable": True}, log, WARNINGS)[0].startswith("reliable = True")
     assert reliable_claims.violations(scene, {**summary, "reliable": False}, log, WARNINGS)[0].startswith("reliable = False")
+
+
+IN_ONE_ANOTHER = {
+    **reliable_runs.LOGS, "solver": "direct", "guidewireLength": 120.0, "numberRodElements": 30, "guidewireOffset": -20.0,
+    "wireRadius": 0.0004, "proximalEnd": "clamped", "drive": "displace", "massDamping": 20.0, "timeStep": 0.02,
+    "maxSimulationSteps": 100, "logHub": True, "insertionSpeed": 0.008,
+    "vessel": {"shape": "tube", "smooth": True, "openStart": True, "openEnd": True, "radius": 3.0,
+               "knots": [[0, 0, -60], [0, 0, 200]], "frictionCoefficient": 0},
+    "catheters": [{"start": 20.0, "length": 80.0, "elements": 20, "wireRadius": 0.0008, "lumenRadius": 0.0006}],
+}
+
+
+@pytest.mark.parametrize("bent, is_reliable", [(0.0, True), (2.0, True), (20.0, False), (40.0, True), (200.0, False)])
+def test_a_hub_that_rests_does_not_fall_short_and_large_play_is_not_reliable(live, tmp_path, bent, is_reliable):
+    """A wire is pushed through a catheter at rest, whose spring gives way by 1e-10 of its length. The wire's play d = 0.2
+    mm and a difference k of the rest curvatures: sqrt(3 d k), and a = sqrt(12 d/k), of the overlap of 80 mm."""
+    catheter = {**IN_ONE_ANOTHER["catheters"][0], "restCurvature": [bent, 0.0, 0.0]}
+    (tmp_path / "scene.json").write_text(json.dumps({**IN_ONE_ANOTHER, "catheters": [catheter]}))
+    assert live.run(Request("a", tmp_path / "scene.json", tmp_path / "out")).outcome == "finished"
+    summary = json.loads((tmp_path / "out" / "summary.json").read_text())
+    hubs = summary["hubs"]
+    assert hubs[0]["asked"] == pytest.approx(0.016) and hubs[1]["asked"] == 0.0
+    assert abs(hubs[0]["shortfall"]) < 1e-9 and abs(summary["driveShortfall"]) < 1e-4
+    angle = float(np.degrees(np.sqrt(3.0 * 2e-4 * bent)))
+    length = float(np.sqrt(12.0 * 2e-4 / bent)) if bent else 0.0
+    assert summary["catheters"][0]["playAngle"] == pytest.approx(angle, rel=1e-6)
+    is_small = angle <= 15.0 and (angle <= 5.0 or length <= 0.1 * summary["catheters"][0]["overlap"])
+    assert summary["reliable"] == is_small == is_reliable, (angle, length, summary["warnings"])
+    assert len(summary["warnings"]) == (not is_small)

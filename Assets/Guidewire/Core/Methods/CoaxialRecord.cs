@@ -16,8 +16,12 @@ namespace Guidewire.Core
         /// <summary>Play angle in degrees from which on a warning is due.</summary>
         public const double LargePlay = 15.0;
 
-        /// <summary>The same for a over the overlap.</summary>
+        /// <summary>The same for a over the overlap, from <see cref="SmallPlay"/> on.</summary>
         public const double LargeLength = 0.1;
+
+        /// <summary>Play angle in degrees up to which the axes are one, however long a is: two rest curvatures that
+        /// hardly differ have a small angle and a long a.</summary>
+        public const double SmallPlay = 5.0;
 
         private const double LostAtTip = 0.66;
 
@@ -130,7 +134,8 @@ namespace Guidewire.Core
         public double OverlapAngle { get; private set; }
 
         /// <summary>That the play left out is not small, or null.</summary>
-        internal RunWarning? PlayWarning => PlayAngle <= LargePlay && PlayLength <= LargeLength * Overlap
+        internal RunWarning? PlayWarning => PlayAngle <= LargePlay
+            && (PlayAngle <= SmallPlay || PlayLength <= LargeLength * Overlap)
             ? (RunWarning?)null : WarningTable.Play.With(Inside == null ? "wire" : "inner catheter or wire",
                 1e3 * _play, Inside != null ? "outer catheter" : _instrument > 0 ? "inner catheter" : "catheter",
                 PlayAngle, 1e3 * LengthLost, 1e3 * Overlap);

@@ -145,8 +145,9 @@ namespace Guidewire.Core
         public static readonly WarningKind Play = AtEnd("play",
             "the *inner* has *d:G3* mm of play in the *outer*, which is not simulated: at the tip their axes may "
             + "differ by up to *a:G3* degrees, and *l:G3* mm of *o:G3* mm of overlap are not coupled",
-            "with `catheters`: the play neglected by the shared centreline is not small: 15 degrees or more, or a "
-            + "tenth of the overlap ([coaxial.md](coaxial.md)). The direction of such a tip is not that of a real one");
+            "with `catheters`: the play neglected by the shared centreline is not small: 15 degrees or more, or 5 "
+            + "degrees and a tenth of the overlap ([coaxial.md](coaxial.md)). The direction of such a tip is not that "
+            + "of a real one");
 
         /// <summary>A tip that left by an open rim.</summary>
         public static readonly WarningKind OpenRim = Add("openRim", WarningPlace.End, true,
