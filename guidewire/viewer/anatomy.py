@@ -101,7 +101,7 @@ class VesselPicture:
         output.write_vessel(folder, self._wall, self._line, unit, self._file.name)
         output.write_scene(folder, output.scene(self._line, unit, end, target, _WIRE))
         return (f"inlet: end {end.number} '{end.name}', target: end {target.number} '{target.name}'\n"
-                f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)}")
+                f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)} --check")
 
     @staticmethod
     def _end(end: Any, mm: float) -> dict[str, Any]:
