@@ -91,6 +91,15 @@ namespace Guidewire.Core
             return true;
         }
 
+        /// <summary>The eigenvector of the smallest eigenvalue; of no use after the next question.</summary>
+        /// <param name="eigenvalue">N.</param>
+        public RodVector[] LowestMode(RodShape shape, out double eigenvalue)
+        {
+            double shift = Factorise(shape, 0.0) == 0 ? 0.0 : LowestShift(shape);
+            eigenvalue = FindMode(0) - shift;
+            return _modes[0];
+        }
+
         private int Factorise(RodShape shape, double shift)
         {
             return _system.Factorise(_terms, shape, _gradient, _work, shift);
@@ -101,6 +110,11 @@ namespace Guidewire.Core
         {
             double low = 0.0;
             double high = _neutral;
+            while (Factorise(shape, high) > 0 && high <= double.MaxValue)
+            {
+                low = high;
+                high *= 4.0;
+            }
             for (int k = 0; k < MostHalvings && high > 1.02 * low; k++)
             {
                 double middle = 0.5 * (low + high);

@@ -122,7 +122,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Newton iterations so far.</summary>
-        public long Iterations => (_dynamics.WallSolver?.Iterations ?? 0) + _dynamics.Solver.Iterations;
+        public long Iterations => _dynamics.Newton.Iterations;
 
         // From where the hub was at the step's start, m and radians.
         private bool Step(double length, double insertion, double turn)
@@ -262,7 +262,7 @@ namespace Guidewire.Core
         {
             get
             {
-                if (_dynamics.Solver.MostIterations < new MethodParameters().MaxNewtonIterations)
+                if (_dynamics.MostIterations < new MethodParameters().MaxNewtonIterations)
                 {
                     return FewIterations;
                 }
@@ -301,9 +301,9 @@ namespace Guidewire.Core
                 warnings.Add(WarningTable.HubShortfall.With("the hub", Drive.Slip,
                     "it slipped at hubForceLimit, or the wire reached an end of its sheath"));
             }
-            if (_dynamics.Solver.RoundingOfSupports > 0.0)
+            if (_dynamics.Newton.BalanceRounding.OfSupports > 0.0)
             {
-                warnings.Add(WarningTable.Rounding.With(_dynamics.Solver.RoundingOfSupports));
+                warnings.Add(WarningTable.Rounding.With(_dynamics.Newton.BalanceRounding.OfSupports));
             }
             if (_spinLoss != null && _spinLoss.Expected > MostSpinLoss)
             {
@@ -314,10 +314,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            Results.Factorisations = _startFactorisations + _dynamics.Solver.Factorisations
-                + (_dynamics.WallSolver?.Factorisations ?? 0);
-            Results.KeptSolutions = _dynamics.Solver.KeptSolutions;
-            Results.Searches = _dynamics.Solver.Searches;
+            Results.Factorisations = _startFactorisations + _dynamics.Newton.Factorisations;
+            Results.KeptSolutions = _dynamics.Newton.KeptSolutions;
+            Results.Searches = _dynamics.Newton.Searches;
             if (_dynamics.HasErrorEstimate)
             {
                 Results.TimeStepError = _dynamics.Control.LargestError;
@@ -326,7 +325,7 @@ namespace Guidewire.Core
             if (_monitor != null)
             {
                 Barrier barrier = Terms.Walls()!.Barrier.Barrier;
-                Results.WallIterations = _dynamics.WallSolver!.Iterations;
+                Results.WallIterations = _dynamics.Newton.Iterations;
                 Results.ContactDistance = barrier.Distance;
                 Results.ContactStiffness = barrier.Stiffness;
             }

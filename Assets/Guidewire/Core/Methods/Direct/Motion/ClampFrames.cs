@@ -8,16 +8,17 @@ namespace Guidewire.Core
     internal sealed class ClampFrames
     {
         private readonly RodSchedule _schedule;
-        private readonly StageSolver _solver;
+        private readonly Func<string?> _solve;
         private double _proximal;  // turn that has been made, radians
         private double _distal;
         private double _time;      // up to which motions of the ends have been made, s
 
         /// <summary>Frames that have made no turn yet.</summary>
-        public ClampFrames(RodSchedule schedule, StageSolver solver)
+        /// <param name="solve">Solves a part, and says why it has no solution.</param>
+        public ClampFrames(RodSchedule schedule, Func<string?> solve)
         {
             _schedule = schedule;
-            _solver = solver;
+            _solve = solve;
         }
 
         /// <summary>The turns that the frames have made, radians.</summary>
@@ -69,7 +70,7 @@ namespace Guidewire.Core
                     k < parts ? _time + fraction * (time - _time) : time);
                 if (k < parts)
                 {
-                    failure = _solver.Search(shape);
+                    failure = _solve();
                     if (failure != null)
                     {
                         return failure;

@@ -26,7 +26,9 @@ namespace Guidewire.Core
         private readonly Quaterniond[] _predicted;
         private readonly double _mass;
         private readonly bool _isLoose;           // held nowhere, and nothing takes its momentum
+        private readonly ViscousRelaxation? _creep;   // where a couple at the tip has no potential
         private readonly WallStage? _walls;       // solves where there are walls
+        private double _loads;                    // sum of their magnitudes in the stage, N
         private bool _hasPast;
 
         /// <summary>For a rod, which stages move from then on.</summary>
@@ -66,11 +68,13 @@ namespace Guidewire.Core
                 Array.Resize(ref moving, moving.Length + 1);
                 moving[moving.Length - 1] = Inner;
             }
-            Solver = new StageSolver(terms, moving);
-            _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, moving);
-            Frames = new ClampFrames(schedule, Solver);
+            EnergyTerm[] all = terms.With(moving);
+            Newton = new Newton(terms, all);
+            _creep = terms.HavePotential ? null : new ViscousRelaxation(terms.Rod, _supports, all, terms.Followers);
+            _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, Newton);
+            Frames = new ClampFrames(schedule, Search);
             Rates = new StageRates(stageCount, n);
-            Reactions = new RodReactions(terms, schedule, motion, Solver, Damping);
+            Reactions = new RodReactions(terms, schedule, motion, all, Newton.BalanceRounding, Damping);
         }
 
         /// <summary>What resists velocities and rates of strain, or null.</summary>
@@ -79,11 +83,8 @@ namespace Guidewire.Core
         /// <summary>The spin of an instrument inside, or null.</summary>
         public InnerSpin? Inner { get; }
 
-        /// <summary>Solves the stages, and counts what was solved.</summary>
-        public StageSolver Solver { get; }
-
-        /// <summary>Solves the stages where there are walls, and counts; null where there are none.</summary>
-        public BarrierNewton? WallSolver => _walls?.Newton;
+        /// <summary>Solves the stages, and counts.</summary>
+        public Newton Newton { get; }
 
         /// <summary>Frames of the clamps.</summary>
         public ClampFrames Frames { get; }
@@ -99,23 +100,6 @@ namespace Guidewire.Core
         {
             get => _hasPast;
             set => _hasPast = value;
-        }
-
-        /// <summary>Sets how exactly stages are solved.</summary>
-        /// <param name="tolerance">On each stage's error: radians, or displacement over L.</param>
-        /// <param name="balance">Fraction of the largest force that a stage may leave unbalanced.</param>
-        /// <param name="mostIterations">Newton iterations of a stage.</param>
-        public void SetAccuracy(double tolerance, double balance, int mostIterations)
-        {
-            Solver.Tolerance = tolerance;
-            Solver.Balance = balance;
-            Solver.MostIterations = mostIterations;
-            if (_walls != null)
-            {
-                _walls.Newton.Tolerance = tolerance;
-                _walls.Newton.Balance = balance;
-                _walls.Newton.MostIterations = mostIterations;
-            }
         }
 
         /// <summary>A step of dt, s, begins.</summary>
@@ -196,6 +180,7 @@ namespace Guidewire.Core
             double before = Math.Min(time, jump);
             _inertia.BeginStage();
             _terms.SetTime(_schedule, before);
+            _loads = _schedule.Loads.SumAt(before, _mass) + _terms.Followers.Force.Force.Length;
             string? failure = Frames.Turn(_shape, time, out bool inParts);
             if (failure != null)
             {
@@ -209,9 +194,8 @@ namespace Guidewire.Core
                 Array.Copy(_shape.Q, _predicted, _predicted.Length);
             }
             Vector3d end = _schedule.Distal.PositionAt(time);
-            double loads = _schedule.Loads.SumAt(before, _mass) + _terms.Followers.Force.Force.Length;
-            failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, loads)
-                : Solve(h, loads, start, end);
+            failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, _loads)
+                : Solve(start, end);
             if (failure != null)
             {
                 return failure;
@@ -241,7 +225,6 @@ namespace Guidewire.Core
             SerializePast(snapshot);
             Damping?.Serialize(snapshot);
             Reactions.SerializeStep(snapshot);
-            WallSolver?.SerializeShift(snapshot);
         }
 
         /// <summary>Writes or restores what stages leave to the next step.</summary>
@@ -257,7 +240,7 @@ namespace Guidewire.Core
             Rates.Serialize(snapshot);
             _inertia.Serialize(snapshot);
             Inner?.Serialize(snapshot);
-            Solver.SerializeTrust(snapshot);
+            Newton.SerializeShift(snapshot);
             snapshot.Serialize(ref _hasPast);
         }
 
@@ -267,29 +250,37 @@ namespace Guidewire.Core
                 _schedule.ProximalSpinAt(time), _schedule.DistalSpinAt(time));
         }
 
-        /// <summary>By the quick iteration from the prediction, or else by the slower search.</summary>
-        private string? Solve(double h, double loads, in Vector3d start, in Vector3d end)
+        /// <summary>By full steps from the prediction, or else by a search from the stage before.</summary>
+        private string? Solve(in Vector3d start, in Vector3d end)
         {
             KeepShape();
             RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
-            return Solver.Iterate(_shape, h, loads) ? null : Search(h, loads, start, end);
-        }
-
-        /// <summary>The slower search from the stage before, with what the iteration can still add to it.</summary>
-        private string? Search(double h, double loads, in Vector3d start, in Vector3d end)
-        {
+            if (Newton.Minimise(_shape, _inertia.StageLength, _loads, isSearched: false) == null)
+            {
+                return null;
+            }
             GoBack();
             RodStep.PlaceElements(_supports, _shape, _shape.Q, start, end);
-            string? failure = Solver.Search(_shape);
-            if (failure == null)
+            return Search();
+        }
+
+        private string? Search()
+        {
+            if (_creep == null)
             {
-                KeepShape();
-                if (!Solver.Iterate(_shape, h, loads))
-                {
-                    GoBack();
-                }
+                return Newton.Minimise(_shape, _inertia.StageLength, _loads, isSearched: true);
             }
-            return failure;
+            EquilibriumResult result = _creep.Settle(_shape, Newton.Tolerance, Newton.MostIterations);
+            if (!result.Converged)
+            {
+                return result.Reason;
+            }
+            KeepShape();
+            if (Newton.Minimise(_shape, _inertia.StageLength, _loads, isSearched: false) != null)
+            {
+                GoBack();
+            }
+            return null;
         }
 
         private void KeepShape()

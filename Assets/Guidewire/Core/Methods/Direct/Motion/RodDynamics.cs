@@ -35,7 +35,9 @@ namespace Guidewire.Core
             _stepper = scheme == null ? new Bdf2Stepper(terms, schedule, _motion)
                 : (ImplicitStepper)new RungeKuttaStepper(scheme, terms, schedule, _motion);
             _stage = _stepper.Stage;
-            _stage.SetAccuracy(tolerance, tolerance / (2.0 * _stepper.WeightSum), mostIterations);
+            MostIterations = mostIterations;
+            Newton.Tolerance = tolerance;
+            Newton.Balance = tolerance / (2.0 * _stepper.WeightSum);
             _start = new StepStart(SerializeInterval);
             Clock = new Clock(_stepper, schedule);
         }
@@ -83,11 +85,11 @@ namespace Guidewire.Core
         /// <summary>Turn that the distal frame has made, radians.</summary>
         public double DistalTurn => _stage.Frames.Made.Distal;
 
-        /// <summary>Counts of what was solved.</summary>
-        public StageSolver Solver => _stage.Solver;
+        /// <summary>Newton iterations of a stage, but for the shortest intervals.</summary>
+        public int MostIterations { get; }
 
-        /// <summary>Solves where there are walls, and counts; null where there are none.</summary>
-        public BarrierNewton? WallSolver => _stage.WallSolver;
+        /// <summary>Solves the stages, and counts.</summary>
+        public Newton Newton => _stage.Newton;
 
         /// <summary>The forces from outside.</summary>
         public RodReactions Reactions => _stage.Reactions;
@@ -136,7 +138,7 @@ namespace Guidewire.Core
             {
                 _start.Save();
                 string? failure = Step(interval);
-                while (!Clock.Accepts(interval, failure, Iterations, Solver.MostIterations))
+                while (!Clock.Accepts(interval, failure, Newton.Iterations, MostIterations))
                 {
                     if (Clock.Failure != null)
                     {
@@ -183,7 +185,8 @@ namespace Guidewire.Core
         {
             _terms.Serialize(snapshot);
             SerializeCounts(snapshot);
-            snapshot.Section(_stepper.Key + " " + dt.ToString("R", CultureInfo.InvariantCulture), SerializeStages);
+            snapshot.Section(_stepper.Key + ", steps of " + dt.ToString("R", CultureInfo.InvariantCulture),
+                SerializeStages);
         }
 
         /// <summary>Writes or restores all that <see cref="Step(double)"/> may touch, for a <see cref="StepStart"/>.
@@ -199,20 +202,14 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what was counted.</summary>
         public void SerializeCounts(Snapshot snapshot)
         {
-            Solver.SerializeCounts(snapshot);
-            WallSolver?.Serialize(snapshot);
+            Newton.SerializeCounts(snapshot);
             Control.SerializeCounts(snapshot);
         }
 
-        private long Iterations => (WallSolver?.Iterations ?? 0) + Solver.Iterations;
-
         private string? Step(in Interval interval)
         {
-            if (WallSolver != null)
-            {
-                WallSolver.MostIterations = (int)Math.Min((long)Clock.IterationFactor * Solver.MostIterations,
-                    int.MaxValue);
-            }
+            long factor = _terms.Walls() == null ? 1 : Clock.IterationFactor;
+            Newton.MostIterations = (int)Math.Min(factor * MostIterations, int.MaxValue);
             Cancellation.ThrowIfCancellationRequested();
             string? failure = _stepper.Step(interval);
             Time = interval.End;

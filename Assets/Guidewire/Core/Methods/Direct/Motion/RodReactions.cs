@@ -6,11 +6,15 @@ namespace Guidewire.Core
     /// weights, and the change of momentum that they cause.</summary>
     internal sealed class RodReactions
     {
+        private const int LeastApart = 3;     // elements, of which the first and the last have no node in common
+
         private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
         private readonly RodMotion _motion;
-        private readonly StageSolver _solver;
+        private readonly EnergyTerm[] _moving;
+        private readonly BalanceRounding _rounding;
         private readonly RodDamping? _damping;
+        private readonly RodVector[] _gradient;
         private readonly RodVector[] _loads;
         private StageForces _end;
         private StageForces _mean;
@@ -20,15 +24,19 @@ namespace Guidewire.Core
         private bool _hasStepped;
 
         /// <summary>Of a rod at its start.</summary>
+        /// <param name="moving">Its terms and those of its motion.</param>
+        /// <param name="rounding">What rounding of positions leaves in the balance.</param>
         /// <param name="damping">What resists velocities and rates of strain, or null.</param>
-        public RodReactions(RodTerms terms, RodSchedule schedule, RodMotion motion, StageSolver solver,
-            RodDamping? damping)
+        public RodReactions(RodTerms terms, RodSchedule schedule, RodMotion motion, EnergyTerm[] moving,
+            BalanceRounding rounding, RodDamping? damping)
         {
             _terms = terms;
             _schedule = schedule;
             _motion = motion;
-            _solver = solver;
+            _moving = moving;
+            _rounding = rounding;
             _damping = damping;
+            _gradient = new RodVector[terms.VectorCount];
             _loads = new RodVector[motion.Shape.ElementCount + 2];
         }
 
@@ -75,11 +83,11 @@ namespace Guidewire.Core
             if (AreKept)
             {
                 _terms.Walls()?.Barrier.Value(_motion.Shape);
-                RodVector[] gradient = _solver.EndReactions(_motion.Shape);
+                AddEnds();
                 Take(new StageForces
                 {
-                    Proximal = ForceOf(gradient[0]),
-                    Distal = ForceOf(gradient[_motion.Shape.ElementCount]),
+                    Proximal = ForceOf(_gradient[0]),
+                    Distal = ForceOf(_gradient[_motion.Shape.ElementCount]),
                 });
             }
         }
@@ -129,9 +137,10 @@ namespace Guidewire.Core
         {
             _terms.SetTime(_schedule, time);
             RodShape shape = _motion.Shape;
-            RodVector g = (_hasStepped ? _solver.Reactions(shape) : _solver.StaticReactions(shape))[node];
+            // Before the first step without inertia.
+            AddAll(_hasStepped ? _moving : _terms.All);
             WallTerms? walls = _terms.Walls();
-            return (node == 0 && walls != null ? walls.SupportForce(shape) : Vector3d.Zero) + ForceOf(g);
+            return (node == 0 && walls != null ? walls.SupportForce(shape) : Vector3d.Zero) + ForceOf(_gradient[node]);
         }
 
         /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
@@ -163,6 +172,37 @@ namespace Guidewire.Core
             _mean.Serialize(snapshot);
             snapshot.Serialize(ref _momentum);
             snapshot.Serialize(ref _momentumRate);
+        }
+
+        // The gradient of terms: what the supports have to exert.
+        private void AddAll(EnergyTerm[] terms)
+        {
+            Array.Clear(_gradient, 0, _gradient.Length);
+            foreach (EnergyTerm term in terms)
+            {
+                term.AddGradient(_motion.Shape, _gradient);
+            }
+            _rounding.SumUp(_gradient);
+        }
+
+        // The same of all, where only nodes 0 and n count. Walls, if there are any, have been asked for their energy
+        // in this shape last.
+        private void AddEnds()
+        {
+            RodShape shape = _motion.Shape;
+            int n = shape.ElementCount;
+            if (_rounding.IsLarge || shape.InnerCount > 0 || n < LeastApart)
+            {
+                AddAll(_moving);
+                return;
+            }
+            var measured = default(GradientMeasures);
+            Array.Clear(_gradient, 0, _gradient.Length);
+            foreach (EnergyTerm term in _moving)
+            {
+                term.AddGradient(shape, _gradient, 0, 1, ref measured);
+                term.AddGradient(shape, _gradient, n - 1, n + 1, ref measured);
+            }
         }
 
         private Vector3d Momentum => _terms.Mass.Momentum(_motion.Velocities);

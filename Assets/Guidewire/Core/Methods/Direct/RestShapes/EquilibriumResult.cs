@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>How a search for a rest shape ended.</summary>
     internal struct EquilibriumResult
     {
-        /// <summary>True only where the last Newton step was below the tolerance and the shape is stable.</summary>
+        /// <summary>True only where the forces balance to the tolerance and the shape is stable.</summary>
         public bool Converged;
 
         /// <summary>How the rest shape was found, in one line; null where that is not a choice.</summary>
@@ -17,9 +17,6 @@ namespace Guidewire.Core
 
         /// <summary>Factorisations, among them those that a shift had to repeat.</summary>
         public int Factorisations;
-
-        /// <summary>Size of the last Newton step: radians, or displacement over L.</summary>
-        public double LastStep;
 
         /// <summary>Largest unbalanced force over EI/L^2 + loads, or couple over that times L.</summary>
         public double Residual;

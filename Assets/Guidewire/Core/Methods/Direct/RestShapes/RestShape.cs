@@ -21,7 +21,7 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
 
         /// <summary>A search in this scene.</summary>
-        /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
+        /// <param name="tolerance">Error that the shape may have: radians, or displacement over L.</param>
         /// <param name="mostIterations">Newton iterations of a part.</param>
         /// <param name="report">Told how the rest shape was found and how good it is.</param>
         public RestShape(MaterialScene scene, RodTerms terms, double tolerance, int mostIterations,

@@ -23,7 +23,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
-        /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
+        /// <param name="tolerance">Error that the shape may have: radians, or displacement over L.</param>
         /// <param name="mostIterations">Newton iterations, after which the search gives up.</param>
         public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
         {
@@ -32,14 +32,13 @@ namespace Guidewire.Core
             if (_terms.HavePotential)
             {
                 method = "minimum of the energy";
-                result = new EquilibriumSolver(_rod, _supports, _terms.All).Solve(shape, tolerance, mostIterations);
+                result = new RestSearch(_terms, _terms.All).Solve(shape, tolerance, mostIterations);
             }
             else if (_terms.Followers.Force.HasPotential && FindPlane(shape, out Vector3d normal))
             {
                 method = "minimum of the energy in the plane of the loads, constrained to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
-                result = new EquilibriumSolver(_rod, _supports, _terms.With(guide)).Solve(
-                    shape, tolerance, mostIterations);
+                result = new RestSearch(_terms, _terms.With(guide)).Solve(shape, tolerance, mostIterations);
                 if (result.Converged && !IsStableInSpace(shape))
                 {
                     method += "; in space it is not stable";
@@ -60,8 +59,8 @@ namespace Guidewire.Core
         /// <summary>Minimises without what turns with the tip, then puts it on and creeps.</summary>
         private EquilibriumResult Creep(RodShape shape, double tolerance, int mostIterations)
         {
-            EquilibriumResult first = new EquilibriumSolver(_rod, _supports, _terms.WithPotential()).Solve(
-                shape, tolerance, mostIterations, false);
+            EquilibriumResult first = new RestSearch(_terms, _terms.WithPotential()).Solve(
+                shape, tolerance, mostIterations);
             if (!first.Converged)
             {
                 return first;

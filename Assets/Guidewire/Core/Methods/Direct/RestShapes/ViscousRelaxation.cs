@@ -79,7 +79,6 @@ namespace Guidewire.Core
                 result.Iterations++;
                 FindStep(shape, ref drag, ref result);
                 double size = RodStep.Size(_step, _rod.ElementCount, _totalLength, out double relative);
-                result.LastStep = size;
                 if (!(size < double.MaxValue))
                 {
                     result.Reason = "the step is not a finite number under " + _keys;

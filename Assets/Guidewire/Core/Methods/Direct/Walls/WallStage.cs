@@ -9,17 +9,16 @@ namespace Guidewire.Core
         private const int FrictionLagIterations = 1;       // of the normal forces in friction
         private const double FirstAccuracy = 1e-4;          // of a solution that only gives normal forces
         private const double FirstTolerances = 100.0;       // that it may leave at most
-        private const double Far = 1e3;     // of the error of a stage: farther moved, not converged
 
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
         private readonly WallPrediction _prediction;
         private readonly RodShape _predicted;
         private readonly RodVector[] _direction;
-        private readonly double _totalLength;    // m
+        private readonly Newton _newton;
 
         /// <summary>For a rod under terms that hold walls.</summary>
-        public WallStage(RodTerms terms, InertiaEnergy inertia, EnergyTerm[] moving)
+        public WallStage(RodTerms terms, InertiaEnergy inertia, Newton newton)
         {
             int n = terms.Rod.ElementCount;
             _terms = terms;
@@ -27,12 +26,8 @@ namespace Guidewire.Core
             _prediction = new WallPrediction(terms, inertia);
             _predicted = new RodShape(n, terms.Supports.InnerCount);
             _direction = new RodVector[terms.VectorCount];
-            _totalLength = terms.Rod.TotalLength;
-            Newton = new BarrierNewton(terms, moving);
+            _newton = newton;
         }
-
-        /// <summary>Solves, and counts.</summary>
-        public BarrierNewton Newton { get; }
 
         /// <summary>Solves a stage.</summary>
         /// <param name="shape">In: where the wire was, its frames turned. Out: the stage's.</param>
@@ -52,18 +47,16 @@ namespace Guidewire.Core
             _terms.Walls()!.Friction?.Lag(shape);
             PlaceEnd(shape, end);
             int parts = _prediction.Begin(shape, start - lag);
-            bool isFar = false;
             for (int k = 1; k <= parts; k++)
             {
                 _predicted.CopyFrom(shape);
                 _prediction.Set((double)k / parts, orientations, shape, _predicted);
                 SetDirection(shape);
-                double fraction = Newton.MaxStepOf(shape, _direction);
+                double fraction = _newton.MaxStepOf(shape, _direction);
                 if (!(fraction > 0.0) && k == 1)
                 {
                     return "the wire's surface touches a wall at the start of the step";
                 }
-                isFar |= RodStep.Size(_direction, shape.ElementCount, _totalLength, out _) > Far * Newton.Tolerance;
                 RodStep.ApplyStraight(shape, _direction, fraction, shape);
                 if (fraction < 1.0)
                 {
@@ -72,12 +65,12 @@ namespace Guidewire.Core
             }
             FrictionEnergy? friction = _terms.Walls()!.Friction;
             int lags = friction == null ? 0 : FrictionLagIterations;
-            double first = Math.Min(FirstTolerances, Math.Max(1.0, FirstAccuracy / Newton.Tolerance));
-            string? failure = Newton.Solve(shape, stageLength, loads, isFar, lags == 0 ? 1.0 : first);
+            double first = Math.Min(FirstTolerances, Math.Max(1.0, FirstAccuracy / _newton.Tolerance));
+            string? failure = _newton.Minimise(shape, stageLength, loads, isSearched: true, lags == 0 ? 1.0 : first);
             for (int k = 1; k <= lags && failure == null; k++)
             {
                 friction!.Lag(shape);
-                failure = Newton.Solve(shape, stageLength, loads, isFar: false, k == lags ? 1.0 : first);
+                failure = _newton.Minimise(shape, stageLength, loads, isSearched: true, k == lags ? 1.0 : first);
             }
             return failure;
         }

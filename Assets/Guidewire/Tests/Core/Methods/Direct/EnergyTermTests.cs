@@ -53,9 +53,9 @@ namespace Guidewire.Core.Tests
                     Rods.Straight(rod), RungeKuttaScheme.Esdirk3(), 1e-8, 100);
                 Rods.Step(motions[k], 1e-3, 10);
             }
-            Assert.That(motions[1].Solver.Factorisations, Is.GreaterThanOrEqualTo(2 * 10 * 3));
+            Assert.That(motions[1].Newton.Factorisations, Is.GreaterThanOrEqualTo(2 * 10 * 3));
             // The force comes at once: the two stages of the starting step may need the search, no other does.
-            Assert.That(motions[1].Solver.Searches, Is.LessThanOrEqualTo(2));
+            Assert.That(motions[1].Newton.Searches, Is.LessThanOrEqualTo(2));
             Assert.That(Wires.Distance(motions[0].Shape.X, motions[1].Shape.X), Is.LessThan(1e-6 * Rods.Length));
         }
 

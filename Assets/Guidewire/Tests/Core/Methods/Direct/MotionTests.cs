@@ -114,10 +114,9 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Esdirk3, DistalEnd.Clamped)]
         public void TurnedAndMovedScene_MovesTheSame(Integrator scheme, DistalEnd distal)
         {
-            // Weight, a tip force that is let go half-way and turning clamps, at the default tolerance. Rounding of the
-            // positions decides where a stage may end, so shapes differ by what is then left: the unbalanced force
-            // allowed, below 1e-6 of the load, bends by less than 1e-6 L; by the second order of Newton's last step
-            // far less is left.
+            // Weight, a tip force that is let go half-way and turning clamps. Rounding of the positions decides where a
+            // stage may end, so shapes differ by what is then left: the unbalanced force allowed, below 1e-8 of the
+            // load, bends by less than 1e-8 L; by the second order of Newton's last step far less is left.
             const int N = 10;
             Quaterniond turn = Quaterniond.FromAxisAngle(Vector3d.Normalize(new Vector3d(1.0, 0.4, -0.3)), 1.9);
             var offset = new Vector3d(0.5, -0.2, 0.1);
@@ -136,7 +135,7 @@ namespace Guidewire.Core.Tests
                     DistalRotation = 1.0,
                     DistalRampTime = 0.03,
                 }, shape, 20.0);
-                RodDynamics motion = Start(rod, new RodSupports { Distal = distal }, schedule, shape, scheme, 1e-6);
+                RodDynamics motion = Start(rod, new RodSupports { Distal = distal }, schedule, shape, scheme, 1e-8);
                 Rods.Step(motion, 1e-3, 50);
                 shapes[k] = shape;
             }

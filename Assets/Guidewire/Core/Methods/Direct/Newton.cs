@@ -1,0 +1,420 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Moves a shape to a minimum of a sum of energies, by Newton's method in O(n): an implicit stage, whose
+    /// terms include inertia and walls, or a rest shape.</summary>
+    /// <remarks>A stage is solved when no piece of the rod, from its start to any node, is unbalanced by more than a
+    /// force S, nor the couples on its elements by S L in all. S is the prescribed fraction of the largest force in
+    /// the rod, and at most tolerance EI/L^2: a force S at the tip of a cantilever moves it by S L^3/(3 EI) and turns
+    /// it by S L^2/(2 EI). The balance then bounds the error of the shape too. A bound on the last step alone does not
+    /// do: stretching costs EA, and a step of 1e-6 L along the rod is 1e-6 EA of force, more than the weight of the
+    /// wire. What rounding of the positions leaves in the balance is added to S (<see cref="BalanceRounding"/>).
+    /// Where the force left is more than half of the least before, a full step below the tolerance ends the stage: it
+    /// has come to what rounding leaves.
+    ///
+    /// A factorisation is used again where its steps are expected to come below S. The first is expected to leave
+    /// twice the fraction of the force that the Newton step left, each further one the fraction of the one before.
+    ///
+    /// A search shortens each step until the energy falls by a fraction of what the slope promises (Armijo). Between
+    /// walls nodes move on straight lines and no farther than every gap allows, so no iterate is outside a wall. Where
+    /// the second derivative is not positive definite, a wire under thrust away from the solution, its negative pivots
+    /// change sign where there is friction and the direction is then short, or else a multiple of the metric is added.
+    /// The former slows down only what is unstable: a wire whose forces balance in the plane of its bend converges in
+    /// it as fast as ever, though it would go on out of the plane. After a full step near the solution the forces of
+    /// its linear model set the stiffness of contacts (<see cref="ContactMultipliers"/>).
+    ///
+    /// Full steps without a search are cheaper, and suffice for a stage that is near its prediction. They end with a
+    /// reason where the second derivative is not positive definite or a full step does not halve the force left.
+    /// </remarks>
+    internal sealed class Newton
+    {
+        private const double OfSpring = 10.0;            // EA/l: of the support between walls
+        private const double FirstShift = 0.25;          // of EI/L^2, of a rest shape
+        private const double LeastShift = 1e-4;          // of EI/L^2
+        private const double MostReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
+        private const double MostLinear = 1e-2;          // size of a step whose linear model gives forces of walls
+        private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
+        private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
+        private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
+        private const double SufficientDecrease = 1e-4;
+        private const double Rounding = 1e-13;           // of the energies' magnitudes
+        private const double LeastSize = 8.0 / (1L << 52);   // of a step that rounding of the shape does not hide
+        private const double Contraction = 0.5;          // of the force left, by a full step
+        private const int MostStiffened = 4;             // iterations of a stage
+        private const int MostCuts = 40;
+        private const int MostReusedWithWalls = 2;       // steps with one factorisation
+        private const int MostReusedWithout = 6;
+
+        private const string NotContracting = "full steps of Newton's method do not converge";
+        private const string NotFinite = "the Newton step is not a finite number; loads are too large for the stiffness"
+            + " (youngsModulus, wireRadius)";
+
+        private readonly MaterialRod _rod;
+        private readonly RodSupports _supports;
+        private readonly EnergyTerm[] _terms;
+        private readonly BarrierEnergy? _barrier;
+        private readonly ContactMultipliers? _multipliers;
+        private readonly bool _hasFriction;
+        private readonly int _mostReused;
+        private readonly double _totalLength;
+        private readonly double _bendForce;       // EI/L^2 of the stiffest element, N
+        private readonly double _softestForce;    // softest stiffness/L^2, N
+        private readonly double[] _values;        // of the terms in the shape evaluated last, J
+        private double _shift;                    // N, kept from one iteration to the next
+
+        /// <summary>For a rod under these terms.</summary>
+        /// <param name="rodTerms">Those of the rod, its walls among them.</param>
+        /// <param name="terms">Those whose sum is minimised.</param>
+        public Newton(RodTerms rodTerms, EnergyTerm[] terms)
+        {
+            _rod = rodTerms.Rod;
+            _supports = rodTerms.Supports;
+            _terms = terms;
+            _barrier = rodTerms.Walls()?.Barrier;
+            _multipliers = _barrier?.Multipliers;
+            _hasFriction = rodTerms.Walls()?.Friction != null;
+            _mostReused = _barrier != null ? MostReusedWithWalls : MostReusedWithout;
+            _totalLength = _rod.TotalLength;
+            _bendForce = _rod.BendForce;
+            _softestForce = rodTerms.SoftestStiffness / (_totalLength * _totalLength);
+            _values = new double[terms.Length];
+            BalanceRounding = new BalanceRounding(_rod, _supports, rodTerms.Mass.Total,
+                _barrier != null ? OfSpring : 1.0);
+            System = new BlockTridiagonal(_rod, _supports);
+            Gradient = new RodVector[System.VectorCount];
+            Direction = new RodVector[System.VectorCount];
+            Trial = new RodShape(_rod.ElementCount, _supports.InnerCount);
+        }
+
+        /// <summary>Error that a stage's shape may have where forces are small, or the last step to a rest shape:
+        /// radians, or displacement over L.</summary>
+        public double Tolerance { get; set; } = 1e-6;
+
+        /// <summary>Fraction of the largest force that a stage may leave unbalanced.</summary>
+        public double Balance { get; set; } = 1e-7;
+
+        /// <summary>Newton iterations of a stage.</summary>
+        public int MostIterations { get; set; } = 50;
+
+        /// <summary>Multiple of the metric in every direction, N: where a shape may move without any change of energy
+        /// rounding alone would make large steps. Up to the most of it the second derivative counts as positive
+        /// definite.</summary>
+        public (double Least, double Most) Regularisation { get; set; }
+
+        /// <summary>Whether a full step below the tolerance ends the search, instead of the balance: near the load at
+        /// which it buckles a shape may be far from rest though its forces nearly balance.</summary>
+        public bool JudgesStep { get; set; }
+
+        /// <summary>Newton iterations so far, those with a kept factorisation among them.</summary>
+        public long Iterations { get; private set; }
+
+        /// <summary>Factorisations so far.</summary>
+        public long Factorisations { get; private set; }
+
+        /// <summary>Solutions with a kept factorisation so far.</summary>
+        public long KeptSolutions { get; private set; }
+
+        /// <summary>Stages without walls that needed a search so far.</summary>
+        public long Searches { get; private set; }
+
+        /// <summary>What rounding of positions leaves in the balance.</summary>
+        public BalanceRounding BalanceRounding { get; }
+
+        /// <summary>The second derivative, as it was factorised last.</summary>
+        public BlockTridiagonal System { get; }
+
+        /// <summary>The gradient in the shape evaluated last.</summary>
+        public RodVector[] Gradient { get; }
+
+        /// <summary>Newton's direction.</summary>
+        public RodVector[] Direction { get; }
+
+        /// <summary>The shape tried last.</summary>
+        public RodShape Trial { get; }
+
+        /// <summary>Moves the shape to the stage's.</summary>
+        /// <param name="shape">In: the supports are in place and gaps are open. Out: the stage's.</param>
+        /// <param name="stageLength">h, s; infinite at rest.</param>
+        /// <param name="loads">Sum of the loads' magnitudes, N.</param>
+        /// <param name="isSearched">Whether each step lowers the energy; else steps are full.</param>
+        /// <param name="tolerances">How many times the tolerance may be left, 1 or more.</param>
+        /// <returns>Null, or why it has not converged; the shape is then not to be used.</returns>
+        public string? Minimise(RodShape shape, double stageLength, double loads, bool isSearched,
+            double tolerances = 1.0)
+        {
+            double rounding = BalanceRounding.BeginStage(shape, stageLength);
+            _shift = JudgesStep ? FirstShift * _bendForce : _shift;
+            Searches += isSearched && _barrier == null ? 1 : 0;
+            _multipliers?.Forget();
+            double left = double.PositiveInfinity;
+            double least = double.PositiveInfinity;
+            double last = double.PositiveInfinity;    // size of the last Newton step
+            bool hasValues = false;                   // of the terms in this shape
+            int reused = _mostReused;                 // steps with the last factorisation
+            for (int k = 0; k < MostIterations; k++)
+            {
+                bool isLower = true;
+                if (!JudgesStep && (k > 0 || isSearched))
+                {
+                    double before = left;
+                    double allowed = rounding + tolerances * Measure(shape, loads, out left);
+                    isLower = left <= Contraction * least;
+                    least = Math.Min(least, left);
+                    if (left <= allowed && (k > 0 || !BalanceRounding.IsLarge))
+                    {
+                        return null;
+                    }
+                    if (!isSearched && reused == 0 && !isLower && last > Tolerance)
+                    {
+                        return NotContracting;
+                    }
+                    if (TryReuse(shape, left, before, allowed, ref reused))
+                    {
+                        hasValues = false;
+                        continue;
+                    }
+                }
+                if (isSearched)
+                {
+                    EnergySum.Anchor(_terms, shape);
+                }
+                bool isPlain = FindDirection(shape, k < MostStiffened);
+                double size = Size(out double relative);
+                if (!(size <= double.MaxValue))
+                {
+                    return NotFinite;
+                }
+                Iterations++;
+                double scale = MaxStep(shape, size, relative);
+                if (JudgesStep && scale == 1.0 && IsSmall(size, isPlain))
+                {
+                    Apply(shape, 1.0, shape);
+                    return null;
+                }
+                bool isHidden = true;
+                if (!isSearched)
+                {
+                    if (!isPlain)
+                    {
+                        return NotContracting;
+                    }
+                    Apply(shape, scale, shape);
+                }
+                else
+                {
+                    // Where steps do not lower the force left, estimates may hold them back.
+                    if (isLower && isPlain && scale == 1.0 && size < MostLinear)
+                    {
+                        _multipliers?.Estimate(Direction);
+                    }
+                    else
+                    {
+                        _multipliers?.Forget();
+                    }
+                    if (!Search(shape, !hasValues, ref scale, size, out isHidden))
+                    {
+                        return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
+                    }
+                    if (scale < 1.0)
+                    {
+                        _multipliers?.Forget();
+                    }
+                    shape.CopyFrom(Trial);
+                }
+                if (isHidden && scale == 1.0 && !isLower && size <= Tolerance)
+                {
+                    return null;
+                }
+                hasValues = !isHidden;
+                last = size;
+                reused = isPlain && scale == 1.0 ? 0 : _mostReused;
+            }
+            return "Newton's method leaves " + Text(left) + " N out of balance after " + MostIterations
+                + " iterations (maxNewtonIterations)";
+        }
+
+        /// <summary>Sets another shape, or the same, to a shape moved along the direction.</summary>
+        public void Apply(RodShape shape, double scale, RodShape to)
+        {
+            if (_barrier != null)
+            {
+                RodStep.ApplyStraight(shape, Direction, scale, to);
+            }
+            else
+            {
+                RodStep.Apply(_rod, _supports, shape, Direction, scale, to);
+            }
+        }
+
+        /// <summary>Size of the direction: radians, or displacement over L.</summary>
+        /// <param name="relative">The largest turn of one element against the next, radians.</param>
+        public double Size(out double relative)
+        {
+            return RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative);
+        }
+
+        /// <summary>Largest part of the motion that a step of this direction may take, 0 to 1.</summary>
+        public double MaxStepOf(RodShape shape, RodVector[] direction)
+        {
+            return EnergySum.MaxStep(_terms, shape, direction, 1.0);
+        }
+
+        /// <summary>Writes or restores what the next stage depends on.</summary>
+        public void SerializeShift(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _shift);
+        }
+
+        /// <summary>Writes or restores the counts that a run reports, and between walls what serves a rod of other
+        /// elements too.</summary>
+        public void SerializeCounts(Snapshot snapshot)
+        {
+            Factorisations = snapshot.Serialize(Factorisations);
+            KeptSolutions = snapshot.Serialize(KeptSolutions);
+            Searches = snapshot.Serialize(Searches);
+            if (_barrier != null)
+            {
+                SerializeShift(snapshot);
+                Iterations = snapshot.Serialize(Iterations);
+            }
+        }
+
+        // The largest force on a piece of the rod from its start to any node, or the sum of the couples over L, N.
+        // Returns S; the direction is minus the gradient.
+        private double Measure(RodShape shape, double loads, out double left)
+        {
+            double largest = System.Gradient(_terms, shape, Gradient, Direction).LargestForce;
+            if (BalanceRounding.IsLarge)
+            {
+                left = BalanceRounding.Unbalanced(Direction);
+            }
+            else
+            {
+                double force = RodVectors.LargestPartialForce(Direction, out double couples);
+                left = Math.Max(force, couples / _totalLength);
+            }
+            // A wire that touches walls has a shorter free length.
+            double parts = _barrier != null && _barrier.Touches ? FreeParts : 1.0;
+            return Math.Min(Balance * Math.Max(largest, loads), parts * parts * Tolerance * _softestForce);
+        }
+
+        // Along a direction that costs no energy rounding alone makes steps: there the energy that they gain is asked.
+        private bool IsSmall(double size, bool isPlain)
+        {
+            double gain = Math.Max(0.0, -RodVectors.Dot(Gradient, Direction)) / (_softestForce * _totalLength);
+            return size <= Tolerance || (isPlain && gain <= Tolerance * Tolerance);
+        }
+
+        // A step with the last factorisation, where those that may follow are expected to come below what is allowed.
+        private bool TryReuse(RodShape shape, double left, double before, double allowed, ref int reused)
+        {
+            double rate = reused == 0 ? 2.0 * left / before : left / before;
+            if (reused >= _mostReused || !(left * Math.Pow(rate, _mostReused - reused) <= allowed))
+            {
+                return false;
+            }
+            System.Solve(Direction);
+            double size = Size(out double relative);
+            if (MaxStep(shape, size, relative) < 1.0)
+            {
+                reused = _mostReused;
+                return false;
+            }
+            Iterations++;
+            KeptSolutions++;
+            reused++;
+            Apply(shape, 1.0, shape);
+            return true;
+        }
+
+        // At first without the terms of forces that may vanish; then only those of walls are left out. Says whether
+        // what is factorised is the second derivative itself, without a negative eigenvalue.
+        private bool FindDirection(RodShape shape, bool isStiffened)
+        {
+            bool isPlain = TryFactorise(shape, Regularisation.Least, isWhole: _hasFriction);
+            for (double more = 10.0 * Regularisation.Least; !isPlain && more < Regularisation.Most; more *= 10.0)
+            {
+                isPlain = TryFactorise(shape, more);
+            }
+            if (!isPlain && _hasFriction)
+            {
+                System.ReflectNegativePivots(Direction);
+                System.Back(Direction);
+                if (Size(out _) < MostReflected)
+                {
+                    return false;
+                }
+            }
+            if (!isPlain)
+            {
+                Stiffen(isStiffened, true);
+                if (_barrier == null || !TryFactorise(shape, 0.0))
+                {
+                    _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
+                    while (!TryFactorise(shape, _shift) && _shift <= double.MaxValue)
+                    {
+                        _shift *= 4.0;
+                    }
+                }
+                Stiffen(isStiffened, false);
+            }
+            System.Back(Direction);
+            return isPlain;
+        }
+
+        // With a multiple of the metric added, N. Says whether all eigenvalues are positive; unless the whole is asked
+        // for it ends at the first that is not.
+        private bool TryFactorise(RodShape shape, double shift, bool isWhole = false)
+        {
+            Factorisations++;
+            return System.Factorise(_terms, shape, Gradient, Direction, shift, onlyPositive: !isWhole) == 0;
+        }
+
+        private void Stiffen(bool isAll, bool isOn)
+        {
+            if (isAll && _barrier != null)
+            {
+                EnergySum.Stiffen(_terms, isOn);
+            }
+            _barrier?.Stiffen(isOn);
+        }
+
+        // The largest step along the direction, at most 1; the turn of an instrument against the one whose tip it
+        // leaves is found here.
+        private double MaxStep(RodShape shape, double size, double relative)
+        {
+            double most = Math.Max(relative, CoaxialShape.TurnAtTips(_supports.Coaxial, shape, Direction));
+            double scale = Math.Min(1.0, Math.Min(LargestTurn / size, LargestRelativeTurn / most));
+            return scale * EnergySum.MaxStep(_terms, shape, Direction, scale);
+        }
+
+        // Halves the step until the energy falls enough; the accepted shape is left in the trial. Where the energy's
+        // own rounding hides the decrease the step is Newton's, and small, and is taken without its energies.
+        private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool isHidden)
+        {
+            double slope = RodVectors.Dot(Gradient, Direction);
+            double start = isNew ? EnergySum.Value(_terms, shape, _values, out double magnitude)
+                : EnergySum.AnchoredValue(_terms, _values, out magnitude);
+            double rounding = Rounding * magnitude;
+            isHidden = (-slope < 1e3 * rounding && size < 1e-2) || size < LeastSize;
+            for (int cut = 0; cut < MostCuts; cut++)
+            {
+                Apply(shape, scale, Trial);
+                if (isHidden || EnergySum.Value(_terms, Trial, _values, out _)
+                    <= start + SufficientDecrease * scale * slope + rounding)
+                {
+                    return true;
+                }
+                scale *= 0.5;
+            }
+            return false;
+        }
+
+        private static string Text(double value)
+        {
+            return value.ToString("G3", CultureInfo.InvariantCulture);
+        }
+    }
+}
