@@ -144,7 +144,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     site.add_argument("scenes", metavar="SCENE", nargs="*", type=Path,
                       help="parameter files (without them those scenes of params that have a vessel and are steered)")
     site.add_argument("--compiled-ahead", action="store_true",
-                      help="compile the simulation ahead (needs the .NET workload wasm-tools): up to five times as fast")
+                      help="compile the simulation ahead, for speed (needs the .NET workload wasm-tools)")
     site.set_defaults(packages=(*DRAWING, *VIEWING))
 
     plot = commands.add_parser("plot", help="plot a quantity of a study's runs against one of its parameters")
