@@ -196,7 +196,6 @@ VALUES: dict[str, st.SearchStrategy] = {
     "collisionStiffness": st.floats(0.0, 1.0),
     "contactDistance": st.one_of(st.just(0), log_uniform(1e-6, 1e-2)),
     "elasticSlip": log_uniform(1e-8, 1e-3),
-    "frictionSpeed": log_uniform(1e-6, 1.0),
     "contactStiffness": st.one_of(st.just(0), log_uniform(1.0, 1e8)),
     "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]),
     "proximalMotionFile": st.just(""), "distalMotionFile": st.just(""),  # need ends that go with them

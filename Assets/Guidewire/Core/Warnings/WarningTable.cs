@@ -22,10 +22,9 @@ namespace Guidewire.Core
             "*file*: rodElementLength = *l* is not guidewireLength / numberRodElements = *m*; the latter is used",
             "remove the key, or correct the one that is wrong");
 
-        /// <summary>frictionSpeed with direct.</summary>
-        public static readonly WarningKind FrictionSpeed = AtStart("frictionSpeed",
-            "*file*: frictionSpeed has no effect: contacts stick at any speed, elastically up to elasticSlip",
-            "a key of older files");
+        /// <summary>A key of older files that is none any more.</summary>
+        public static readonly WarningKind FormerKey = AtStart("formerKey",
+            "*file*: *key* is no longer a key and has no effect: *what counts instead*", "remove it; the run is the same");
 
         /// <summary>A pbd stiffness for stretching that is unstable.</summary>
         public static readonly WarningKind StretchStiffness = AtStart("stretchStiffness",

@@ -17,12 +17,21 @@ namespace Guidewire.Io
         private List<(ParameterPath Path, JToken Value, string Source)> _parts =
             new List<(ParameterPath, JToken, string)>();
 
+        private readonly List<(string Key, string Source)> _former = new List<(string, string)>();
         private (string Key, string Source)? _unknown;
+
+        /// <summary>What was given of <see cref="ParameterTable.Former"/>.</summary>
+        public IReadOnlyList<(string Key, string Source)> Former => _former;
 
         /// <summary>Takes what is said of a key or of a part of one; the later word counts. A key that is not known is
         /// kept for <see cref="RefuseUnknown"/>.</summary>
         public void Take(string text, JToken value, string source)
         {
+            if (ParameterTable.Former.ContainsKey(text))
+            {
+                _former.Add((text, source));
+                return;
+            }
             ParameterPath? path = ParameterPath.Parse(text);
             if (path == null || ParameterTable.Find(path.Key) == null)
             {

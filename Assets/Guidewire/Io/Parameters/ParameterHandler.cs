@@ -382,6 +382,10 @@ namespace Guidewire.Io
 
         private void Warn()
         {
+            foreach ((string key, string source) in _given.Former)
+            {
+                AddWarning(WarningTable.FormerKey, source, key, ParameterTable.Former[key]);
+            }
             foreach (ParameterEntry entry in ParameterTable.Entries)
             {
                 if (_given.TryGet(entry.Key, out var given) && entry.NewerWord(given.Value) is string newer)
@@ -396,11 +400,6 @@ namespace Guidewire.Io
             if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning(WarningTable.ElementLength, length.Source, (double)length.Value, l);
-            }
-            if (Method == Solver.Direct && _given.TryGet("frictionSpeed", out var speed)
-                && (double)speed.Value != ContactEntries.DefaultFrictionSpeed)
-            {
-                AddWarning(WarningTable.FrictionSpeed, speed.Source);
             }
             if (Method != Solver.Pbd)
             {

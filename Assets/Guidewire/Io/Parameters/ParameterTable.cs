@@ -9,6 +9,12 @@ namespace Guidewire.Io
         /// <summary>The key that decides which others count.</summary>
         internal const string SolverKey = "solver";
 
+        /// <summary>What older files may hold and is no longer a key, and what counts in its place.</summary>
+        internal static readonly IReadOnlyDictionary<string, string> Former = new Dictionary<string, string>
+        {
+            ["frictionSpeed"] = "contacts stick at any speed, elastically up to elasticSlip",
+        };
+
         private static readonly Dictionary<string, ParameterEntry> ByKey = new Dictionary<string, ParameterEntry>();
 
         static ParameterTable()

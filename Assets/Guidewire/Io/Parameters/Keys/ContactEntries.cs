@@ -6,9 +6,6 @@ namespace Guidewire.Io
     /// <summary>The keys of group "contact": how the wire touches walls.</summary>
     internal static class ContactEntries
     {
-        /// <summary>The value of frictionSpeed in files that did not ask for another, m/s.</summary>
-        public const double DefaultFrictionSpeed = 1e-3;
-
         /// <summary>The group, a part of the parameter table.</summary>
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "contact", "how the wire touches walls", p => p.Simulation.Contact, new ParameterEntry[]
@@ -29,14 +26,6 @@ namespace Guidewire.Io
                 "elastic tangential displacement up to which a contact sticks; its tangential stiffness is"
                 + " frictionCoefficient times the normal force over elasticSlip; 0: a hundredth of the wire's"
                 + " radius") { Methods = Takers.Only(Solver.Direct) },
-            new NumberEntry("frictionSpeed", "m/s", NumberRange.Positive,
-                "in older files, the slip speed below which a contact crept; no effect, as contacts now stick "
-                + "at any speed (see elasticSlip); gives a warning")
-            {
-                Getter = p => DefaultFrictionSpeed,
-                Setter = (p, v) => { },
-                Methods = Takers.Only(Solver.Direct),
-            },
             new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "gap kept beyond the radius")
             {
                 Methods = Takers.Pbd,

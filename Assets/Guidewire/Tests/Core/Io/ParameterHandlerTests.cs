@@ -36,6 +36,16 @@ namespace Guidewire.Core.Tests
             Assert.That(handler.Values.LogFilePath, Is.EqualTo("results/seed/"));
         }
 
+        [Test]
+        public void AFormerKey_GivesOneLineAndChangesNothing()
+        {
+            ParameterHandler with = Load("{\"solver\": \"direct\", \"frictionSpeed\": 0.01}");
+            Assert.That(with.Warnings, Has.Count.EqualTo(1));
+            Assert.That(with.Warnings[0], Does.Contain("frictionSpeed is no longer a key").And.Contain("elasticSlip"));
+            Assert.That(with.Hash, Is.EqualTo(Load("{\"solver\": \"direct\"}").Hash));
+            Assert.That(ParameterTable.Find("frictionSpeed"), Is.Null);
+        }
+
         [TestCase("{\"VerletIntegration\": false}", Integrator.Euler)]
         [TestCase("{\"VerletIntegration\": true, \"integrator\": \"verlet\"}", Integrator.Verlet)]
         public void OlderWords_SayTheSameAsTheNewer(string text, Integrator expected)

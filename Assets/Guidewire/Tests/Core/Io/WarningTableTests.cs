@@ -51,7 +51,7 @@ namespace Guidewire.Core.Tests
             ["ignoredKeys"] = "'solver': 'direct', 'constraintSolverSteps': 10, 'maxSimulationSteps': 1",
             ["olderName"] = Tube + ", 'displacement': 0, 'elementContact': 'seed', 'maxSimulationSteps': 1",
             ["elementLength"] = Pbd + ", 'rodElementLength': 3",
-            ["frictionSpeed"] = Driven + ", 'frictionSpeed': 5, 'maxSimulationSteps': 1",
+            ["formerKey"] = Driven + ", 'frictionSpeed': 5, 'maxSimulationSteps': 1",
             ["stretchStiffness"] = Pbd + ", 'stretchStiffness': 2.5",
             ["bendStiffness"] = Pbd + ", 'bendStiffness': 50",
             ["sectionBeyond"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
