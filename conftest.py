@@ -27,7 +27,6 @@ FAKE_RUNNER = Path(__file__).parent / "guidewire" / "runs" / "tests" / "fake_run
 
 
 def pytest_configure(config):
-    config.addinivalue_line("markers", "timed: measures or sleeps; run with nothing beside it")
     config.addinivalue_line("markers", "long(reason): runs where campaigns run in full; elsewhere skipped, and the reason "
                                        "names what holds the claim there")
 

@@ -25,15 +25,18 @@ DRAWING = ("numpy", "scipy", "matplotlib")
 SWEEPING = ("distributed", "tqdm", "scipy")
 VIEWING = ("aiohttp",)
 ANATOMY = DRAWING + ("vtkmodules",)
-TESTING = DRAWING + SWEEPING + VIEWING + ("pytest", "hypothesis")
+TESTING = DRAWING + SWEEPING + VIEWING + ("pytest", "xdist", "hypothesis")
 
 EXTRAS = {  # of the installed package: what only some commands import
     "draw": ("scipy", "matplotlib"), "sweep": ("dask", "distributed", "tqdm"), "view": ("aiohttp",),
     "anatomy": ("vtkmodules",), "gym": ("gymnasium",),
 }
 
-_DEBIAN_NAMES = {"vtkmodules": "vtk9"}  # what an import is called elsewhere
-_PIP_NAMES = {"vtkmodules": "vtk"}  # what only some commands need, and so is not in requirements.txt
+PACKAGING = ("pip", "setuptools", "wheel")
+
+_DEBIAN_NAMES = {"vtkmodules": "vtk9", "xdist": "pytest-xdist"}  # what an import is called elsewhere
+_PIP_NAMES = {"vtkmodules": "vtk", "xdist": "pytest-xdist"}
+_MORE = (*PACKAGING, "vtkmodules")  # what only some commands need, and so is not in requirements.txt
 
 _HANDED_OVER = "GUIDEWIRE_HANDED_OVER"
 _PIP_SECONDS = 900
@@ -116,7 +119,7 @@ def _fill_venv(packages):
     made = existed or _log_run([sys.executable, "-m", "venv", str(VENV)], seconds=120)
     # Two tries of ten seconds: without a network pip must give up soon, not after its default of minutes.
     pip = [str(_venv_python()), "-m", "pip", "install", "--retries", "1", "--timeout", "10", "--prefer-binary"]
-    more = [_PIP_NAMES[name] for name in packages if name in _PIP_NAMES]
+    more = [_PIP_NAMES.get(name, name) for name in packages if name in _MORE]
     if made and _log_run(pip + ["-r", str(ROOT / "requirements.txt")] + more, seconds=_PIP_SECONDS):
         return _venv_python()
     if not existed:

@@ -1,57 +1,38 @@
-"""Runs every test of the project and adds up what each test runner itself wrote about its results.
+"""`test`: builds, runs pytest and `dotnet test` side by side, and adds up what each wrote about its results.
 
-Counts come from result files (TRX, JUnit XML), never from exit codes alone; a runner that left no such file, or an
-empty one, did not run and counts as one failure.
-
-Suites run side by side, each as soon as the part of the build that it needs is there. Tests that measure or sleep (the
-marker `timed`) are a suite of their own, which runs last and alone.
+Counts come from result files (JUnit XML, TRX), never from exit codes alone: a runner that left no such file or an empty
+one counts as one failure.
 """
 
 from __future__ import annotations
 
 import argparse
 import os
+import shutil
+import subprocess
 import sys
+import threading
 import time
 import xml.etree.ElementTree as ElementTree
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Sequence
+from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
 from pathlib import Path
 
-from guidewire.prepare import ROOT
-from guidewire.runs.building import HEADLESS, PARTS, dotnet, end_compiler
-from guidewire.runs.process import Process, file_name
+from guidewire.prepare import ROOT, PreparationError
+from guidewire.runs import building
 
 RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
+# In this order, so that what needs nothing built runs beside the build, and no long file is left over at the end.
+PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "guidewire/viewer", "tools/unitycheck", "guidewire/sessions",
+          "experiments", "analysis", "guidewire", "tools")
 # The build that Unity compiles has the same sources and runs here on the same runtime as the other. Where campaigns do
 # not run in full it makes the tests of what the two do in different ways: how sweeps are made and numbers are written.
-BY_TARGET = ("Guidewire.Core.Tests, netstandard2.1",)
-# Tests of the solution by the folder that they and their libraries were built into.
-_DOTNET = {
-    "Guidewire.Core.Tests": "Guidewire.Core.Tests/bin/Release/net10.0/Guidewire.Core.Tests.dll",
-    "Guidewire.Unity.Tests": "Guidewire.Unity.Tests/bin/Release/net10.0/Guidewire.Unity.Tests.dll",
-    BY_TARGET[0]: "Guidewire.Core.Tests/bin/Release/netstandard2.1/Guidewire.Core.Tests.dll",
-}
-TESTED = ("guidewire", "analysis", "experiments", "tools")  # folders with tests in Python
-# Tests that are suites of their own, so that the rest runs beside them: those of random and checked runs, those that
-# mostly wait for processes, pages and workers, and those that need nothing built.
-RUNS = ("analysis/tests/test_validation.py", "guidewire/runs/tests/test_random_parameters.py",
-        "experiments/tests/test_core_against_reference.py", "experiments/tests/test_random_pushes.py",
-        "experiments/tests/test_contact_cases.py", "experiments/tests/test_wide_material.py")
-WAITING = ("guidewire/viewer/tests/test_view.py", "guidewire/viewer/tests/test_view_browser.py",
-           "guidewire/viewer/tests/test_view_vessel.py", "guidewire/commands/tests/test_endings.py",
-           "guidewire/sweeps/tests", "guidewire/runs/tests/test_whole_files.py", "tools/tests/test_testing.py",
-           "guidewire/runs/tests/test_building.py", "guidewire/sessions/tests/test_session.py",
-           "guidewire/sessions/tests/test_native.py")
-NOT_BUILT = ("analysis/tests", "guidewire/anatomy/tests", "guidewire/logs/tests", "guidewire/figures/tests")
-_BUILT = ("analysis/tests/test_coaxial_chart.py", "analysis/tests/test_failing_states.py",
-          "analysis/tests/test_gallery.py", "analysis/tests/test_rest_states.py", "analysis/tests/test_reversal.py",
-          "analysis/tests/test_thesis_numbers.py", "guidewire/logs/tests/test_array_logs.py")    # of those, still
-_SUITE_SECONDS = {False: 900, True: 6 * 3600}
-_STUCK_SECONDS = 300    # after which a Python test prints the stack of each of its threads
-_POLL_SECONDS = 0.05
-_NICENESS = 15    # suites give way to builds, for which others wait
+_BY_TARGET = ["--filter", "TestCategory=Target&TestCategory!=Long"]
+_SECONDS = {False: 1800, True: 6 * 3600}  # for each runner
+_LAST_LINES = 60
+PYTEST = (sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", "faulthandler_timeout=300")
 
 
 @dataclass(frozen=True)
@@ -69,170 +50,81 @@ class Count:
         return f"{self.passed} passed, {self.failed} failed" + (f", {self.skipped} skipped" if self.skipped else "")
 
 
-@dataclass(frozen=True)
-class Suite:
-    """One test runner.
-
-    Attributes
-    ----------
-    name : what it is called in the output.
-    command : what starts it.
-    report : the file in RESULTS that it writes.
-    read : how that file is read.
-    needs : the part of the build after which it starts; empty where it needs none.
-    alone : runs with nothing beside it.
-    """
-
-    name: str
-    command: Sequence[str]
-    report: str
-    read: Callable[[Path], Count]
-    needs: str = "Tests"
-    alone: bool = False
-
-
 def test(arguments: argparse.Namespace) -> int:
-    """`test`."""
-    return run_tests(full=arguments.all)
-
-
-def run_tests(full: bool) -> int:
-    """Build, run every suite, print one line for each and the sum last. Returns the exit code.
-
-    Parameters
-    ----------
-    full : random campaigns in full instead of a seeded fraction.
-    """
-    RESULTS.mkdir(parents=True, exist_ok=True)
-    # Tests start the program some hundred times: its modules are compiled once, whatever the shell says.
-    environment = {name: value for name, value in os.environ.items()
-                   if name not in (FULL_CAMPAIGNS, "PYTHONDONTWRITEBYTECODE")}
-    if full:
-        environment[FULL_CAMPAIGNS] = "1"
-    program, _ = dotnet()
-    builds = {part: [sys.executable, "-m", "guidewire.runs.building", part] for part in PARTS}
-    places = (os.cpu_count() or 1) + 1    # one more than processors: a fifth of their time suites wait
-    try:
-        total = run_suites(builds, suites(program, full), environment, _SUITE_SECONDS[full], places)
-    finally:
-        end_compiler()
+    """`test`: prints a line for each runner and the sum last. Returns the exit code."""
+    shutil.rmtree(RESULTS, ignore_errors=True)
+    RESULTS.mkdir(parents=True)
+    os.environ.pop("PYTHONDONTWRITEBYTECODE", None)    # tests start the program some hundred times
+    os.environ.pop(FULL_CAMPAIGNS, None)
+    if arguments.all:
+        os.environ[FULL_CAMPAIGNS] = "1"
+    seconds = _SECONDS[arguments.all]
+    workers = (os.cpu_count() or 1) + 1    # one more than processors: a part of their time tests wait
+    not_built = threading.Event()
+    with ThreadPoolExecutor() as threads:
+        python = threads.submit(run, "pytest", [*PYTEST, "-n", str(workers), "--dist", "loadfile", *PYTHON], seconds, not_built)
+        total = _dotnet(arguments.all, seconds, not_built) + python.result()
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
 
 
-def suites(program: str, full: bool) -> list[Suite]:
-    """Every suite of the project, in the order in which they start; long ones first, so that none is left over.
-
-    Parameters
-    ----------
-    program : dotnet.
-    full : each with all of its tests.
-    """
-    not_timed = ["-m", "not timed"]
-    timed = [str(path.relative_to(ROOT)) for folder in TESTED for path in sorted((ROOT / folder).rglob("test_*.py"))
-             if "pytest.mark.timed" in path.read_text(encoding="utf-8")]
-    core, *shorter = (_dotnet_suite(program, name, full) for name in _DOTNET)
-    unity = "tools/unitycheck/tests"
-    others = [f"--ignore={path}" for path in (*RUNS, *WAITING, *NOT_BUILT, unity)]
-    return [
-        _pytest_suite("Python, the rest", [*not_timed, *TESTED, *others]),
-        _pytest_suite("Python, with logs and figures", [*not_timed, *_BUILT]),
-        _pytest_suite("Python, waiting", [*not_timed, *WAITING]),
-        core,
-        _pytest_suite("Python, nothing built", [*NOT_BUILT, *(f"--ignore={path}" for path in (*RUNS, *_BUILT))], needs=""),
-        _pytest_suite("Python, runs", [*not_timed, *RUNS]),
-        _pytest_suite(unity, [unity]),
-        *shorter,
-        _pytest_suite("Python, timed", ["-m", "timed", *timed], alone=True),
-    ]
-
-
-def run_suites(
-    builds: Mapping[str, Sequence[str]], suites: Sequence[Suite], environment: Mapping[str, str], seconds: float,
-    places: int,
-) -> Count:
-    """Build and run suites, `places` processes at once, and return the sum of their counts.
-
-    Each has its line in the output, and what it wrote where it failed, when it has ended. A build that fails counts as
-    one failure, and so does each suite that needs it or a later part: they do not run.
-
-    Parameters
-    ----------
-    builds : part of the build to the command that makes it, one after the other in this order.
-    suites : started in this order, as far as they may start.
-    environment : of every process.
-    seconds : how long each may take; then it is killed with the processes that it started.
-    places : how many run at once.
-    """
-    total = Count()
-    waiting = list(suites)
-    parts = list(builds)    # still to be built, the first one under way
-    running: dict[Process, Suite | None] = {}
-
-    def build_next() -> None:
-        if parts:
-            running[Process(f"build {parts[0]}", builds[parts[0]], environment, RESULTS, seconds)] = None
-
-    build_next()
+def _dotnet(full: bool, seconds: float, not_built: threading.Event) -> Count:
+    """Build and run the tests of the solution; a build that fails is one failure."""
+    started = time.monotonic()
     try:
-        while running:
-            for process, suite in [(p, s) for p, s in running.items() if p.has_ended()]:
-                del running[process]
-                if suite is not None:
-                    total += _count(suite, process)
-                    continue
-                _say(f"build {parts[0]}: {'ok' if process.code == 0 else 'FAILED'} "
-                     f"({process.wall:.0f} s, processor {process.processor:.0f} s)")
-                if process.code == 0:
-                    parts.pop(0)
-                    build_next()
-                    continue
-                _say(process.last_lines())
-                missing = [other for other in waiting if other.needs in parts]
-                waiting = [other for other in waiting if other.needs not in parts]
-                _say("\n".join(f"{other.name}: not run" for other in missing))
-                total += Count(failed=1 + len(missing))
-            while (suite := _next(waiting, parts, list(running.values()), places)) is not None:
-                waiting.remove(suite)
-                (RESULTS / suite.report).unlink(missing_ok=True)
-                running[Process(suite.name, suite.command, environment, RESULTS, seconds, _NICENESS)] = suite
-            time.sleep(_POLL_SECONDS)
+        for part in building.PARTS:
+            building.build_part(part, _say)
+    except BaseException as error:
+        not_built.set()
+        if not isinstance(error, PreparationError):
+            raise
+        _say(f"build: FAILED: {error}")
+        return Count(failed=1)
     finally:
-        for process in running:
-            process.kill()
+        building.end_compiler()
+    _say(f"build: ok ({time.monotonic() - started:.0f} s)")
+    total = Count()
+    tests = [(name, "net10.0", []) for name in building.DOTNET_TESTS]
+    for name, target, words in [*tests, (building.DOTNET_TESTS[0], "netstandard2.1", [] if full else _BY_TARGET)]:
+        library = building.HEADLESS / name / "bin" / "Release" / target / f"{name}.dll"
+        total += run(f"{name}-{target}", [building.dotnet()[0], "test", str(library), "--nologo", *words], seconds)
     return total
 
 
-def _next(
-    waiting: Sequence[Suite], parts: Sequence[str], running: Sequence[Suite | None], places: int
-) -> Suite | None:
-    """The suite that may start now, or None. parts : what is not built."""
-    if len(running) >= places or any(suite is not None and suite.alone for suite in running):
-        return None
-    for suite in waiting:
-        if suite.alone:
-            if not running and len(waiting) == sum(other.alone for other in waiting):
-                return suite
-        elif suite.needs not in parts:
-            return suite
-    return None
+def run(name: str, command: Sequence[str], seconds: float, stop: threading.Event | None = None) -> Count:
+    """Run pytest or `dotnet test`; at least one failure if it did not end well, or reports no test.
 
+    Prints a line, and the last lines of what it wrote where something failed.
 
-def _count(suite: Suite, process: Process) -> Count:
-    """The count of a suite that has ended; at least one failure if it did not end well or reports no test."""
+    Parameters
+    ----------
+    name : part of the names of its log and of its report.
+    command : what starts it, but for the report.
+    seconds : how long it may take.
+    stop : set where it has to end at once.
+    """
+    log, junit, trx = (RESULTS / f"{name}{ending}" for ending in (".log", ".xml", ".trx"))
+    read, report, words = (read_junit, junit, [f"--junitxml={junit}"]) if "pytest" in command else (
+        read_trx, trx, ["--logger", f"trx;LogFileName={trx.name}", "--results-directory", str(RESULTS)])
+    started = time.monotonic()
+    with log.open("wb") as output:
+        process = subprocess.Popen([*command, *words], cwd=ROOT, stdin=subprocess.DEVNULL, stdout=output, stderr=output)
+        while process.poll() is None and time.monotonic() < started + seconds and not (stop and stop.is_set()):
+            time.sleep(0.1)
+        process.kill()
     try:
-        count = suite.read(RESULTS / suite.report)
+        count = read(report)
         problem = "" if count.passed + count.failed > 0 else "it reports no test"
     except (OSError, ValueError, ElementTree.ParseError) as error:
         count, problem = Count(), f"it left no result ({error})"
-    if process.code != 0 and count.failed == 0:
-        problem = problem or f"it ended with exit code {process.code}"
+    if process.wait() != 0 and count.failed == 0:
+        problem = problem or f"it ended with exit code {process.returncode}"
     if problem:
         count += Count(failed=1)
-    _say(f"{suite.name}: {count} ({process.wall:.0f} s, processor {process.processor:.0f} s)"
-         + (f": {problem}" if problem else ""))
+    _say(f"{name}: {count} ({time.monotonic() - started:.0f} s)" + (f": {problem}" if problem else ""))
     if count.failed:
-        _say(process.last_lines())
+        lines = log.read_text(encoding="utf-8", errors="replace").splitlines()
+        _say("\n".join([f"--- the last lines of {os.path.relpath(log)}", *lines[-_LAST_LINES:], "---"]))
     return count
 
 
@@ -251,28 +143,9 @@ def read_junit(path: Path) -> Count:
     count = Count()
     for suite in ElementTree.parse(path).iter("testsuite"):
         tests, failures, errors, skipped = (
-            int(suite.get(name, "0")) for name in ("tests", "failures", "errors", "skipped")
-        )
+            int(suite.get(name, "0")) for name in ("tests", "failures", "errors", "skipped"))
         count += Count(tests - failures - errors - skipped, failures + errors, skipped)
     return count
-
-
-def _dotnet_suite(program: str, name: str, full: bool) -> Suite:
-    report = f"{file_name(name)}.trx"
-    command = [program, "test", str(HEADLESS / _DOTNET[name]), "--nologo", "--logger", f"trx;LogFileName={report}",
-               "--results-directory", str(RESULTS)]
-    if not full and name in BY_TARGET:
-        command += ["--filter", "TestCategory=Target&TestCategory!=Long"]
-    return Suite(name, command, report, read_trx)
-
-
-def _pytest_suite(name: str, arguments: Sequence[str], needs: str = "Runner", alone: bool = False) -> Suite:
-    report = file_name(name) + ".xml"
-    command = [
-        sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", f"faulthandler_timeout={_STUCK_SECONDS}",
-        f"--junitxml={RESULTS / report}", *arguments,
-    ]
-    return Suite(name, command, report, read_junit, needs, alone)
 
 
 def _say(text: str) -> None:

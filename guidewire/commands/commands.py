@@ -40,7 +40,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     repository has, in the package.
     """
     arguments = command_line.parse(argv)
-    if arguments.command in _OF_THE_REPOSITORY:
+    if INSTALLED and arguments.command in command_line.OF_THE_REPOSITORY:
         installed.refuse(f"'{arguments.command}'")
     arguments.action = _ACTIONS.get(arguments.command, _execute_elsewhere)
     if getattr(arguments, "check", False):
@@ -353,9 +353,8 @@ _ACTIONS = {
 # Commands of the repository alone: the module that executes each, and its function.
 _ELSEWHERE = {
     "demo": ("analysis.command", "demo"), "figures": ("analysis.command", "figures"), "test": ("tools.testing", "test"),
-    "package": ("tools.packaging.command", "package"), "bench": ("experiments.overhead", "bench"),
+    "package": ("tools.package", "package"), "bench": ("experiments.overhead", "bench"),
 }
-_OF_THE_REPOSITORY = (*_ELSEWHERE, "native", "site", "unity-check")
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),

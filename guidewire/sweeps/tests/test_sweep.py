@@ -271,7 +271,6 @@ def test_a_cost_in_turns_is_asked_of_the_stopwatch_and_of_nobody_else(fake, tmp_
     assert fake.calls()[-1][3]["id"] == "cost" and fake.calls()[-1][0] != fake.calls()[-2][0]
 
 
-@pytest.mark.timed
 def test_untimed_runs_are_made_at_once_and_one_job_makes_one_at_a_time(fake, tmp_path):
     for jobs, overlapping in ((1, False), (2, True)):
         fake.journal.unlink(missing_ok=True)

@@ -1,1 +1,0 @@
-"""Builds the Python wheel and the NuGet packages from the repository."""
