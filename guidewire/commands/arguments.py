@@ -7,6 +7,9 @@ import difflib
 import json
 import math
 import re
+import shutil
+import textwrap
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +28,45 @@ class Parser(argparse.ArgumentParser):
             if near:
                 message = f"there is no '{wrong[1]}': did you mean '{near[0]}'?"
         self.exit(2, f"guidewire: {message} ('{self.prog} --help' lists what is allowed)\n")
+
+
+class Commands:
+    """The commands and their parsers.
+
+    Parameters
+    ----------
+    prog, version : name of the program, and what --version prints.
+    groups : the names of all commands, by task.
+    hidden : names that --help leaves out.
+    """
+
+    def __init__(self, prog: str, version: str, groups: Mapping[str, Sequence[str]], hidden: Sequence[str]) -> None:
+        self._parser = Parser(prog=prog, formatter_class=argparse.RawDescriptionHelpFormatter,
+                              usage=f"{prog} COMMAND ...")
+        self._parser.add_argument("--version", action="version", version=version)
+        self._parsers = self._parser.add_subparsers(metavar="COMMAND", required=True, parser_class=Parser,
+                                                    dest="command", help=argparse.SUPPRESS, prog=prog)
+        self._groups, self._hidden = groups, hidden
+        self._lines: dict[str, str] = {}
+
+    def add_parser(self, name: str, help: str) -> argparse.ArgumentParser:
+        """A command's parser; `help` is its line in the list, and stands above its own help."""
+        self._lines[name] = help
+        return self._parsers.add_parser(name, description=help)
+
+    def parse(self, argv: Sequence[str]) -> argparse.Namespace:
+        """Read the command line."""
+        width = shutil.get_terminal_size().columns - 2
+        lists = []
+        for task, names in self._groups.items():
+            shown = [name for name in names if name not in self._hidden]
+            lists += [f"\n{task}:"] * bool(shown)
+            for name in shown:
+                lists += textwrap.wrap(self._lines[name], width, initial_indent=f"  {name:<12}",
+                                       subsequent_indent=" " * 14)
+        self._parser.description = "\n".join(["Simulates guidewires in blood vessels as Cosserat rods.", *lists])
+        self._parser.epilog = f"'{self._parser.prog} COMMAND --help' explains a command."
+        return self._parser.parse_args(argv)
 
 
 def assignment(text: str) -> tuple[str, str]:

@@ -7,12 +7,22 @@ import os
 from pathlib import Path
 
 from guidewire.anatomy.formats import is_anatomy
-from guidewire.commands.arguments import Parser, above_zero, assignment, error_part, finite, path, positive
+from guidewire.commands.arguments import Commands, above_zero, assignment, error_part, finite, path, positive
 from guidewire.installed import version
-from guidewire.prepare import ANATOMY, DRAWING, INSTALLED, SWEEPING, TESTING, VIEWING
+from guidewire.prepare import ANATOMY, DRAWING, INSTALLED, PACKAGING, SWEEPING, TESTING, VIEWING
 from guidewire.studies.builtin import STUDIES
 
-_DESCRIPTION = "Simulates guidewires as Cosserat rods, without Unity: runs, sweeps, figures, tests."
+# Commands by task, as --help lists them.
+GROUPS = {
+    "start": ("demo", "scenes", "keys", "run", "view"),
+    "study": ("sweep", "figures", "advise", "compare", "identify"),
+    "look": ("render", "plot", "hub", "stress", "modes"),
+    "vessel": ("anatomy", "steer"),
+    "instruments": ("instrument",),
+    "train": ("tasks",),
+    "develop": ("python", "test", "bench", "native", "package", "unity-check"),
+}
+OF_THE_REPOSITORY = ("demo", "figures", "test", "bench", "native", "package", "unity-check")  # refused in the package
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -20,12 +30,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     Exits with 2 and one line on stderr where it cannot be read.
     """
-    parser = Parser(prog="guidewire" if INSTALLED else "guidewire.py", description=_DESCRIPTION)
-    parser.add_argument("--version", action="version", version=f"guidewire {version()}")
-    commands = parser.add_subparsers(title="commands", metavar="COMMAND", required=True, parser_class=Parser,
-                                     dest="command")
+    commands = Commands(prog="guidewire" if INSTALLED else "guidewire.py", version=f"guidewire {version()}",
+                        groups=GROUPS, hidden=OF_THE_REPOSITORY if INSTALLED else ())
 
-    demo = commands.add_parser("demo", help="build, run the default scene, fit tau, draw Figures 4.1 to 4.4")
+    demo = commands.add_parser("demo", help="the thesis's default run with Figures 4.1 to 4.4, and the film of a wire that "
+                                            "enters a branch")
     demo.add_argument("--out", type=path, default=Path("results/demo"), help="folder for the run and the pictures")
     demo.set_defaults(packages=DRAWING + SWEEPING)
 
@@ -244,7 +253,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     package.add_argument("kinds", metavar="KIND", nargs="*", choices=("wheel", "nuget", []),
                          help="wheel or nuget; default: both")
     package.add_argument("--out", type=path, default=Path("dist"), metavar="DIR", help="folder of the files (dist)")
-    package.set_defaults(packages=())
+    package.set_defaults(packages=PACKAGING)
 
     scenes = commands.add_parser("scenes", help="list the scenes that come with the program, or copy them")
     scenes.add_argument("--copy", type=path, metavar="DIR", help="copy them into DIR/params")
@@ -259,7 +268,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
     check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
     check.set_defaults(packages=())
-    arguments = parser.parse_args(argv)
+    arguments = commands.parse(argv)
     if arguments.command == "view" and is_anatomy(arguments.what[0]):
         arguments.packages = (*arguments.packages, *ANATOMY)
     return arguments
@@ -270,7 +279,7 @@ def _add_overrides(parser: argparse.ArgumentParser) -> None:
                         help="override a parameter of the file; may be given several times")
 
 
-def _add_anatomy(commands: argparse._SubParsersAction) -> None:
+def _add_anatomy(commands: Commands) -> None:
     anatomy = commands.add_parser("anatomy", help="a vessel from a mesh, a segmentation or a centreline, or one "
                                                   "generated: inspected, repaired, with its centreline and a scene")
     source = anatomy.add_mutually_exclusive_group(required=True)
@@ -309,6 +318,10 @@ def _add_workers(parser: argparse.ArgumentParser) -> None:
 
 
 def _add_runner(parser: argparse.ArgumentParser) -> None:
-    parser.add_argument("--runner", choices=("headless", "unity"), default="headless",
-                        help="program that makes the runs: the console program (default), or Unity in batch mode")
-    parser.add_argument("--unity", metavar="PATH", help="Unity editor or player (or the environment's GUIDEWIRE_UNITY)")
+    def of_the_repository(text: str) -> str:
+        return argparse.SUPPRESS if INSTALLED else text
+
+    parser.add_argument("--runner", choices=("headless", "unity"), default="headless", help=of_the_repository(
+        "program that makes the runs: the console program (default), or Unity in batch mode"))
+    parser.add_argument("--unity", metavar="PATH", help=of_the_repository(
+        "Unity editor or player (or the environment's GUIDEWIRE_UNITY)"))

@@ -4,6 +4,7 @@ import argparse
 import contextlib
 import io
 import json
+import re
 import subprocess
 import sys
 import threading
@@ -14,7 +15,7 @@ import pytest
 
 from analysis import gallery
 from guidewire.__main__ import main
-from guidewire.commands import commands, making
+from guidewire.commands import command_line, commands, making
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
 
@@ -70,9 +71,9 @@ def test_the_demo_a_second_time_runs_nothing_again(demo, monkeypatch):
     folder, _ = demo
     drawn = gallery.Gallery(folder / "index.md", ())    # its figures are those of the first time
     monkeypatch.setattr(gallery, "draw", lambda *_: drawn)
-    logs = list(folder.glob("runs/*/*/positions.json"))
+    logs = [*folder.glob("runs/*/*/positions.json"), folder / "branch" / "positions.json", folder / "branch.gif"]
     before = [log.stat().st_mtime_ns for log in logs]
-    assert len(logs) == 6
+    assert len(logs) == 3
     assert commands.run(commands.parse(["demo", "--out", str(folder)])) == 0
     assert [log.stat().st_mtime_ns for log in logs] == before
 
@@ -197,3 +198,19 @@ def test_a_reader_that_has_gone_is_no_error():
                                stderr=subprocess.PIPE)
     program.stdout.close()
     assert program.stderr.read() == b"" and program.wait() == 141
+
+
+def test_every_command_is_in_one_group_of_the_help_and_the_package_lists_only_what_it_can_do(monkeypatch, capsys):
+    names = [name for group in command_line.GROUPS.values() for name in group]
+    for installed in (False, True):
+        monkeypatch.setattr(command_line, "INSTALLED", installed)
+        with pytest.raises(SystemExit):
+            command_line.parse(["--help"])
+        listed = re.findall(r"^  ([a-z][a-z-]+) +[^-]", capsys.readouterr().out, re.M)
+        assert listed == [name for name in names if not installed or name not in command_line.OF_THE_REPOSITORY]
+    monkeypatch.undo()
+    for name in {*names, "demo"}:
+        with pytest.raises(SystemExit) as ended:
+            command_line.parse([name, "--help"])
+        assert ended.value.code == 0
+    assert sorted(names) == sorted({*commands._ACTIONS, *commands._ELSEWHERE})
