@@ -16,13 +16,13 @@ from guidewire.studies.builtin import STUDIES
 GROUPS = {
     "start": ("demo", "scenes", "keys", "run", "view"),
     "study": ("sweep", "figures", "advise", "compare", "identify"),
-    "look": ("render", "plot", "hub", "stress", "modes"),
+    "look": ("render", "site", "plot", "hub", "stress", "modes"),
     "vessel": ("anatomy", "steer"),
     "instruments": ("instrument",),
     "train": ("tasks",),
     "develop": ("python", "test", "bench", "native", "package", "unity-check"),
 }
-OF_THE_REPOSITORY = ("demo", "figures", "test", "bench", "native", "package", "unity-check")  # refused in the package
+OF_THE_REPOSITORY = ("demo", "figures", "test", "bench", "native", "package", "site", "unity-check")  # refused in the package
 
 
 def parse(argv: list[str]) -> argparse.Namespace:

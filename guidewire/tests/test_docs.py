@@ -19,7 +19,7 @@ from guidewire.studies.study_file import KEYS
 from guidewire.studies.table import Axis, Grid, Study
 from guidewire.sweeps.sweep import Means, sweep
 
-PAGES = [ROOT / "README.md", *sorted((ROOT / "docs").glob("*.md"))]
+PAGES = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *sorted((ROOT / "docs").glob("*.md"))]
 RUNS = (ROOT / "docs" / "runs.md").read_text(encoding="utf-8")
 _FOLDERS = "Assets|analysis|docs|experiments|guidewire|headless|instruments|params|tools"
 _PLACEHOLDERS = {"T": "1", "STUDY": "default", "FILE": "params/default.json", "N": "2", "...": ""}
