@@ -16,7 +16,7 @@ from guidewire.studies.keys import TABLE, Value
 PARAMETERS_NAME = "parameters.json"
 SUMMARY_NAME = "summary.json"
 LOAD_NAME = "load.json"
-FORMAT = 1  # of a run's files, the newest that is read here; what states none is of version 1
+FORMAT = 2  # of a run's files, the newest that is read here; what states none is of version 1
 FORMAT_KEY = "formatVersion"
 
 

@@ -9,7 +9,7 @@ namespace Guidewire.Editor
     {
         private const string Prefab = "Assets/Guidewire/Prefabs/WireInVessel.prefab";
 
-        private const string Parameters = "{\n  \"formatVersion\": 1,\n  \"solver\": \"direct\",\n"
+        private const string Parameters = "{\n  \"formatVersion\": 2,\n  \"solver\": \"direct\",\n"
             + "  \"guidewireLength\": 120.0,\n  \"numberRodElements\": 24,\n  \"guidewireOffset\": -130.0,\n"
             + "  \"wireRadius\": 0.00045,\n  \"massDamping\": 20.0,\n  \"proximalEnd\": \"clamped\",\n"
             + "  \"timeStep\": 0.01,\n  \"deltaThreshold\": 0.0,\n  \"maxSimulationSteps\": 1000000000\n}\n";

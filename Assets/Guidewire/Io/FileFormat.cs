@@ -4,12 +4,13 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>The version of the file formats: parameter files, results of runs, saved states of sessions. Files
-    /// of every version up to this one are read; what has no number is of version 1.</summary>
+    /// <summary>The version of the file formats: parameter files, results of runs, saved states of sessions. Parameter
+    /// files and runs of every version up to this one are read, saved states of this one alone; what has no number is of
+    /// version 1.</summary>
     public static class FileFormat
     {
         /// <summary>The version that is written.</summary>
-        public const int Version = 1;
+        public const int Version = 2;
 
         /// <summary>The member of parameter files that states it.</summary>
         public const string Key = "formatVersion";

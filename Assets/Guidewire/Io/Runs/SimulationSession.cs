@@ -285,10 +285,10 @@ namespace Guidewire.Io
                 head = head.Take(1).Append("1").Concat(head.Skip(1)).ToArray();    // version 1 did not always state it
             }
             if (head.Length == here.Length && head[0] == Magic && int.TryParse(head[1], NumberStyles.None,
-                    CultureInfo.InvariantCulture, out int format) && format > FileFormat.Version)
+                    CultureInfo.InvariantCulture, out int format) && format != FileFormat.Version)
             {
                 throw new ParameterException("the snapshot has format " + format + ": guidewire "
-                    + ProgramVersion.Number + " reads versions 1 to " + FileFormat.Version);
+                    + ProgramVersion.Number + " reads format " + FileFormat.Version + ": save it anew");
             }
             // Of another build the parameters may have had fewer keys: their hash says nothing then.
             bool isOfThisBuild = head.Length == here.Length && head[3] == here[3];
