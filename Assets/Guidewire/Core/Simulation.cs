@@ -233,7 +233,8 @@ namespace Guidewire.Core
         {
             if (MethodTable.Of(parameters.Method.Solver).TakesMaterial != _hasMaterial)
             {
-                throw new ArgumentException("solver needs to be one for " + (_hasMaterial ? "a material" : "a wire without material, pbd")
+                throw new ArgumentException("solver needs to be one for "
+                    + (_hasMaterial ? "a material" : "a wire without material, pbd")
                     + ": a run cannot change its wire");
             }
             if ((parameters.Scene.Sheath != null) != _hasSheath)

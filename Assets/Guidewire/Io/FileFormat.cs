@@ -4,9 +4,9 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>The version of the file formats: parameter files, results of runs, saved states of sessions. Parameter
-    /// files and runs of every version up to this one are read, saved states of this one alone; what has no number is of
-    /// version 1.</summary>
+    /// <summary>The version of the file formats: parameter files, results of runs, saved states of sessions. Files and
+    /// runs of every version up to this one are read, saved states of this one alone. What has no number is of version
+    /// 1.</summary>
     public static class FileFormat
     {
         /// <summary>The version that is written.</summary>

@@ -24,7 +24,8 @@ namespace Guidewire.Core
 
         /// <summary>A key of older files that is none any more.</summary>
         public static readonly WarningKind FormerKey = AtStart("formerKey",
-            "*file*: *key* is no longer a key and has no effect: *what counts instead*", "remove it; the run is the same");
+            "*file*: *key* is no longer a key and has no effect: *what counts instead*",
+            "remove it; the run is the same");
 
         /// <summary>A pbd stiffness for stretching that is unstable.</summary>
         public static readonly WarningKind StretchStiffness = AtStart("stretchStiffness",

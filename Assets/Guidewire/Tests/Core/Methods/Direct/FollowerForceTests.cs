@@ -122,8 +122,8 @@ namespace Guidewire.Core.Tests
         [Test]
         public void DrivenColumn_IsNoBlowup([ValueSource(nameof(Schemes))] Integrator scheme)
         {
-            // Its swings are chaotic. After 1,087 steps one in three of such runs by esdirk4 has too much energy, whatever
-            // the last bits of the load are.
+            // Its swings are chaotic. After 1,087 steps one in three of such runs by esdirk4 has too much energy,
+            // whatever the last bits of the load are.
             const int Steps = 1000;
             SimulationParameters parameters = Rods.Clamped(12, Solver.Direct, 1e-3, Steps);
             parameters.Method.Integrator = scheme;
