@@ -146,10 +146,10 @@ def files(project: Project) -> dict[str, bytes]:
 def scene(project: Project) -> bytes:
     """The insertion scene as Unity saves it: every stored field, names of classes, long texts over two lines."""
     text = project.text(SCENE)
-    text = text.replace("  _pace: 1\n", "  _logFolder: \n  _pace: 1\n  _stepsPerFrame: 100\n  _frameBudget: 12\n", 1)
-    text = text.replace("  _isSteered: 1\n", "  _isSteered: 1\n  _pushSpeed: 40\n  _turnSpeed: 180\n  _live:\n"
-                        "    constraintSolverSteps: 0\n    stretchStiffness: 0\n    bendStiffness: 0\n"
-                        "    collisionStiffness: 0\n    damping: 0\n    timeStep: 0\n", 1)
+    text = text.replace("  _overrides:\n", "  _parameterAsset: {fileID: 0}\n  _vessels: []\n  _overrides:\n", 1)
+    text = text.replace("  _pace: 1\n", "  _logFolder: \n  _stepping: 0\n  _pace: 1\n  _stepsPerFrame: 100\n"
+                        "  _frameBudget: 12\n", 1)
+    text = text.replace("  _isSteered: 1\n", "  _isSteered: 1\n  _pushSpeed: 40\n  _turnSpeed: 180\n", 1)
     text = text.replace("  _colouring: 2\n", "  _ringsPerElement: 4\n  _sides: 12\n  _thickness: 1\n  _colouring: 2\n"
                         "  <ShowsSpheres>k__BackingField: 0\n  <ShowsDirectors>k__BackingField: 0\n", 1)
     text = text.replace("  _distance: 430\n", "  _distance: 430.5\n  _turnSpeed: 3e-1\n", 1)

@@ -166,7 +166,7 @@ RIGHT = {
     "field under its former name": both(
         replace(LOOP, "private float _pace = 1f;",
                 '[UnityEngine.Serialization.FormerlySerializedAs("_pace")] private float _rate = 1f;\n'
-                "        private float _pace => _rate;"), lambda project: {}),
+                "        private float _pace { get => _rate; set => _rate = value; }"), lambda project: {}),
     "instance of a prefab with its stripped Transform": lambda project: {firstopening.SCENE: project.text(
         firstopening.SCENE).replace("--- !u!1 &500\n", PREFAB.replace("HUD", guid_of(project, HUD))
                                                      + "--- !u!1 &500\n").replace(
