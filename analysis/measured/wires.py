@@ -22,6 +22,7 @@ from scipy.spatial.transform import Rotation
 
 from guidewire.identification import Identified, identify
 from guidewire.identification.trials import Trials
+from guidewire.logs.curves import by_arc
 from guidewire.logs.logs import LogError, read_log
 from guidewire.runs import building
 
@@ -126,12 +127,6 @@ def miss(wire: Wire, pose: int, nodes: np.ndarray) -> tuple[float, np.ndarray, n
 def measured_length(wire: Wire, pose: int) -> float:
     """Of the camera's points, m: a wire of 0.4 m, so that what is missing is the camera's own error."""
     return float(np.sum(np.linalg.norm(np.diff(_table(f"pose_{wire.name}_{pose}.csv"), axis=0), axis=1)))
-
-
-def by_arc(line: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Points of a chain at fractions of its length."""
-    along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))))
-    return np.stack([np.interp(at, along / along[-1], column) for column in line.T], axis=1)
 
 
 def between(start: np.ndarray, first: np.ndarray, end: np.ndarray, last: np.ndarray) -> np.ndarray:

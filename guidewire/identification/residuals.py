@@ -10,7 +10,7 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.spatial.transform import Rotation
 
-from guidewire.logs.curves import offsets, smooth
+from guidewire.logs.curves import by_arc, fractions, offsets, smooth
 from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import PositionLog, read_log
 from guidewire.logs.measured import nodes_at
@@ -19,7 +19,7 @@ from guidewire.prepare import PreparationError
 
 ALIGNMENTS = ("none", "plane", "rigid")
 Cameras = Mapping[str, np.ndarray]    # view to its matrix (3, 4): pixels and depth from units
-_TURNS = 1e-12
+_ROUNDING = 1e-12
 
 
 @dataclass(frozen=True)
@@ -77,7 +77,7 @@ def _of_hub(folder: Path, measured: Measurement) -> Residuals:
     log = read_hub(folder)
     at, values = getattr(log, over), getattr(log, quantity)
     if over != "time":
-        if np.any(np.diff(at) * np.sign(at[-1] - at[0]) < -_TURNS):
+        if np.any(np.diff(at) * np.sign(at[-1] - at[0]) < -_ROUNDING):
             raise PreparationError(f"{measured.file}: the run's {over} goes back and forth: measure over time")
         order = np.argsort(at, kind="stable")
         at, values = at[order], values[order]
@@ -130,7 +130,7 @@ def aligned(points: Sequence[np.ndarray], curves: Sequence[np.ndarray]) -> tuple
     """
     every = np.concatenate(points)
     middle = every.mean(axis=0)
-    matched = np.concatenate([_by_arc(given, line) for given, line in zip(points, curves)])
+    matched = np.concatenate([by_arc(line, fractions(given)) for given, line in zip(points, curves)])
     turn, shift = _rigid(every, matched)
     size = max(float(np.max(np.linalg.norm(every - middle, axis=1))), np.finfo(float).tiny)
     planar = every.shape[1] == 2
@@ -146,16 +146,6 @@ def aligned(points: Sequence[np.ndarray], curves: Sequence[np.ndarray]) -> tuple
     freedom = 3 if planar else 6
     best = least_squares(off, np.zeros(freedom), xtol=1e-10, ftol=1e-12, gtol=1e-12)
     return moved(best.x), freedom
-
-
-def _by_arc(points: np.ndarray, line: np.ndarray) -> np.ndarray:
-    """Points of the line at the same fractions of the length as measured points have of theirs."""
-    def fractions(chain: np.ndarray) -> np.ndarray:
-        along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(chain, axis=0), axis=1))))
-        return along / max(along[-1], np.finfo(float).tiny)
-
-    at = fractions(points)
-    return np.stack([np.interp(at, fractions(line), column) for column in line.T], axis=1)
 
 
 def _rigid(points: np.ndarray, targets: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

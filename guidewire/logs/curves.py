@@ -27,6 +27,18 @@ def smooth(nodes: np.ndarray) -> np.ndarray:
     return CubicSpline(along, nodes)(at)
 
 
+def fractions(line: np.ndarray) -> np.ndarray:
+    """Of a chain's length, up to each of its points (m, d): from 0 to 1."""
+    along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))))
+    return along / max(along[-1], np.finfo(float).tiny)
+
+
+def by_arc(line: np.ndarray, at: np.ndarray) -> np.ndarray:
+    """Points of a chain (m, d) at fractions of its length (p,), shape (p, d)."""
+    own = fractions(line)
+    return np.stack([np.interp(at, own, column) for column in line.T], axis=1)
+
+
 def offsets(points: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
     """Offsets of points from the nearest points of a chain of straight pieces.
 
