@@ -249,6 +249,7 @@ def test_a_console_program_is_built_against_the_nuget_packages(tmp_path):
             name = file.name.removesuffix(f".{version()}.nupkg")
             for target in ("netstandard2.1", "net10.0"):
                 assert {f"lib/{target}/{name}.dll", f"lib/{target}/{name}.xml"} <= set(archive.namelist())
+            assert {"packages.md", "THIRD-PARTY-NOTICES.md"} <= set(archive.namelist())
             nuspec = archive.read(f"{name}.nuspec").decode()
             assert f"<version>{version()}</version>" in nuspec and '<license type="expression">MIT</license>' in nuspec
     dotnet = building.dotnet()[0]
