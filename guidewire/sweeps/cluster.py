@@ -13,6 +13,7 @@ from __future__ import annotations
 import logging
 import platform
 import tempfile
+import threading
 import time
 import uuid
 import warnings
@@ -25,7 +26,7 @@ from types import TracebackType
 import cloudpickle
 import dask
 import distributed
-from distributed import Client, Future, KilledWorker, LocalCluster, wait
+from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed.client import CancelledError
 
 from guidewire.prepare import PreparationError
@@ -253,6 +254,7 @@ class _Queue:
         self._again: list[Job] = []  # have failed once; handed out when all others are done
         self._second: set[Path] = set()  # folders of runs that are made the second time
         self._flying: dict[Future, list[Job]] = {}
+        self._landed = threading.Event()  # a batch of this queue; `distributed.wait` asks the client of the whole process
         self._on_answer = on_answer
         self._seconds = 0.0  # that workers spent
         self._answered = 0
@@ -292,15 +294,15 @@ class _Queue:
 
     def _hand_out(self, size: int) -> None:
         batch = [self._waiting.popleft() for _ in range(size)]
-        self._flying[self._cluster.submit(self._command, batch)] = batch
+        future = self._cluster.submit(self._command, batch)
+        self._flying[future] = batch
+        future.add_done_callback(lambda _: self._landed.set())
 
     def _take_back(self) -> None:
         """Wait for a batch, and take those that have ended."""
-        try:
-            ended = wait(list(self._flying), timeout=_POLL_INTERVAL, return_when="FIRST_COMPLETED").done
-        except (TimeoutError, distributed.TimeoutError):
-            return
-        for future in ended:
+        self._landed.wait(_POLL_INTERVAL)
+        self._landed.clear()
+        for future in [future for future in self._flying if future.done()]:
             jobs = self._flying.pop(future)
             try:
                 made = future.result()
