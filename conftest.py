@@ -29,15 +29,26 @@ FAKE_RUNNER = Path(__file__).parent / "guidewire" / "runs" / "tests" / "fake_run
 def pytest_configure(config):
     config.addinivalue_line("markers", "long(reason): runs where campaigns run in full; elsewhere skipped, and the reason "
                                        "names what holds the claim there")
+    config.addinivalue_line("markers", "few(count): so many cases of a parametrised test, spread over its list; all of them "
+                                       "where campaigns run in full")
 
 
 def pytest_collection_modifyitems(items):
     if FULL_CAMPAIGNS in os.environ:
         return
+    cases = {}
     for item in items:
         mark = item.get_closest_marker("long")
         if mark is not None:
             item.add_marker(pytest.mark.skip(reason=mark.args[0]))
+        elif item.get_closest_marker("few") is not None:
+            cases.setdefault(item.nodeid.partition("[")[0], []).append(item)
+    for family in cases.values():
+        count = family[0].get_closest_marker("few").args[0]
+        taken = {place * len(family) // count for place in range(count)}
+        for place, item in enumerate(family):
+            if place not in taken:
+                item.add_marker(pytest.mark.skip(reason=f"{count} of {len(family)} cases run here"))
 
 
 class FakeRunner:

@@ -39,6 +39,7 @@ def mean_distance(wave: Wave, reference: Wave, by_step: bool) -> float:
 
 
 @pytest.mark.parametrize("name", TRANSVERSAL[:4])
+@pytest.mark.few(1)
 def test_mean_distances_are_those_in_closed_form(tables: dict[str, ComparisonTable], name: str) -> None:
     table, waves = tables[name], WAVES[FIGURES[name].studies[1]][1]
     waves = sorted(waves, key=lambda wave: wave.parameters[table.key])
@@ -97,6 +98,7 @@ def test_the_reference_is_drawn_with_the_other_runs_and_with_a_doubled_time_step
 
 
 @pytest.mark.parametrize("name", TRANSVERSAL)
+@pytest.mark.few(1)
 def test_every_run_is_in_the_lower_panels_and_at_most_ten_wires_in_the_upper_ones(
     drawn: dict[str, tuple[Figure, str]], tables: dict[str, ComparisonTable], name: str
 ) -> None:

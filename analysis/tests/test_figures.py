@@ -65,6 +65,7 @@ LAID_OUT = list(FIGURES) if os.environ.get("GUIDEWIRE_ALL") else list(
 
 
 @pytest.mark.parametrize("name", LAID_OUT)
+@pytest.mark.few(2)
 def test_axes_are_labelled_with_units(drawn: dict[str, tuple[Figure, str]], name: str) -> None:
     for axes in panels(drawn[name][0]):
         for label in (axes.get_xlabel(), axes.get_ylabel()):
@@ -73,6 +74,7 @@ def test_axes_are_labelled_with_units(drawn: dict[str, tuple[Figure, str]], name
 
 
 @pytest.mark.parametrize("name", LAID_OUT)
+@pytest.mark.few(2)
 def test_caption_stands_under_the_panels_and_inside_the_picture(
     drawn: dict[str, tuple[Figure, str]], name: str
 ) -> None:
@@ -157,6 +159,7 @@ def test_final_error_states_its_steps(drawn: dict[str, tuple[Figure, str]], defa
 
 
 @pytest.mark.parametrize("name", SWEEPS)
+@pytest.mark.few(1)
 def test_sweep_draws_every_row_in_every_panel(
     drawn: dict[str, tuple[Figure, str]], tables: dict[str, StudyTable], name: str
 ) -> None:

@@ -66,6 +66,7 @@ def test_every_map_has_the_runs_that_others_are_measured_against(short: bool) ->
             assert view.reference(run) in {other.key for other in cases}, study.name
 
 
+@pytest.mark.long("its axes and its caption are drawn and read")
 def test_the_figure_of_a_wire_draws_every_run_and_says_what_holds(
     drawn: dict[str, tuple[Figure, str]]
 ) -> None:

@@ -120,6 +120,7 @@ def descend(energy: ChainEnergy, load: Load, start: np.ndarray) -> OptimizeResul
 
 @pytest.mark.parametrize("seed", range(CASES))
 @pytest.mark.parametrize("kind", ["force", "plane"])
+@pytest.mark.few(1)
 def test_minimiser_moves_nothing_and_comes_back(ends: dict, kind: str, seed: int) -> None:
     load, answer, folder = ends[kind, seed]
     assert answer.outcome == "converged", answer.message

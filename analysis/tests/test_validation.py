@@ -47,6 +47,7 @@ def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[s
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.name)
+@pytest.mark.few(5)
 def test_direct_solver_keeps_its_gates(fast_report: Report, check: Check) -> None:
     results = fast_report.findings[check].results
     assert any(result.gate is not None for result in results) or all(result.reason for result in results)

@@ -37,6 +37,7 @@ def test_tip_load_agrees_with_published_tables(load: float, across: float, short
 
 
 @pytest.mark.parametrize("load", [0.1, 1.0, 10.0, 100.0])
+@pytest.mark.few(2)
 def test_tip_load_agrees_with_elliptic_integrals(load: float) -> None:
     assert elastica.tip_loaded(load, HALF).tip == pytest.approx(elastica.tip_by_elliptic_integrals(load), abs=1e-8)
 

@@ -17,6 +17,7 @@ LEAST_FORCE = 1e-4                 # N
 
 
 @pytest.mark.parametrize("seed", range(CASES))
+@pytest.mark.few(5)
 def test_rest_shapes_and_hub_forces_are_those_of_beams_and_bars(live, tmp_path, seed):
     tubes, gravity, expected = random_case(seed)
     path = tmp_path / "tubes.json"

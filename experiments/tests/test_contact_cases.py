@@ -51,6 +51,7 @@ def test_every_case_is_named():
 
 
 @pytest.mark.parametrize("name", CHOSEN)
+@pytest.mark.few(2)
 def test_figures_are_those_of_the_log(make, name):
     summary, positions = make(name)
     scene = read_scene(name)
@@ -72,6 +73,7 @@ def test_spheres_alone_pass_no_wall_and_what_elements_do_is_counted(make, name):
 
 
 @pytest.mark.parametrize("name", ("four_elements_at_a_ridge", "long_elements_among_obstacles"))
+@pytest.mark.few(1)
 def test_no_sphere_freezes_while_the_wire_moves(make, name):
     _, positions = make(name, maxSimulationSteps=3 * FROZEN)
     stays = np.all(np.diff(positions, axis=0) == 0.0, axis=-1)

@@ -95,6 +95,7 @@ def compare(live, folder, n, iterations, order="naive", integrator="verlet", loa
 @pytest.mark.parametrize("loaded", [False, True], ids=["free", "gravity and damping"])
 @pytest.mark.parametrize("integrator", ["euler", "verlet"])
 @pytest.mark.parametrize("order", ["naive", "bilateral"])
+@pytest.mark.few(3)
 def test_core_follows_the_equations_step_by_step(live, tmp_path, order, integrator, loaded):
     last = compare(live, tmp_path, 12, 7, order, integrator, loaded)
     assert np.abs(last.positions[:, :2]).max() > 0.05, "the wire ended straight, so bending was not compared"
@@ -102,5 +103,6 @@ def test_core_follows_the_equations_step_by_step(live, tmp_path, order, integrat
 
 @pytest.mark.parametrize("n", [1, 2, 3, 5])
 @pytest.mark.parametrize("iterations", [1, 4, 6])
+@pytest.mark.few(4)
 def test_core_follows_the_equations_on_short_wires(live, tmp_path, n, iterations):
     compare(live, tmp_path, n, iterations)

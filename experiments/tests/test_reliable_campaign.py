@@ -89,6 +89,7 @@ IN_ONE_ANOTHER = {
 
 
 @pytest.mark.parametrize("bent, is_reliable", [(0.0, True), (2.0, True), (20.0, False), (40.0, True), (200.0, False)])
+@pytest.mark.few(3)
 def test_a_hub_that_rests_does_not_fall_short_and_large_play_is_not_reliable(live, tmp_path, bent, is_reliable):
     """A wire is pushed through a catheter at rest, whose spring gives way by 1e-10 of its length. The wire's play d = 0.2
     mm and a difference k of the rest curvatures: sqrt(3 d k), and a = sqrt(12 d/k), of the overlap of 80 mm."""

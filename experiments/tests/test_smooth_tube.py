@@ -36,6 +36,7 @@ def run(command: list[str], folder: Path, scene: dict) -> subprocess.CompletedPr
                           text=True)
 
 
+@pytest.mark.long("contact forces are independent of the elements in the tests of Core")
 def test_the_peak_force_in_a_smooth_tube_does_not_depend_on_the_elements(tmp_path, runner_command) -> None:
     """With corners it does, and is 20 % above: within 1 %, and from EI/(2 R^2) by the clearance of 1.6 mm."""
     peaks = {}

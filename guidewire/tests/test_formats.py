@@ -41,6 +41,7 @@ def test_a_run_is_read(kept):
 
 
 @pytest.mark.parametrize("file", ["given.json", "run/parameters.json"])
+@pytest.mark.few(6)
 def test_a_parameter_file_gives_its_run(kept, file):
     log = read_log(kept / "run", "all")
     with Session(kept / file, hand=False, native=False) as session:

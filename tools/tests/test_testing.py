@@ -38,6 +38,7 @@ def file(tmp_path):
     (["-k", "skipped"], Count(0, 1, 1), "it reports no test"),
     (["--no-such-option"], Count(0, 1), "it left no result"),
 ])
+@pytest.mark.few(3)
 def test_counts_are_those_of_a_real_pytest(file, capsys, words, expected, said):
     assert run("some", [*PYTEST, str(file), *words], 60.0) == expected
     assert said in capsys.readouterr().out
@@ -79,6 +80,7 @@ def all_tests(monkeypatch, file, build, dotnet):
 
 
 @pytest.mark.parametrize("passed, last, code", [(True, "4 passed, 0 failed", 0), (False, "3 passed, 1 failed", 1)])
+@pytest.mark.few(1)
 def test_the_last_line_is_the_sum(monkeypatch, tmp_path, file, capsys, passed, last, code):
     file.write_text(f"def test_one(): assert {passed}\n")
     dotnet = tmp_path / "dotnet"

@@ -51,6 +51,7 @@ def test_a_result_holds_as_long_as_nothing_of_it_moves_far(tmp_path, other, said
     ({}, 0, "the result holds with half the time step and with twice the elements"),
     ({"timeStep": 0.01, "maxSimulationSteps": 5, "massDamping": 0.0, "tipForce": [0.0, 0.5, 0.0]}, 6, "the result does not hold: "),
 ])
+@pytest.mark.few(1)
 def test_a_run_is_checked_beside_itself(runner_command, tmp_path, changes, code, said):
     (tmp_path / "wire.json").write_text(json.dumps({**WIRE, **changes}))
     done = subprocess.run([sys.executable, ROOT / "guidewire.py", "run", tmp_path / "wire.json", "--out", tmp_path / "out",

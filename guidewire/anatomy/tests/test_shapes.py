@@ -45,6 +45,7 @@ def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:
 
 
 @pytest.mark.parametrize("from_z, ends", [(15.0, 3), (-1.0, 2)])
+@pytest.mark.few(1)
 def test_a_blind_branch_ends_where_its_path_leaves_the_lumen(fork, monkeypatch: pytest.MonkeyPatch, from_z: float,
                                                              ends: int) -> None:
     """Through a coarse wall a path may go on outside. In the shorter arm that is so here from a height on: at its tip,
@@ -82,6 +83,7 @@ def test_the_centreline_of_a_made_vessel_lies_on_its_axes(kind: str, number: int
 
 @pytest.mark.parametrize("kind, number", [("arch", 1), ("arch", 2), ("arch", 3), ("iliac", 1), ("siphon", 1),
                                           ("coronary", 1)])
+@pytest.mark.few(2)
 def test_branches_that_have_parted_are_not_joined_again(kind: str, number: int) -> None:
     """A ball of the edges' radius that touches two walls joins their lumens, so nearer walls are drawn anew."""
     for seed in range(1, 31):
@@ -124,6 +126,7 @@ def test_the_same_seed_gives_the_same_mesh_and_another_one_another() -> None:
 
 
 @pytest.mark.parametrize("number", [1, 2, 3])
+@pytest.mark.few(1)
 def test_the_type_of_an_arch_is_the_drop_of_its_first_branch(number: int) -> None:
     for seed in range(20):
         tubes, _ = tubes_of("arch", number, seed)
@@ -140,6 +143,7 @@ def test_the_type_of_an_arch_is_the_drop_of_its_first_branch(number: int) -> Non
 
 @pytest.mark.parametrize("angle, carina", [
     pytest.param(40.0, 0.4, marks=pytest.mark.long("a blunter edge at a wider angle")), (90.0, 0.8)])
+@pytest.mark.few(1)
 def test_the_edge_between_branches_has_the_stated_radius_of_curvature(angle: float, carina: float) -> None:
     half = np.radians(0.5 * angle)
     arms = [Tube(np.linspace([0.0, 0.0, 0.0], [15.0 * np.sin(s * half), 0.0, 15.0 * np.cos(half)], 20),

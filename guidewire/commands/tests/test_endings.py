@@ -125,6 +125,7 @@ def contents(folder):
 
 
 @pytest.mark.parametrize("number, code", [(signal.SIGKILL, -9), (signal.SIGINT, 130), (signal.SIGTERM, 130)])
+@pytest.mark.few(1)
 def test_a_run_that_is_stopped_leaves_an_earlier_result_as_it_was(start, scratch, number, code):
     out = scratch / "out"
     assert start(scene_of(scratch, maxSimulationSteps=10), out).wait() == 0

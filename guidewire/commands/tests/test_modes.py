@@ -46,6 +46,7 @@ def test_gains_are_refused(runner_command, tmp_path):
     ({"obstacles": [{"shape": "sphere", "centre": [9, 0, 0], "radius": 1}]}, "obstacles needs to be null"),
     ({"proximalEnd": "free"}, 'proximalEnd or distalEnd needs to be "clamped"'),
 ])
+@pytest.mark.few(1)
 def test_what_has_no_modes_is_refused_by_a_key_that_stands_in_the_file(runner_command, tmp_path, changes, said):
     file = tmp_path / "wire.json"
     file.write_text(json.dumps({**_WIRE, **changes}))

@@ -53,6 +53,7 @@ def draw(*words):
 @pytest.mark.parametrize("changes", [
     pytest.param(changes, id=name, marks=() if name in ("none", "a tube that is placed", "mesh") else pytest.mark.long(
         "drawn as are a tube and a mesh")) for name, changes in SHAPES.items()])
+@pytest.mark.few(2)
 def test_every_shape_is_drawn(make_run, capsys, changes):
     folder = make_run(**changes)
     assert draw(folder) == 0
@@ -78,6 +79,7 @@ def test_walls_are_those_of_the_simulation(make_run, runner_command):
         pytest.approx([4, 24, -16]), pytest.approx([3, -18, -10])]
 
 
+@pytest.mark.long("a film has as many pictures as are asked for")
 def test_times_and_films(make_run, tmp_path):
     folder = make_run()
     assert draw(folder, "--out", tmp_path / "new" / "some.png", "--times", 0, 0.01, "--yaw", 0, "--pitch", 90) == 0

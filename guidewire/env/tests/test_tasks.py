@@ -138,6 +138,7 @@ def test_what_was_learned_reaches_the_target_sooner_and_with_less_force_than_tur
     assert sum(one.total for one in mine) > sum(one.total for one in theirs)
 
 
+@pytest.mark.long("the same seed gives the same bits")
 def test_evolution_learns_the_same_from_the_same_seed(tube, tmp_path):
     one, curve = learn(tube, generations=1, seed=3, pairs=2, episodes=1)
     other, _ = learn(tube, generations=1, seed=3, pairs=2, episodes=1)

@@ -189,6 +189,7 @@ def test_friction_is_found_from_the_force_of_the_hub(run_of, tmp_path):
     assert is_within(found["vessel.frictionCoefficient"], 0.25), found.values
 
 
+@pytest.mark.long("the twist at which a ring leaves its plane stands in the tests of Core")
 def test_the_twist_of_buckling_gives_the_torsional_stiffness(tmp_path):
     """A straight clamped wire buckles at M L/EI = 8.9868 (tan x = x at half of it), so at the turn 8.9868 EI/GJ."""
     nodes = [[0.0, 0.0, 12.0 * k] for k in range(26)]
@@ -241,6 +242,7 @@ GOOD = "x,y,z\n0,0,0\n0,10,100\n0,0,200\n"
     ("view,u,v\nA,1,2\nA,3,4\nA,5,6\n", "bendingStiffness", {}, "view \"A\" has no camera matrix"),
     ("time,x,y,z\n5,0,0,0\n5,0,10,100\n5,0,0,200\n", "bendingStiffness", {}, "time 5 s, the run's are from 0 to 0"),
 ])
+@pytest.mark.few(5)
 def test_what_cannot_be_used_is_one_line(tmp_path, runner_command, text, fit, more, said):
     file = tmp_path / "measured.csv"
     file.write_text(text, encoding="utf-8")

@@ -168,6 +168,7 @@ def test_folder_means_the_complete_log_before_the_partial_one(tmp_path: Path, ch
 
 
 @pytest.mark.parametrize("one_line", [False, True])
+@pytest.mark.few(1)
 def test_memory_is_set_by_what_is_asked(tmp_path: Path, one_line: bool) -> None:
     """10 MB of log, of which 100 steps of one sphere are 6 kB: the reader stays below 8 chunks of 1 MB."""
     sphere = json.dumps({"x": 0.1234567890123456, "y": -0.1234567890123456, "z": 123.45678901234567,

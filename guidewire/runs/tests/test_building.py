@@ -104,6 +104,7 @@ CHANGES = {
 
 
 @pytest.mark.parametrize("change", CHANGES)
+@pytest.mark.few(6)
 def test_a_change_is_built_once(shop: Workshop, change: str) -> None:
     shop.build()
     CHANGES[change](shop)

@@ -57,6 +57,7 @@ def test_an_allowed_scene_runs_to_a_true_outcome(hold, table, integrators, solve
 
 
 @every_method
+@pytest.mark.few(2)
 def test_extreme_numbers_end_in_a_line_or_in_a_true_outcome(campaign, table, integrators, solver):
     @examples(30)
     @given(scene=scenes(table, solver, integrators[solver], lambda key: extreme(key, LARGEST[solver])))
@@ -163,6 +164,7 @@ def end_in_time(command, folder, scene):
 
 # A bend stiffness that is 0, infinite or next to either as a double.
 @pytest.mark.parametrize("radius", [1e-100, 1e-83, 1e-78, 1e75, 1e100])
+@pytest.mark.few(1)
 def test_a_wire_too_thin_or_thick_for_a_double_ends(runner_command, tmp_path, radius):
     assert end_in_time(runner_command, tmp_path, {"solver": "direct", "wireRadius": radius}) in (0, 2, 5)
 

@@ -156,6 +156,7 @@ def test_the_real_runner_ends_its_run_when_its_parent_process_is_gone(runner_com
     assert '"outcome":"interrupted"' in answer
 
 
+@pytest.mark.long("two wires in one mesh in turns stand in the tests of Core")
 def test_runs_one_after_another_in_one_mesh_have_the_bits_of_each_alone(runner_command, tmp_path):
     """Its wall is made once; a run must not feel what those before it have left."""
     scene = {"parameters": str(ROOT / "params" / "insertion-accurate.json")}

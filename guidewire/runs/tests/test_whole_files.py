@@ -86,6 +86,7 @@ def said_by(capsys, *words):
     ["render", "RUN", "--out", "new/a.png"], ["render", "RUN", "--out", "new/a.gif", "--frames", "3"],
     ["view", "RUN", "--html", "new/a.html"], ["plot", "TABLE", "--x", "timeStep", "--y", "steps", "--out", "new/a.png"],
 ], ids=["picture", "film", "page", "plot"])
+@pytest.mark.few(1)
 def test_what_does_not_fit_on_the_disk_is_reported_in_one_line_and_leaves_no_file(run, tmp_path, monkeypatch, capsys,
                                                                               request, words):
     monkeypatch.chdir(tmp_path)

@@ -70,6 +70,7 @@ if __name__ == "__main__":
 
 
 @pytest.mark.parametrize("way", ["here", "thread", "fork", "spawn", "forkserver", "pool", "environments", "os.fork"])
+@pytest.mark.few(2)
 def test_a_script_that_leaves_sessions_open_ends_in_silence(runner_command, tmp_path, way):
     (tmp_path / "left_open.py").write_text(LEFT_OPEN)
     done = subprocess.run([sys.executable, "left_open.py", way], cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)},

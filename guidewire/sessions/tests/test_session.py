@@ -121,6 +121,7 @@ def test_what_is_changed_holds_from_there_on_and_what_cannot_be_changes_nothing(
 
 
 @pytest.mark.parametrize("integrator", ["bdf2", "esdirk3", "implicitEuler"])
+@pytest.mark.few(1)
 def test_damping_of_the_material_begins_in_the_midst_of_a_motion_that_mass_alone_damps(integrator):
     """As if there had been next to none before; also where it was there, was taken away and comes again."""
     wire = {**MATERIAL, "initialState": "straight", "maxSimulationSteps": 100, "integrator": integrator,

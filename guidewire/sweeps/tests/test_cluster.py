@@ -150,6 +150,7 @@ def test_a_worker_that_is_killed_costs_no_run(processes, fake, tmp_path):
     assert len({row["key"] for row in rows}) == len({row["folder"] for row in rows}) == 24
 
 
+@pytest.mark.long("a worker that is killed costs no run")
 def test_a_sweep_that_is_killed_goes_on_where_it_was(runner_command, tmp_path):
     axes = {"displacement": {"from": 1, "to": 40, "count": 40}}
     (tmp_path / "study.json").write_text(json.dumps({
@@ -173,6 +174,7 @@ def test_a_sweep_that_is_killed_goes_on_where_it_was(runner_command, tmp_path):
 
 
 @pytest.mark.parametrize("when", ["get_versions", "run"])
+@pytest.mark.few(1)
 def test_a_scheduler_that_is_killed_while_its_workers_are_asked_is_one_line(fake, tmp_path, monkeypatch, when):
     made = Processes(tmp_path)
     try:

@@ -129,6 +129,7 @@ def test_a_run_without_a_log_is_made_again_where_one_is_needed_and_not_the_rever
     ({"babble": "?"}, "instead of an answer"),
     ({"lost": 1}, "disk is full"),
 ])
+@pytest.mark.few(1)
 def test_a_run_that_goes_wrong_is_made_once_more_and_named_where_that_fails_too(fake, tmp_path, wish, said):
     variants = {"good": {"sleep": 0.01}, "bad": {**wish, "exitCode": 2} if "babble" in wish else wish, "fine": {}}
     result = sweep([study_of("mixed", variants=variants)], fake.command, tmp_path, 1)

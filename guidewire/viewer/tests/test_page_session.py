@@ -85,6 +85,7 @@ console.log(JSON.stringify({ frames, status: messages.filter((message) => messag
 
 
 @pytest.mark.parametrize("name, changes", SCENES)
+@pytest.mark.few(2)
 def test_channels_frames_and_status_are_those_of_the_server(runner_command, name, changes):
     file = ROOT / "params" / f"{name}.json"
     server = live.LiveRun({name: file}, name, {"solver": ["direct", "pbd"]})

@@ -19,6 +19,7 @@ SCENES = [pytest.param("insertion-accurate.json", id="a mesh"),
 
 
 @pytest.mark.parametrize("scene", SCENES)
+@pytest.mark.few(1)
 def test_a_saved_table_gives_the_bits_that_were_steered(runner_command, tmp_path, scene):
     file = ROOT / "params" / scene
     dice = random.Random(5)
@@ -77,6 +78,7 @@ def run_of_tables(runner_command, folder, file, instruments, steps):
 
 
 @pytest.mark.parametrize("held, push, gone", [(0, 0.8, 4.0), (1, -0.8, -4.0), (0, -7.0, -50.0)])
+@pytest.mark.few(1)
 def test_saved_tables_of_a_hub_that_was_stopped_are_taken_and_repeat_it(runner_command, tmp_path, held, push, gone):
     """By the other hub, or as the wire's tip is in the catheter's first element; then it goes back."""
     file = tmp_path / "scene.json"
