@@ -19,6 +19,7 @@ from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, s
 
 _SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
 _DENSITY = 40.0  # of them on the square of a narrow radius
+_MOST_CUTS = 8.0  # triangles of a sample over its points, as cut at all long edges
 _STEP = 0.25  # between points of the centreline, of the radius
 _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
 _AT_RIM = 3.0  # radii of a rim
@@ -363,14 +364,30 @@ def _sample(mesh: Mesh, count: int) -> Mesh:
     limit = np.sqrt(2.3 * area / count)
     if len(mesh.vertices) > 2 * count:
         return thinned(mesh, limit)
-    for _ in range(12):
+    longest = _longest(mesh)
+    # Triangles that are long and narrow are cut across only: cut at all edges they would be as many as their length
+    # squared.
+    is_narrow = ((longest / limit)**2).sum() > _MOST_CUTS * count
+    for _ in range(64 if is_narrow else 12):
         edges = Edges.of(mesh)
         ends = mesh.vertices[edges.ends]
-        long = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > 1.5 * limit
+        lengths = np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1)
+        long = lengths > 1.5 * limit
         if not long.any():
             break
+        if is_narrow:
+            own = edges.of_triangles[np.arange(len(mesh.triangles)), lengths[edges.of_triangles].argmax(axis=1)]
+            is_longest = np.zeros(len(long), dtype=bool)
+            is_longest[own] = True
+            long &= is_longest
         mesh = cut_edges(mesh, edges, long)
-    return mesh
+    return thinned(mesh, limit) if is_narrow else mesh
+
+
+def _longest(mesh: Mesh) -> np.ndarray:
+    """(t,): the longest edge of each triangle."""
+    corners = mesh.corners
+    return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
 
 
 def thinned(mesh: Mesh, size: float) -> Mesh:

@@ -8,9 +8,9 @@ from pathlib import Path
 
 from guidewire.anatomy import output, reading
 from guidewire.anatomy.centreline import find_centreline
-from guidewire.anatomy.formats import CENTRELINES, MASKS
 from guidewire.anatomy.inspection import Inspection, inspect
 from guidewire.anatomy.mesh import AnatomyError, Mesh
+from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.repair import Repaired, repair
 from guidewire.prepare import DOOR, PreparationError
 from guidewire.runs import checking
@@ -24,10 +24,10 @@ def run(arguments: argparse.Namespace) -> int:
     ------
     PreparationError : one line, for an input that is no vessel.
     """
-    name = arguments.file.name.split(".")[0] if arguments.file else f"{arguments.make}-{arguments.seed}"
-    folder = arguments.out or Path("results") / "anatomy" / name
-    checking.check_out(folder)
     try:
+        folder = arguments.out or default_folder(
+            reading.stem_of(arguments.file.name) if arguments.file else f"{arguments.make}-{arguments.seed}")
+        checking.check_out(folder)
         return _run(arguments, folder)
     except AnatomyError as error:
         text = str(error)
@@ -35,13 +35,22 @@ def run(arguments: argparse.Namespace) -> int:
         raise PreparationError(text if known else f"{arguments.file}: {text}") from error
 
 
+def default_folder(name: str) -> Path:
+    """Where a vessel is written that no --out says a folder for."""
+    return Path("results") / "anatomy" / name
+
+
 def _run(arguments: argparse.Namespace, folder: Path) -> int:
-    mesh, unit, notes = _mesh_of(arguments)
-    found = inspect(mesh, unit)
-    found.notes += notes
+    source = _source_of(arguments)
+    if not (arguments.look or arguments.force):
+        output.check_source(folder, source)
+    found = inspect(source.mesh, source.unit, source.unit_said_by)
+    found.notes += [source.axes.describe(), *source.notes]
     if arguments.look:
-        return _tell(folder, mesh, found, None, None, arguments)
-    repaired = repair(mesh)
+        return _tell(folder, source.mesh, found, None, None, arguments)
+    if not found.unit.is_sure:
+        raise AnatomyError(f"unit: {found.unit.reason}")
+    repaired = repair(source.mesh)
     if arguments.open:
         from guidewire.anatomy.ends import open_ends
 
@@ -50,45 +59,22 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     inlet = output.find_end(line, arguments.inlet) if arguments.inlet else line.ends[0]
     target = (output.find_end(line, arguments.target) if arguments.target
               else output.default_target(line, inlet, found.unit, arguments.wire))
-    made = f"{arguments.make}, type {arguments.type}, seed {arguments.seed}"
-    source = arguments.file.name if arguments.file else made
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
-    output.write_scene(folder, output.scene(line, found.unit, inlet, target, arguments.wire))
+    output.write_scene(folder, output.scene(line, found.unit, inlet, target, arguments.wire, source.axes))
     return _tell(folder, repaired.mesh, found, repaired, line, arguments)
 
 
-def _mesh_of(arguments: argparse.Namespace) -> tuple[Mesh, str | None, list[str]]:
-    """The mesh, its unit where it is known, and what was done to make it."""
+def _source_of(arguments: argparse.Namespace) -> reading.Source:
+    axes = axes_named(arguments.axes) if arguments.axes else None
     if arguments.make:
         from guidewire.anatomy.shapes import make
 
-        return make(arguments.make, arguments.type, arguments.seed, arguments.stenosis, arguments.aneurysm)
-    return read(arguments.file, arguments.unit, arguments.label, arguments.threshold, arguments.error,
-                arguments.region)
-
-
-def read(file: Path, unit: str | None = None, label: float | None = None, threshold: float | None = None,
-         error: float | None = None, region: int | None = None) -> tuple[Mesh, str | None, list[str]]:
-    """The mesh of a file, or one made of its mask or centreline; its unit where it is known, and what was done.
-
-    Raises
-    ------
-    AnatomyError : one line, for a file that holds no vessel.
-    """
-    kind = reading.kind_of(file)
-    if kind in MASKS:
-        from guidewire.anatomy.masks import mesh_of_image
-
-        return mesh_of_image(reading.read_image(file), label, threshold, error, region)
-    line = reading.line_of_poly_data(file) if kind == ".vtp" else None
-    if kind in CENTRELINES or line is not None:
-        from guidewire.anatomy.shapes import tube_mesh
-
-        line = line or reading.read_line(file)
-        left = f"; of {line.others + 1} lines the longest, the others are ignored" if line.others else ""
-        return tube_mesh(line.points, line.radii), unit or line.unit or None, [
-            f"a tube around a centreline of {len(line.points)} points{left}"]
-    return reading.read_mesh(file), unit, []
+        mesh, unit, notes = make(arguments.make, arguments.type, arguments.seed, arguments.stenosis, arguments.aneurysm)
+        made = f"{arguments.make}, type {arguments.type}, seed {arguments.seed}"
+        axes = axes or Axes()    # no patient's
+        return reading.Source(axes.take(mesh), unit, "as made", axes, notes, made)
+    return reading.read(arguments.file, arguments.unit, arguments.label, arguments.threshold, arguments.error,
+                        arguments.region, axes)
 
 
 def _tell(folder: Path, mesh: Mesh, found: Inspection, repaired: Repaired | None, line, arguments) -> int:

@@ -13,10 +13,12 @@ from guidewire.anatomy.intersections import self_intersections
 from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, find_bodies, find_rims, signed_volume
 
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-# Lumen radii and largest sides of vessels as they are imaged, log-normal: from cerebral arteries (1 mm, 80 mm) to
-# the whole aorta with its branches (12 mm, 600 mm).
-_RADIUS, _RADIUS_SPREAD = 3.5e-3, 0.9
-_SIDE, _SIDE_SPREAD = 0.15, 0.7
+# What vessels and their files have: a range within which a size says nothing, and the deviation of its logarithm beyond.
+_RADIUS, _SIDE = (0.6e-3, 14e-3), (15e-3, 0.7)  # m, of the lumen, and of the largest side
+_BEYOND = 0.25
+_EDGE, _EDGE_SPREAD = 0.7e-3, 0.8  # m, of the median edge, which comes from voxels of some tenths of a mm to one
+_FILES = {"mm": 0.85, "cm": 0.1, "m": 0.05}  # fraction of files in a unit, where nothing else is known
+_CERTAIN = 0.95  # of the probability, from which on a unit is taken without being given
 _WELD = 1e-3  # of the median edge: vertices so near are one
 _SIDES = 5  # of a rim; a gap of fewer is one triangle that is missing, or two
 _HOLE = 2.5  # a lumen so many times wider than its rim: the rim is a hole in its side
@@ -26,7 +28,7 @@ _FACING = 0.3  # of them, that meet the wall from outside: the lumen is outside
 
 @dataclass(frozen=True)
 class Unit:
-    """name : of UNITS; reason : one line; is_sure : whether no other unit is half as likely."""
+    """name : of UNITS; reason : one line; is_sure : whether it is known, or certain from the sizes."""
 
     name: str
     reason: str
@@ -133,8 +135,13 @@ def without_fins(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
         mesh = mesh.part(~fin)
 
 
-def inspect(mesh: Mesh, unit: str | None = None) -> Inspection:
+def inspect(mesh: Mesh, unit: str | None = None, said_by: str = "as given") -> Inspection:
     """All that can be said of a mesh as a file has it.
+
+    Parameters
+    ----------
+    unit : where it is known, and not guessed.
+    said_by : who says it.
 
     Raises
     ------
@@ -158,7 +165,7 @@ def inspect(mesh: Mesh, unit: str | None = None) -> Inspection:
     main_rims = [rim for rim in find_rims(main, Edges.of(main))]
     return Inspection(
         vertices=len(raw.vertices), triangles=len(mesh.triangles), low=raw.vertices.min(axis=0),
-        high=raw.vertices.max(axis=0), unit=guess_unit(clean, unit), weld_length=length, near_vertices=near,
+        high=raw.vertices.max(axis=0), unit=find_unit(clean, unit, said_by), weld_length=length, near_vertices=near,
         slivers=slivers, crowded=clean.vertices[edges.ends[edges.counts > 2]].mean(axis=1),
         turned=clean.vertices[turned].mean(axis=1) if len(turned) else np.empty((0, 3)), crossings=crossings,
         body_sizes=np.bincount(bodies).tolist(),
@@ -183,22 +190,33 @@ def sort_rims(mesh: Mesh, rims: list[Rim]) -> list[Rim]:
             for number, rim in enumerate(ends, 1)]
 
 
-def guess_unit(mesh: Mesh, given: str | None = None) -> Unit:
-    """The unit that a file's numbers are most likely in, from the radii and sizes that vessels have."""
+def find_unit(mesh: Mesh, known: str | None = None, said_by: str = "as given") -> Unit:
+    """The unit of a file's numbers: the one that is known, or else the most likely one, from the radii, lengths and edges
+    that vessels and their files have. Where it is not certain, the reason asks for it."""
     radius, side = typical_radius(mesh), float(np.ptp(mesh.vertices, axis=0).max())
-    cost = {name: (np.log(metres * radius / _RADIUS) / _RADIUS_SPREAD)**2
-            + (np.log(metres * side / _SIDE) / _SIDE_SPREAD)**2 for name, metres in UNITS.items()}
-    best = min(cost, key=cost.get)
-    others = sorted(value for name, value in cost.items() if name != best)
-    sure = others[0] - cost[best] > 2.0 * np.log(2.0)
-    name = given or best
-    reason = (f"{'as given' if given else 'guessed'}: the lumen's median radius is then "
-              f"{1e3 * UNITS[name] * radius:.3g} mm and the vessel {1e3 * UNITS[name] * side:.4g} mm long")
-    if given and given != best:
-        reason += f"; the sizes look like {best}"
-    elif not given and not sure:
-        reason += "; another unit is nearly as likely: give --unit"
-    return Unit(name, reason, bool(sure or given))
+    if known:
+        return Unit(known, f"{said_by}; {_sizes(known, radius, side)}", True)
+    edge = float(np.median(mesh.edge_lengths()))
+    likely = {name: _FILES[name] * np.exp(-0.5 * (
+        _beyond(metres * radius, *_RADIUS)**2 + _beyond(metres * side, *_SIDE)**2
+        + (np.log(metres * edge / _EDGE) / _EDGE_SPREAD)**2)) for name, metres in UNITS.items()}
+    best = max(likely, key=likely.get)
+    probability = likely[best] / max(sum(likely.values()), 1e-300)
+    if probability >= _CERTAIN:
+        return Unit(best, f"guessed, {probability:.1%} likely; {_sizes(best, radius, side)}", True)
+    listed = "; or ".join(f"--unit {name}, {_sizes(name, radius, side)}" for name in sorted(
+        likely, key=likely.get, reverse=True)[:2])
+    return Unit(best, f"not certain from the sizes: give {listed}", False)
+
+
+def _sizes(unit: str, radius: float, side: float) -> str:
+    return (f"the lumen's median radius is then {1e3 * UNITS[unit] * radius:.3g} mm and the vessel "
+            f"{1e3 * UNITS[unit] * side:.4g} mm long")
+
+
+def _beyond(size: float, low: float, high: float) -> float:
+    """How far a size is out of a range, in deviations."""
+    return max(np.log(low / max(size, 1e-300)), np.log(size / high), 0.0) / _BEYOND
 
 
 def typical_radius(mesh: Mesh) -> float:

@@ -4,10 +4,11 @@ stated error."""
 from __future__ import annotations
 
 import numpy as np
+from scipy.ndimage import binary_fill_holes
 from scipy.ndimage import label as label_regions
 
-from guidewire.anatomy.mesh import AnatomyError, Mesh, find_bodies
-from guidewire.anatomy.reading import Image
+from guidewire.anatomy.images import Image
+from guidewire.anatomy.mesh import AnatomyError, Mesh, find_bodies, signed_volume
 from guidewire.anatomy.surfaces import contour, decimate, farthest, smooth
 
 # Windowed sinc: over random axes and places the mean radius of a tube of 4 voxels' radius is 4.001 voxels then, that of
@@ -17,11 +18,12 @@ _ERROR = 0.1  # of decimation, of a voxel's smallest side
 
 
 _LISTED = 6  # regions, and values of voxels, that a line lists
+_AROUND = np.ones((3, 3, 3))  # neighbours of a voxel that touch it at a corner at least
 
 
 def mesh_of_image(image: Image, label: float | None, threshold: float | None, error: float | None,
-                  region: int | None = None) -> tuple[Mesh, str, list[str]]:
-    """The wall of a region, in mm; its unit; and what was done.
+                  region: int | None = None) -> tuple[Mesh, list[str]]:
+    """The wall of a region, in mm; and what was done.
 
     Parameters
     ----------
@@ -34,7 +36,7 @@ def mesh_of_image(image: Image, label: float | None, threshold: float | None, er
     ------
     AnatomyError : no voxel, or every voxel, is in the vessel, or there is no such region; or it is not said which.
     """
-    regions, count = label_regions(_inside(image.values, label, threshold), structure=np.ones((3, 3, 3)))
+    regions, count = label_regions(_inside(image.values, label, threshold), structure=_AROUND)
     sizes = np.bincount(regions.ravel())[1:]
     order = np.argsort(-sizes, kind="stable")
     if region is not None and not 1 <= region <= count:
@@ -42,27 +44,76 @@ def mesh_of_image(image: Image, label: float | None, threshold: float | None, er
     chosen = (region or 1) - 1
     inside = regions == 1 + order[chosen]
     spacing = np.linalg.norm(image.to_space[:3, :3], axis=0)
+    voxel = float(abs(np.linalg.det(image.to_space[:3, :3])))
     low = np.argwhere(inside).min(axis=0)
     high = np.argwhere(inside).max(axis=0) + 1
-    part = np.pad(inside[tuple(slice(a, b) for a, b in zip(low, high))], 2).astype(np.float32)
-    marched = contour(part, 0.5, spacing * (low - 2.0), spacing)
-    marched = marched.part(find_bodies(marched) == 0)
+    to_part = image.to_space @ np.block([[np.eye(3), (low - 2.0)[:, None]], [np.zeros(3), 1.0]])
+    own = np.pad(inside[tuple(slice(a, b) for a, b in zip(low, high))], 2)
+    whole, joined = _in_one_piece(own, to_part)
+    filled = binary_fill_holes(whole)
+    marched = contour(filled.astype(np.float32), 0.5, spacing * (low - 2.0), spacing)
+    bodies = find_bodies(marched)
+    if bodies.max() > 0:    # a region of voxels that share faces, without cavities, has one surface
+        raise AnatomyError(f"the surface of region {chosen + 1} is of {bodies.max() + 1} pieces")
     smoothed = smooth(marched, _PASSES, _BAND)
     allowed = error or _ERROR * float(spacing.min())
     mesh = decimate(smoothed, allowed)
-    axes = image.to_space[:3, :3] / spacing
+    volumes = [voxel * int(own.sum()), *(_volume(one, image, spacing) for one in (marched, smoothed, mesh))]
     notes = [f"{int(inside.sum())} voxels of {' x '.join(f'{s:.3g}' for s in spacing)} mm in region {chosen + 1} of "
              f"{count}; smoothed, wall moved by {farthest(marched, smoothed, 3000):.2g} mm at most",
              f"{len(smoothed.triangles)} triangles decimated to {len(mesh.triangles)}, wall moved by "
-             f"{farthest(smoothed, mesh):.2g} mm at most (allowed: {allowed:.2g} mm)"]
-    if image.note:
-        notes.append(image.note)
+             f"{farthest(smoothed, mesh):.2g} mm at most (allowed: {allowed:.2g} mm)",
+             *joined]
+    if (filled != whole).any():
+        notes.append(f"{int((filled & ~whole).sum())} voxels of cavities within it filled, around "
+                     f"{_middle(filled & ~whole, to_part)}")
+    notes.append("volume: voxels {:.5g} mm3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} mm3 ({:+.2%})".format(
+        *volumes, volumes[-1] / volumes[0] - 1.0))
     if count > 1:
         listed = [f"{k} of {sizes[at]} voxels around {_middle(regions == 1 + at, image.to_space)}"
                   for k, at in enumerate(order[:_LISTED], 1)]
-        notes.append(f"regions, of which --region takes one: {', '.join(listed)}{', ..' if count > _LISTED else ''}")
+        left = int(sizes.sum() - sizes[order[chosen]])
+        notes.append(f"regions, of which --region takes one: {', '.join(listed)}{', ..' if count > _LISTED else ''}; "
+                     f"{left} voxels, {voxel * left:.4g} mm3, are left out")
+    axes = image.to_space[:3, :3] / spacing
     vertices = mesh.vertices @ axes.T + image.to_space[:3, 3]
-    return Mesh(vertices, mesh.triangles if np.linalg.det(axes) > 0.0 else mesh.triangles[:, ::-1]), "mm", notes
+    return Mesh(vertices, mesh.triangles if np.linalg.det(axes) > 0.0 else mesh.triangles[:, ::-1]), notes
+
+
+def _volume(mesh: Mesh, image: Image, spacing: np.ndarray) -> float:
+    """Of a mesh along the image's own axes, in mm^3 of space."""
+    return abs(signed_volume(mesh)) * float(abs(np.linalg.det(image.to_space[:3, :3] / spacing)))
+
+
+def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray, list[str]]:
+    """A region in which parts that touch at edges or corners of voxels only are joined by voxels between them, at one
+    place each; and what was done. A surface joins voxels through their faces alone."""
+    parts, count = label_regions(inside)
+    if count == 1:
+        return inside, []
+    inside, lines = inside.copy(), []
+    steps = np.array([step for step in np.ndindex(3, 3, 3) if step != (1, 1, 1)]) - 1
+    sizes = np.bincount(parts.ravel())
+    main = int(np.argmax(sizes[1:])) + 1
+    places = np.argwhere((parts != 0) & (parts != main))
+    own = parts[tuple(places.T)]
+    around = parts[tuple(np.moveaxis(places[:, None] + steps, 2, 0))]
+    group = np.arange(count + 1)
+    for at, step in np.argwhere((around != 0) & (around != own[:, None])):
+        one, other = own[at], around[at, step]
+        if group[one] == group[other]:
+            continue
+        group[group == group[one]] = group[other]
+        place, added = places[at].copy(), 0
+        for axis in np.flatnonzero(steps[step])[:-1]:
+            place[axis] += steps[step][axis]
+            added += not inside[tuple(place)]
+            inside[tuple(place)] = True
+        small = min(one, other, key=lambda part: sizes[part])
+        lines.append(f"a part of {sizes[small]} voxels touches the rest at an edge or a corner of voxels only: joined by "
+                     f"{added} voxel{'s' if added > 1 else ''} at {_listed((to_space @ np.r_[places[at], 1.0])[:3])}")
+    return inside, lines if len(lines) <= _LISTED else [
+        *lines[:_LISTED], f"{len(lines) - _LISTED} further parts were joined so"]
 
 
 def _inside(values: np.ndarray, label: float | None, threshold: float | None) -> np.ndarray:
@@ -70,7 +121,7 @@ def _inside(values: np.ndarray, label: float | None, threshold: float | None) ->
         inside = values > threshold
         asked = f"--threshold {threshold:g}: "
     elif label is not None:
-        inside = values == label
+        inside = np.isclose(values, label, rtol=1e-6, atol=1e-6)    # a file's own factor may round
         asked = f"--label {label:g}: "
     else:
         found = np.unique(values)
@@ -87,5 +138,8 @@ def _inside(values: np.ndarray, label: float | None, threshold: float | None) ->
 
 
 def _middle(inside: np.ndarray, to_space: np.ndarray) -> str:
-    middle = to_space @ np.r_[np.argwhere(inside).mean(axis=0), 1.0]
-    return "[" + ", ".join(f"{number:.4g}" for number in middle[:3]) + "]"
+    return _listed((to_space @ np.r_[np.argwhere(inside).mean(axis=0), 1.0])[:3])
+
+
+def _listed(point: np.ndarray) -> str:
+    return "[" + ", ".join(f"{number:.4g}" for number in point) + "]"

@@ -13,7 +13,9 @@ import numpy as np
 from guidewire.anatomy.centreline import Centreline, End
 from guidewire.anatomy.inspection import Inspection, Unit
 from guidewire.anatomy.lumens import write_obj
-from guidewire.anatomy.mesh import AnatomyError, Mesh
+from guidewire.anatomy.mesh import AnatomyError, Mesh, signed_volume
+from guidewire.anatomy.patient import Axes
+from guidewire.anatomy.reading import Source
 from guidewire.anatomy.repair import Repaired
 from guidewire.runs.whole_files import write_whole
 
@@ -31,7 +33,7 @@ _PLACES = 10  # of a kind that a report lists
 _BENT = 0.25  # of a rim's radius, by which it is out of a plane
 
 
-def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source: str) -> None:
+def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source: Source) -> None:
     """The mesh and the file of its ends and centreline, both in the mesh's own units."""
     folder.mkdir(parents=True, exist_ok=True)
     digits = max(0, 7 - math.floor(math.log10(mesh.diagonal)))
@@ -41,11 +43,26 @@ def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source:
              "open": end.is_open, "point": end.point} for end in line.ends]
     # At the wall of a closed end the sphere has no radius; none is rounded to 0.
     points = np.column_stack([line.points, np.maximum(line.radii, 10.0**-digits)])
+    axes = source.axes
     write_whole(folder / ANATOMY, json.dumps({
-        "source": source, "unit": unit.name, "metresPerUnit": unit.metres, "mesh": MESH, "ends": ends,
+        "source": source.name, "sourceHash": source.sha256, "unit": unit.name, "metresPerUnit": unit.metres,
+        "patientAxes": axes.of_vessel(), "sourceAxes": axes.letters,
+        "toSource": (axes.to_lps.T * (1e-3 / unit.metres)).tolist(), "mesh": MESH, "ends": ends,
         "centreline": {"points": [_numbers(row, digits) for row in points], "parents": line.parents.tolist(),
                        "branches": line.branches.tolist(),
                        "names": [f"branch {k}" for k in range(1, int(line.branches.max()) + 1)]}}) + "\n")
+
+
+def check_source(folder: Path, source: Source) -> None:
+    """Raises AnatomyError where a folder holds the vessel of another file, or of one whose contents have changed."""
+    try:
+        before = json.loads((folder / ANATOMY).read_text(encoding="utf-8"))
+        name, known = str(before["source"]), before.get("sourceHash", source.sha256)
+    except (OSError, ValueError, KeyError, TypeError, AttributeError):
+        return
+    if (name, known) != (source.name, source.sha256):
+        other = f"another {name}" if name == source.name else name
+        raise AnatomyError(f"{folder} holds the vessel of {other}: --force replaces it, --out takes another folder")
 
 
 def find_end(line: Centreline, asked: str) -> End:
@@ -77,10 +94,12 @@ def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) ->
                key=lambda end: (narrowest[end.number], lengths[end.number]))
 
 
-def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float) -> Mapping[str, Any]:
+def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float,
+          axes: Axes = Axes()) -> Mapping[str, Any]:
     """Parameters of a wire that is pushed from an inlet as far as a target; lengths in mm, the vessel's own axes.
 
     diameter : of the wire, mm.
+    axes : of the vessel's file.
     """
     path = line.path(inlet.point, target.point)
     way = 1e3 * unit.metres * line.length(path)
@@ -100,6 +119,7 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
         "hubForceLimit": _HUB_FORCE,
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
+        **({"patientAxes": axes.of_vessel()} if axes.is_known else {}),
         "sheath": {}, "inlet": inlet.number, "target": target.number, "contactDistance": _CONTACT_DISTANCE,
         "timeStep": _TIME_STEP, "deltaThreshold": 0.0,
         "maxSimulationSteps": math.ceil(way / (1e3 * _SPEED * _TIME_STEP)), "logEvery": 2, "logHub": True,
@@ -163,7 +183,11 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
                                                              if change.moved else "")
                   + (f", the first at {_place(change.place)}" if change.place is not None else "")
                   for change in repaired.changes]
-        lines.append(f"wall moved by {mm * repaired.moved:.2g} mm at most; {len(repaired.mesh.triangles)} triangles")
+        closed = abs(signed_volume(repaired.mesh, repaired.rims)) * mm**3
+        before = abs(found.volume) * mm**3
+        change = f" ({closed / before - 1.0:+.1%} of that before)" if before > 0.0 else ""
+        lines.append(f"wall moved by {mm * repaired.moved:.2g} mm at most; {len(repaired.mesh.triangles)} triangles, "
+                     f"volume {closed / 1e3:.4g} ml{change}")
     if line is not None:
         lines += [f"end {end.number} '{end.name}': {'open' if end.is_open else 'closed'}, at {_place(end.centre)}, "
                   f"radius {mm * end.radius:.3g} mm" for end in line.ends]

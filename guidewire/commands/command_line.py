@@ -294,7 +294,10 @@ def _add_anatomy(commands: Commands) -> None:
     anatomy.add_argument("--out", type=path, help="folder of the results (results/anatomy/<name of FILE>)")
     anatomy.add_argument("--look", action="store_true", help="report and picture only")
     anatomy.add_argument("--open", action="store_true", help="cut closed ends open")
-    anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="unit of the coordinates (guessed from the size)")
+    anatomy.add_argument("--force", action="store_true", help="write into a folder that has another file's vessel")
+    anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="unit of the coordinates (guessed from the sizes)")
+    anatomy.add_argument("--axes", metavar="XYZ", help="where x, y and z of the file point in the patient, such as RAS "
+                                                       "(as the file says)")
     anatomy.add_argument("--label", type=finite, metavar="N", help="of a mask: value of the vessel's voxels")
     anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
     anatomy.add_argument("--region", type=positive, metavar="K",

@@ -55,15 +55,18 @@ def _make(which: Mapping[str, Any], folder: Path) -> None:
     from guidewire.anatomy import output, shapes
     from guidewire.anatomy.centreline import find_centreline
     from guidewire.anatomy.inspection import inspect
+    from guidewire.anatomy.patient import Axes
+    from guidewire.anatomy.reading import Source
     from guidewire.anatomy.repair import repair
 
-    mesh, unit, _ = shapes.make(which["make"], which.get("type", 1), which["seed"], None, None)
+    mesh, unit, notes = shapes.make(which["make"], which.get("type", 1), which["seed"], None, None)
+    source = Source(mesh, unit, "as made", Axes(), notes, str(which))
     found = inspect(mesh, unit)
     repaired = repair(mesh)
     line = find_centreline(repaired.mesh, repaired.rims)
     inlet, target = (output.find_end(line, str(which[key])) for key in ("inlet", "target"))
-    output.write_vessel(folder, repaired.mesh, line, found.unit, str(which))
-    scene = output.scene(line, found.unit, inlet, target, which.get("diameter", 0.36))
+    output.write_vessel(folder, repaired.mesh, line, found.unit, source)
+    scene = output.scene(line, found.unit, inlet, target, which.get("diameter", 0.36), source.axes)
     (folder / output.SCENE).write_text(json.dumps(scene, indent=2) + "\n", encoding="utf-8")
 
 

@@ -15,6 +15,7 @@ if TYPE_CHECKING:
     from guidewire.anatomy.centreline import Centreline
     from guidewire.anatomy.inspection import Inspection
     from guidewire.anatomy.mesh import Mesh
+    from guidewire.anatomy.reading import Source
 
 _MOST = 400_000  # triangles that are drawn; of a larger mesh one vertex a cell
 _WIRE = 0.36  # mm, diameter of the wire that a scene is written for
@@ -27,7 +28,7 @@ def read_vessel(file: Path) -> VesselPicture:
     ------
     PreparationError : one line, for a file that holds no vessel.
     """
-    from guidewire.anatomy import command
+    from guidewire.anatomy import reading
     from guidewire.anatomy.centreline import find_centreline
     from guidewire.anatomy.inspection import inspect, weld_exactly
     from guidewire.anatomy.mesh import AnatomyError
@@ -35,20 +36,20 @@ def read_vessel(file: Path) -> VesselPicture:
     from guidewire.anatomy.repair import repair
 
     try:
-        mesh, unit, notes = command.read(file)
-        found = inspect(mesh, unit)
-        mesh = weld_exactly(mesh)
+        source = reading.read(file)
+        found = inspect(source.mesh, source.unit, source.unit_said_by)
+        mesh = weld_exactly(source.mesh)
     except AnatomyError as error:
         text = str(error)
         raise PreparationError(text if text.startswith(str(file)) else f"{file}: {text}") from error
-    found.notes += notes
+    found.notes += [source.axes.describe(), *source.notes]
     try:
         repaired = repair(mesh)
         line = find_centreline(repaired.mesh, repaired.rims)
     except AnatomyError as error:
-        return VesselPicture(file, mesh, found, None, None, [*describe(found, None, None, _WIRE),
+        return VesselPicture(source, mesh, found, None, None, [*describe(found, None, None, _WIRE),
                                                              f"not repaired: {error}"])
-    return VesselPicture(file, mesh, found, repaired.mesh, line, describe(found, repaired, line, _WIRE))
+    return VesselPicture(source, mesh, found, repaired.mesh, line, describe(found, repaired, line, _WIRE))
 
 
 class VesselPicture:
@@ -60,9 +61,9 @@ class VesselPicture:
     lines : of the report.
     """
 
-    def __init__(self, file: Path, mesh: Mesh, found: Inspection, wall: Mesh | None, line: Centreline | None,
+    def __init__(self, source: Source, mesh: Mesh, found: Inspection, wall: Mesh | None, line: Centreline | None,
                  lines: list[str]) -> None:
-        self._file, self._mesh, self._found, self._wall, self._line = file, mesh, found, wall, line
+        self._source, self._mesh, self._found, self._wall, self._line = source, mesh, found, wall, line
         self._lines = lines
 
     def to_bytes(self) -> bytes:
@@ -78,7 +79,7 @@ class VesselPicture:
                  ("triangles without area", found.slivers), ("turned triangles", found.turned),
                  ("holes in the side", [rim.centre for rim in found.rims if rim.is_hole]))
         header = json.dumps({
-            "title": self._file.name, "lines": self._lines, "vertices": mesh.vertices.size,
+            "title": self._source.name, "lines": self._lines, "vertices": mesh.vertices.size,
             "ends": [self._end(end, mm) for end in (self._line.ends if self._line else ())],
             "places": [{"name": name, "points": (mm * np.asarray(places)).ravel().tolist()}
                        for name, places in kinds if len(places)],
@@ -90,16 +91,23 @@ class VesselPicture:
     def choose(self, number: int) -> str:
         """Write the vessel with a scene whose wire starts at an end, as `guidewire.py anatomy --inlet` does; returns
         what to tell."""
-        from guidewire.anatomy import output
+        from guidewire.anatomy import command, output
+        from guidewire.anatomy.mesh import AnatomyError
 
         end = next((end for end in self._line.ends if end.number == number), None) if self._line else None
         if end is None or self._wall is None:
             return f"there is no end {number}"
         unit = self._found.unit
-        folder = Path("results") / "anatomy" / self._file.name.split(".")[0]
+        folder = command.default_folder(self._source.stem)
+        if not unit.is_sure:
+            return f"unit: {unit.reason}"
+        try:
+            output.check_source(folder, self._source)
+        except AnatomyError as error:
+            return str(error)
         target = output.default_target(self._line, end, unit, _WIRE)
-        output.write_vessel(folder, self._wall, self._line, unit, self._file.name)
-        output.write_scene(folder, output.scene(self._line, unit, end, target, _WIRE))
+        output.write_vessel(folder, self._wall, self._line, unit, self._source)
+        output.write_scene(folder, output.scene(self._line, unit, end, target, _WIRE, self._source.axes))
         return (f"inlet: end {end.number} '{end.name}', target: end {target.number} '{target.name}'\n"
                 f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)} --check")
 
