@@ -5,8 +5,11 @@ path to the target. Where the tip enters a branch that does not lead there, or c
 from one of the snapshots: how far behind the farthest one is drawn, most often little, as are the turn of the hub, and
 whether the hub goes on turning while it is pushed. So no progress is lost, and a branch that can be entered only after a
 turn far before it is found as well. What is left at the end is one drive without the
-failed attempts: a table of time, insertion and rotation that any run can repeat. The draws have a fixed seed: the same
-scene has the same drive.
+failed attempts: a table of time, insertion and rotation for each hub, which any run repeats with the same bits. So that
+this holds, a drive that was found is made once more from the start, without a snapshot; where it does not reach the
+target then, the search goes on from there. The draws have a fixed seed: the same scene has the same drive.
+
+A catheter follows the wire: its tip is pushed on whenever it is farther behind the wire's than 30 mm.
 """
 
 from __future__ import annotations
@@ -14,8 +17,9 @@ from __future__ import annotations
 import argparse
 import json
 import os
-from collections.abc import Callable
-from dataclasses import dataclass
+import time
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
@@ -24,9 +28,10 @@ import numpy as np
 from guidewire.prepare import DOOR, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.whole_files import write_whole
-from guidewire.sessions.session import Session, SessionError
+from guidewire.sessions.session import LumenPlace, Session, SessionError
+from guidewire.sessions.steered import Steered, exact_push, exact_turn
 
-DRIVE, SCENE = "drive.csv", "steered.json"
+DRIVES, SCENE = ("drive.csv", "drive-catheter.csv", "drive-catheter-2.csv"), "steered.json"
 _CHUNK = 4.0  # mm pushed between two looks at the tip
 _TURN = 0.2  # rad a step, while the wire is not pushed
 _ASIDE = 2.0  # of a branch's radii that a tip is in it, from which on the branch is a wrong one
@@ -36,6 +41,8 @@ _ALIKE = 8.0  # mm of the path within which snapshots are as good a start
 _IN_VAIN = 120  # attempts without progress, after which the search gives up
 _SPIN = 0.15  # rad a mm at most, while the wire is pushed
 _SEED = 28
+_BEHIND = 30.0  # mm that a catheter's tip is behind the wire's
+_SHOWN = 10.0  # s between two lines on what is tried
 
 
 @dataclass(frozen=True)
@@ -54,49 +61,48 @@ _TIPS = (None, Tip(45.0, 5.0), Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.
 
 
 @dataclass(frozen=True)
-class Steered:
+class Found:
     """Whether the target was reached, the attempts at wrong branches, the tip's farthest place on the path to the
-    target and that path's length, mm; rows of the drive: time s, insertion m, rotation rad."""
+    target and that path's length, mm; the scene's parameters with the tip, calls of the session: hub, push (units) and
+    turn (rad) in each step, and their number; what each hub steered; lines on the catheters."""
 
     is_reached: bool
     attempts: int
     farthest: float
     length: float
-    rows: list[tuple[float, float, float]]
+    asked: dict[str, Any]
+    hubs: list[Steered]
     tip: Tip | None = None
+    catheters: tuple[str, ...] = ()
 
 
 class Route:
-    """The centreline's path from an inlet to a target, mm."""
+    """The centreline's path from an inlet to a target, mm.
 
-    def __init__(self, folder: Path, inlet: int, target: int) -> None:
-        found = json.loads((folder / "anatomy.json").read_text())
-        scale = 1e3 * found["metresPerUnit"]
-        line = scale * np.array(found["centreline"]["points"])
-        self._points, self._radii = line[:, :3], line[:, 3]
-        parents = found["centreline"]["parents"]
-        ends = {end["number"]: end["point"] for end in found["ends"]}
-        chains = []
-        for point in (ends[inlet], ends[target]):
-            chain = [point]
-            while parents[chain[-1]] >= 0:
-                chain.append(parents[chain[-1]])
-            chains.append(chain)
-        shared = next(k for k in chains[0] if k in set(chains[1]))
-        path = chains[0][:chains[0].index(shared) + 1] + chains[1][:chains[1].index(shared)][::-1]
-        arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(self._points[path], axis=0), axis=1))]
-        self._arc = dict(zip(path, arc))
-        self._beside = self._distances(parents, path)
-        self.length = float(arc[-1])
-        self._near_target = float(self._radii[path[-1]])
+    Parameters
+    ----------
+    target : as of `Session.describe`.
+    anatomy : of the vessel, with its parents, as anatomy.json has it.
+    unit : length of the session's unit, mm.
+    """
 
-    def _distances(self, parents: list[int], path: list[int]) -> np.ndarray:
+    def __init__(self, target: Mapping[str, Any], anatomy: Mapping[str, Any], unit: float) -> None:
+        self._unit = unit
+        self.length = unit * target["distances"][-1]
+        path = target["indices"]
+        self._on_path = set(path)
+        line = 1e3 * anatomy["metresPerUnit"] * np.array(anatomy["centreline"]["points"])
+        self._radii = line[:, 3]
+        self._beside = self._distances(line, anatomy["centreline"]["parents"], path)
+
+    @staticmethod
+    def _distances(line: np.ndarray, parents: list[int], path: list[int]) -> np.ndarray:
         """Of each point of the centreline, its distance from the wall of the path's lumen along the tree, mm; negative
         within it."""
         # A branch begins at the wall of the path's lumen, a radius from the path.
         away = np.full(len(parents), np.inf)
-        away[path] = -self._radii[path]
-        steps = [np.linalg.norm(self._points[k] - self._points[p]) if p >= 0 else 0.0 for k, p in enumerate(parents)]
+        away[path] = -line[path, 3]
+        steps = [np.linalg.norm(line[k, :3] - line[p, :3]) if p >= 0 else 0.0 for k, p in enumerate(parents)]
         is_beside = np.ones(len(parents), bool)
         is_beside[path] = False
         for k in range(len(parents) - 1, 0, -1):  # parents come first
@@ -107,14 +113,10 @@ class Route:
                 away[k] = min(away[k], away[parent] + steps[k])
         return away
 
-    def locate(self, tip: np.ndarray) -> tuple[float | None, bool]:
-        """Distance of a tip (3,) along the path, None beside it; and whether it is in a wrong branch."""
-        near = int(np.argmin(((self._points - tip)**2).sum(axis=1) - self._radii**2))
-        return self._arc.get(near), bool(self._beside[near] > _ASIDE * self._radii[near])
-
-    def is_reached(self, along: float | None) -> bool:
-        """Whether a distance is within a radius of the target, as the summary counts it."""
-        return along is not None and along >= self.length - self._near_target
+    def locate(self, place: LumenPlace) -> tuple[float | None, bool]:
+        """Distance of a place along the path, None beside it; and whether it is in a wrong branch."""
+        along = self._unit * place.distance if place.near in self._on_path else None
+        return along, bool(self._beside[place.near] > _ASIDE * self._radii[place.near])
 
 
 def with_tip(asked: dict[str, Any], tip: Tip | None) -> dict[str, Any]:
@@ -134,105 +136,206 @@ def with_tip(asked: dict[str, Any], tip: Tip | None) -> dict[str, Any]:
 
 
 @dataclass(frozen=True)
+class _Call:
+    """Steps of a session: whose hub, push (units) and turn (rad) in each, and how many."""
+
+    hub: int
+    push: float
+    turn: float
+    steps: int
+
+
+@dataclass(frozen=True)
 class _Start:
     """A snapshot that attempts begin from: the tip's distance along the path and the farthest that the attempt had
-    reached, mm; the insertion where it had; rows of the drive up to it, the last first."""
+    reached, mm; the insertion where it had, and now, mm; the call that led there, and what was before it."""
 
     snapshot: bytes
     along: float
     best: float
     since: float
-    row: tuple[float, float, float]
+    moved: float
+    call: _Call | None
     before: _Start | None
 
-    def rows(self) -> list[tuple[float, float, float]]:
+    def calls(self) -> list[_Call]:
         """The drive from the inlet, in time's order."""
-        found: list[tuple[float, float, float]] = []
+        found: list[_Call] = []
         start: _Start | None = self
         while start is not None:
-            found.append(start.row)
+            if start.call is not None:
+                found.append(start.call)
             start = start.before
         return found[::-1]
 
 
-def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None, tip: Tip | None = None
-          ) -> Steered:
+class _Search:
+    """Attempts in one session."""
+
+    def __init__(self, session: Session, asked: Mapping[str, Any], tell: Callable[[str], None], until: float) -> None:
+        self._session, self._tell, self._until = session, tell, until
+        described = session.describe()
+        self._unit = described["millimetresPerUnit"]
+        if described["target"] is None or session.state.place is None:
+            raise SessionError("the scene has no target: needs the scene.json that '{DOOR} anatomy' wrote")
+        anatomy = json.loads(Path(session.parameters["vessel"]["anatomy"]).read_text(encoding="utf-8"))
+        self.route = Route(described["target"], anatomy, self._unit)
+        dt = asked["timeStep"]
+        metres = session.parameters["metresPerUnit"]
+        self._steps = max(1, round(_CHUNK / (1e3 * asked["insertionSpeed"] * dt)))
+        self._push = exact_push(_CHUNK / self._unit / self._steps, metres)
+        self._longest = self._unit * asked["guidewireLength"] - 40.0
+        self._random = np.random.default_rng(_SEED)
+        self._first = _Start(session.save(), 0.0, 0.0, 0.0, 0.0, None, None)
+        self.attempts, self.farthest = 0, 0.0
+        self._began, self._shown = time.monotonic(), time.monotonic()
+
+    def find(self, most_attempts: int) -> _Start | None:
+        """A start at the target whose calls lead there from the inlet; None where the search gave up."""
+        starts, at = [self._first], self._first
+        stalled, spin = _STALLED[0], 0.0
+        reached, in_vain = 0.0, 0
+        while True:
+            at, why = self._pushed(at, spin, stalled)
+            self.farthest = max(at.best, max(one.best for one in starts))
+            if why == "reached":
+                again = self._again(at.calls())
+                if again[-1] is None:
+                    return again[-2]
+                starts = [one for one in again if one is not None]
+                at, why = starts[-1], "missed when it was made once more"
+            elif not why:
+                starts.append(at)
+                continue
+            self.attempts += 1
+            in_vain = in_vain + 1 if self.farthest <= reached else 0
+            reached = self.farthest
+            self._say(f"attempt {self.attempts}: {why} after {at.moved:.0f} mm", is_due=True)
+            if self.attempts >= most_attempts or in_vain >= _IN_VAIN or time.monotonic() > self._until:
+                return None
+            back = np.exp(self._random.uniform(*np.log(_BACK)))
+            place = np.array([one.along for one in starts])
+            off = np.abs(place - max(0.0, place.max() - back))
+            at = starts[int(self._random.choice(np.flatnonzero(off <= off.min() + _ALIKE)))]
+            stalled = self._random.uniform(*_STALLED)
+            spin = self._random.uniform(-_SPIN, _SPIN) if self._random.uniform() < 0.5 else 0.0
+            self._session.restore(at.snapshot)
+            at = self._turned(at, self._random.uniform(-np.pi, np.pi))
+
+    def _pushed(self, at: _Start, spin: float, stalled: float) -> tuple[_Start, str]:
+        """After a push by a few millimetres, and why the attempt ends there: "reached", or a failure, or nothing."""
+        along, is_wrong, is_outside, is_reached = None, False, False, False
+        if self._session.state.outcome is None:  # a turn may have ended the run
+            at = self._made(at, _Call(0, self._push, exact_turn(_CHUNK * spin / self._steps), self._steps))
+            while self._session.state.outcome is None and self._gap() > _BEHIND + _CHUNK:
+                at = self._made(at, _Call(1, self._push, 0.0, self._steps))
+            place = self._session.state.place
+            along, is_wrong = self.route.locate(place)
+            is_outside, is_reached = not place.is_inside, place.is_at_target
+        is_ahead = along is not None and along > at.best
+        ended = self._session.state.outcome
+        best, since = (along, at.moved) if is_ahead else (at.best, at.since)
+        at = replace(at, snapshot=b"" if ended else self._session.save(), along=at.along if along is None else along,
+                     best=best, since=since)
+        self._say(f"at {best:.0f} mm")
+        return at, ("reached" if is_reached else "wrong branch" if is_wrong else ended or (
+            "left the vessel" if is_outside and at.moved > 2.0 * _CHUNK else
+            "no farther" if at.moved >= self._longest or at.moved - since > stalled else ""))
+
+    def _gap(self) -> float:
+        """How far a catheter's tip is behind the wire's, mm; nothing where there is none."""
+        catheters = self._session.state.catheters
+        return 1e3 * catheters[0].extension if catheters else 0.0
+
+    def _made(self, at: _Start, call: _Call) -> _Start:
+        self._session.step(push=call.push * call.steps, turn=call.turn * call.steps, steps=call.steps, hub=call.hub)
+        moved = at.moved + (self._unit * call.push * call.steps if call.hub == 0 else 0.0)
+        return _Start(b"", at.along, at.best, at.since, moved, call, at)
+
+    def _turned(self, at: _Start, angle: float) -> _Start:
+        """The same place with the hub turned; the attempt's progress is counted anew."""
+        steps = max(1, round(abs(angle) / _TURN))
+        at = self._made(at, _Call(0, 0.0, exact_turn(angle / steps), steps))
+        return replace(at, best=at.along, since=at.moved)
+
+    def _again(self, calls: list[_Call]) -> list[_Start | None]:
+        """A drive made from the start: what it came to after each call, and None behind it where that is the target."""
+        self._session.reset()
+        made: list[_Start | None] = [self._first]
+        for call in calls:
+            at = self._made(made[-1], call)
+            if self._session.state.outcome is not None:
+                break
+            place = self._session.state.place
+            along, is_wrong = self.route.locate(place)
+            if is_wrong:
+                break
+            best = at.best if along is None else max(at.best, along)
+            made.append(replace(at, snapshot=self._session.save(), along=at.along if along is None else along,
+                                best=best, since=at.moved if best > at.best else at.since))
+            if place.is_at_target:
+                return [*made, None]
+        return made
+
+    def _say(self, line: str, is_due: bool = False) -> None:
+        now = time.monotonic()
+        if is_due or now - self._shown > _SHOWN:
+            self._shown = now
+            self._tell(f"{(now - self._began) / 60.0:.1f} min: {line}, {self.farthest:.0f} of {self.route.length:.0f} mm")
+
+
+def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None, tip: Tip | None = None,
+          minutes: float = np.inf) -> Found:
     """Find a drive from a scene's inlet to its target.
 
     Parameters
     ----------
     scene : ``scene.json`` of ``guidewire.py anatomy``.
     most_attempts : after which the search gives up, as it does after 120 in a row that come no farther.
-    tell : hears one line for each attempt.
+    tell : hears one line for each attempt, and every ten seconds.
     tip : in place of the scene's own.
+    minutes : of wall time, after which the search gives up at the next failed attempt.
 
     Raises
     ------
-    guidewire.sessions.session.SessionError : the scene cannot be used, or has no hub to steer.
+    SessionError : the scene cannot be used, or has no hub to steer.
     """
-    asked = with_tip(json.loads(scene.read_text()), tip)
-    route = Route(scene.parent, asked["inlet"], asked["target"])
-    dt = asked["timeStep"]
-    steps = max(1, round(_CHUNK / (1e3 * asked["insertionSpeed"] * dt)))
-    longest = asked["guidewireLength"] - 40.0
-    random = np.random.default_rng(_SEED)
+    asked = with_tip(json.loads(scene.read_text(encoding="utf-8")), tip)
     bent = {} if tip is None else {"wireSections": asked["wireSections"]}
     with Session(scene, hand=True, **bent) as session:
-        start = _Start(session.save(), 0.0, 0.0, 0.0, (0.0, 0.0, 0.0), None)
-        starts, at, attempts = [start], start, 0
-        stalled, spin = _STALLED[0], 0.0
-        reached, in_vain = 0.0, 0
-        while True:
-            along, is_wrong = None, False
-            if session.state.outcome is None:  # a turn may have ended the run
-                session.step(push=_CHUNK, turn=_CHUNK * spin, steps=steps)
-                along, is_wrong = route.locate(session.state.positions[-1])
-            time, moved, turn = at.row
-            row = (time + steps * dt, moved + _CHUNK, turn + _CHUNK * spin)
-            is_ahead = along is not None and along > at.best
-            best, since = (along, row[1]) if is_ahead else (at.best, at.since)
-            ended = session.state.outcome
-            at = _Start(b"" if ended else session.save(), at.along if along is None else along, best, since, row, at)
-            farthest = max(best, max(one.best for one in starts))
-            if route.is_reached(along):
-                return Steered(True, attempts, farthest, route.length, at.rows(), tip)
-            if not (is_wrong or ended or row[1] >= longest or row[1] - since > stalled):
-                starts.append(at)
-                continue
-            attempts += 1
-            in_vain = in_vain + 1 if farthest <= reached else 0
-            reached = farthest
-            why = "wrong branch" if is_wrong else ended or "no farther"
-            tell(f"attempt {attempts}: {why} after {row[1]:.0f} mm, {farthest:.0f} of {route.length:.0f} mm")
-            if attempts >= most_attempts or in_vain >= _IN_VAIN:
-                return Steered(False, attempts, farthest, route.length, at.rows(), tip)
-            back = np.exp(random.uniform(*np.log(_BACK)))
-            place = np.array([one.along for one in starts])
-            off = np.abs(place - max(0.0, place.max() - back))
-            at = starts[int(random.choice(np.flatnonzero(off <= off.min() + _ALIKE)))]
-            stalled = random.uniform(*_STALLED)
-            spin = random.uniform(-_SPIN, _SPIN) if random.uniform() < 0.5 else 0.0
-            session.restore(at.snapshot)
-            at = _turned(session, at, random.uniform(-np.pi, np.pi), dt)
+        asked = session.parameters | {"insertionSpeed": asked["insertionSpeed"]}
+        search = _Search(session, asked, tell, time.monotonic() + 60.0 * minutes)
+        found = search.find(most_attempts)
+        hubs = [Steered(session.parameters) for _ in range(1 + len(asked.get("catheters") or []))]
+        lines: list[str] = []
+        if found is not None:
+            session.reset()
+            for call in found.calls():
+                state = session.step(push=call.push * call.steps, turn=call.turn * call.steps, steps=call.steps,
+                                     hub=call.hub)
+                for k, steered in enumerate(hubs):
+                    own = call if k == call.hub else _Call(k, 0.0, 0.0, call.steps)
+                    stopped = None if len(hubs) == 1 else (state.hub if k == 0 else state.catheters[k - 1]).insertion
+                    steered.add(own.push, own.turn, call.steps, state, stopped)
+            lines = [f"catheter {k}: tip {'in the lumen' if one.place.is_inside else 'outside'}, "
+                     f"{search._unit * one.place.left:.0f} mm before the target"
+                     + (", reached" if one.place.is_at_target else "")
+                     for k, one in enumerate(session.state.catheters, 1) if one.place is not None]
+        return Found(found is not None, search.attempts, search.farthest, search.route.length, asked, hubs, tip,
+                     tuple(lines))
 
 
-def _turned(session: Session, at: _Start, angle: float, dt: float) -> _Start:
-    """The same place with the hub turned; the attempt's progress is counted anew."""
-    steps = max(1, round(abs(angle) / _TURN))
-    session.step(turn=angle, steps=steps)
-    time, moved, turn = at.row
-    return _Start(b"", at.along, at.along, moved, (time + steps * dt, moved, turn + angle), at)
-
-
-def write(scene: Path, found: Steered) -> Path:
-    """The drive and a scene that follows it, beside the scene given; returns the new scene's file."""
+def write(scene: Path, found: Found) -> Path:
+    """The drives and a scene that follows them, beside the scene given; returns the new scene's file."""
     folder = scene.parent
-    write_whole(folder / DRIVE, "time,insertion,rotation\n" + "".join(
-        f"{time:.9g},{1e-3 * moved:.9g},{turn:.12g}\n" for time, moved, turn in found.rows))
-    asked = with_tip(json.loads(scene.read_text()), found.tip)
-    del asked["insertionSpeed"]
-    steps = round(found.rows[-1][0] / asked["timeStep"])
-    write_whole(folder / SCENE, json.dumps(asked | {"driveFile": DRIVE, "maxSimulationSteps": steps}, indent=2) + "\n")
+    for name, steered in zip(DRIVES, found.hubs):
+        write_whole(folder / name, steered.to_csv())
+    asked = with_tip(json.loads(scene.read_text(encoding="utf-8")), found.tip)
+    asked.pop("insertionSpeed", None)
+    catheters = [{key: value for key, value in one.items() if key not in ("insertionSpeed", "rotationSpeed")}
+                 | {"driveFile": name} for one, name in zip(asked.get("catheters") or [], DRIVES[1:])]
+    asked |= {"driveFile": DRIVES[0], "maxSimulationSteps": found.hubs[0].steps}
+    write_whole(folder / SCENE, json.dumps(asked | ({"catheters": catheters} if catheters else {}), indent=2) + "\n")
     return folder / SCENE
 
 
@@ -260,14 +363,15 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
     missing = [key for key in ("inlet", "target", "insertionSpeed", "timeStep", "guidewireLength") if key not in asked]
     if missing:
         raise PreparationError(f"{scene}: has no {missing[0]}: needs the scene.json that '{DOOR} anatomy' wrote")
-    if not all(isinstance(asked[key], int) for key in ("inlet", "target")):
-        raise PreparationError(f"{scene}: inlet and target need to be numbers of ends, as 'anatomy' wrote them")
     try:
-        found = None
+        found, until = None, time.monotonic() + 60.0 * arguments.minutes
         for tip in _TIPS if asked.get("wireSections") else (None,):  # an instrument keeps its own tip
             if found is not None:
                 print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip bent by {tip}")
-            more = steer(scene, arguments.attempts, print, tip)
+            left = (until - time.monotonic()) / 60.0
+            if left <= 0.0 and found is not None:
+                break
+            more = steer(scene, arguments.attempts, lambda line: print(line, flush=True), tip, left)
             found = max(filter(None, (found, more)), key=lambda one: (one.is_reached, one.farthest))
             if found.is_reached:
                 break
@@ -280,6 +384,8 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
               "catheter may do")
         return 1
     steered = write(scene, found)
+    for line in found.catheters:
+        print(line)
     print(f"target reached: {place}; drive: {os.path.relpath(steered)}")
     code = hand_to([*command, "-parameters", str(steered), "-out", str(out), "-force"])
     if code:

@@ -7,13 +7,15 @@ al. 2003). Their points are then moved, across the path, to where the distance f
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from scipy.ndimage import gaussian_filter1d
+from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from guidewire.anatomy.inspection import narrow_radius
+from guidewire.anatomy.loops import Loop, find_loops
 from guidewire.anatomy.medial_graph import BLIND, MedialGraph, WallDistance, walk_back
 from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, close_rims, signed_volume
 
@@ -25,12 +27,16 @@ _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest pa
 _AT_RIM = 3.0  # radii of a rim
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
 _ROUNDS = 3
+_AT_CUT = 3.0  # radii of the lumen, from where the two ways of a loop meet: the tree's end there is no end of the vessel
+_SAC = 4.0  # widest radii from the tip of a sac, within which its neck is
+_NECK = 0.75  # of a sac's widest radius, that its neck has at most
 
 
 @dataclass(frozen=True)
 class End:
     """An end of the centreline: number and name as users give them; centre (3,); radius; direction (3,), into the
-    lumen; is_open : whether it is a rim; point : index of the centreline's point there."""
+    lumen; is_open : whether it is a rim; point : index of the centreline's point there; is_sac : whether it is the dome of
+    a sac with a neck, such as an aneurysm: no wire enters there."""
 
     number: int
     name: str
@@ -39,18 +45,21 @@ class End:
     direction: np.ndarray
     is_open: bool
     point: int
+    is_sac: bool = False
 
 
 @dataclass(frozen=True)
 class Centreline:
     """A tree of k points: points (k, 3), radii (k,) of the inscribed spheres, parents (k,), -1 at the root and else
-    smaller than the point's own index; branches (k,), from 1; ends."""
+    smaller than the point's own index; branches (k,), from 1; ends, the widest first and sacs last; loops, where ways meet
+    that the tree does not join."""
 
     points: np.ndarray
     radii: np.ndarray
     parents: np.ndarray
     branches: np.ndarray
     ends: tuple[End, ...]
+    loops: tuple[Loop, ...] = ()
 
     def chain(self, point: int) -> np.ndarray:
         """Indices from a point to the root."""
@@ -60,11 +69,22 @@ class Centreline:
         return np.array(found)
 
     def path(self, start: int, end: int) -> np.ndarray:
-        """Indices from a point to another one through the tree."""
+        """Indices from a point to another one, the shorter way round loops."""
+        if self.loops:
+            return self._shortest(start, end)
         one, other = self.chain(start), self.chain(end)
         common = np.isin(one, other)
         meeting = one[np.argmax(common)]
         return np.r_[one[:np.argmax(common) + 1], other[:np.flatnonzero(other == meeting)[0]][::-1]]
+
+    def _shortest(self, start: int, end: int) -> np.ndarray:
+        own = np.flatnonzero(self.parents >= 0)
+        rows = np.r_[own, [loop.points[0] for loop in self.loops]].astype(int)
+        columns = np.r_[self.parents[own], [loop.points[1] for loop in self.loops]].astype(int)
+        lengths = np.maximum(np.linalg.norm(self.points[rows] - self.points[columns], axis=1), 1e-300)
+        graph = coo_matrix((lengths, (rows, columns)), shape=(len(self.points), len(self.points))).tocsr()
+        before = dijkstra(graph, directed=False, indices=start, return_predecessors=True)[1]
+        return np.array(walk_back(before, end))
 
     def length(self, indices: np.ndarray) -> float:
         """Of the polyline through these points."""
@@ -118,7 +138,7 @@ def find_centreline(mesh: Mesh, rims: list[Rim], root: np.ndarray | None = None)
                            "closed in between")
     known = set(walk_back(before, start)) if len(nodes) == 1 else set().union(*(walk_back(before, n) for n in nodes))
     blind = graph.blind_ends(known, before, dijkstra(graph.lengths, directed=False, indices=start))
-    return _Builder(graph, wall, WallDistance(mesh) if rims else wall, rims, nodes, blind, start, before).build()
+    return _Builder(graph, wall, WallDistance(mesh) if rims else wall, rims, nodes, blind, start, before).build(closed)
 
 
 class _Builder:
@@ -135,7 +155,7 @@ class _Builder:
         self._parents: list[int] = []
         self._branches: list[int] = []
 
-    def build(self) -> Centreline:
+    def build(self, closed: Mesh) -> Centreline:
         paths = [self._trim(walk_back(self._before, target), rim) for target, rim in zip(self._targets, self._rims)]
         chains = self._inside(paths)
         kept = self._apart(chains, [len(chain) < len(path) for chain, path in zip(chains, paths)])
@@ -164,10 +184,47 @@ class _Builder:
                 self._lay(chains[k], self._rims[k], uses, at)
                 last[k] = len(self._points) - 1
         last[root] = 0
-        ends = [self._end(number, k, last[k]) for number, k in enumerate(order, 1)]
+        loops = find_loops(closed, np.array(self._points), np.array(self._radii), np.array(self._parents))
+        # The cut of a loop is no end of the vessel.
+        ends = [self._end(k, last[k]) for k in order if self._rims[k] is not None or not self._is_cut(last[k], loops)]
+        loops = [self._joined(loop) for loop in loops]
+        if len(ends) < 2:
+            raise AnatomyError("the lumen has one end only: no path leads through it")
+        ends.sort(key=lambda end: (end.is_sac, -end.radius))
+        named = [replace(end, number=number, name=end.name or f"end {number}") for number, end in enumerate(ends, 1)]
         radii = np.array([self._open.distance(point) for point in self._points])
-        return Centreline(np.array(self._points), radii, np.array(self._parents),
-                          np.array(self._branches), tuple(ends))
+        return Centreline(np.array(self._points), radii, np.array(self._parents), np.array(self._branches), tuple(named),
+                          tuple(loops))
+
+    def _is_cut(self, tip: int, loops: list[Loop]) -> bool:
+        return any(np.linalg.norm(self._points[tip] - self._points[point]) < _AT_CUT * loop.radius
+                   for loop in loops for point in loop.points)
+
+    def _joined(self, loop: Loop) -> Loop:
+        """A loop whose two sides in the tree are next to each other: what the tree lacks between them is a branch."""
+        one, other = loop.points
+        sides = np.array([self._points[one], self._points[other]])
+        away = np.linalg.norm(sides - loop.place, axis=1)
+        if np.linalg.norm(sides[0] - sides[1]) < self._radii[one] + self._radii[other]:
+            return loop
+        centres, radii = self._graph.centres, self._graph.radii
+        near = np.flatnonzero(np.linalg.norm(centres - loop.place, axis=1) < 1.5 * away.max() + 2.0 * loop.radius)
+        middle, *others = (int(np.argmin(np.linalg.norm(centres[near] - point, axis=1)))
+                           for point in (loop.place, *sides))
+        cost, before = dijkstra(self._graph.weights[near][:, near], directed=False, indices=middle,
+                                return_predecessors=True)
+        if not np.isfinite(cost[others]).all():
+            return loop
+        ways = [near[walk_back(before, node)] for node in others]
+        nodes = np.r_[ways[0][::-1], ways[1][1:]]
+        line, own = self._smooth(np.vstack([sides[0], centres[nodes], sides[1]]),
+                                 np.r_[self._radii[one], radii[nodes], self._radii[other]], None, None, (False, False),
+                                 False)
+        branch, parent = max(self._branches) + 1, one
+        for point, radius in zip(line[1:-1], own[1:-1]):
+            self._append(point, radius, parent, branch)
+            parent = len(self._points) - 1
+        return replace(loop, points=(parent, other))
 
     def _inside(self, chains: list[list[int]]) -> list[list[int]]:
         """Paths to blind ends without what is outside: through a thin or coarse wall the graph may go on there."""
@@ -298,7 +355,8 @@ class _Builder:
             beyond[self._parents[k]] += beyond[k]
         return int(after[np.argmax(beyond[after])])
 
-    def _end(self, number: int, k: int, point: int) -> End:
+    def _end(self, k: int, point: int) -> End:
+        """An end, not numbered yet; a closed one without a name."""
         rim = self._rims[k]
         points, parents = self._points, self._parents
         path = [point]
@@ -317,8 +375,26 @@ class _Builder:
         direction = self._into_lumen(path, radius)
         if direction is None:
             direction = rim.normal
-        name = rim.name if rim else f"end {number}"
-        return End(number, name, points[point], radius, direction, rim is not None, point)
+        return End(0, rim.name if rim else "", points[point], radius, direction, rim is not None, point,
+                   rim is None and self._is_sac(point))
+
+    def _is_sac(self, point: int) -> bool:
+        """Whether a closed end is a dome: behind its widest place, and near it, there is a much narrower neck."""
+        path, arc = [point], [0.0]
+        widest = 0.0
+        while len(path) < 2 or arc[-1] < _SAC * widest:
+            after = self._parents[path[-1]] if point != 0 else self._widest_after(path[-1])
+            if after < 0:
+                break
+            arc.append(arc[-1] + float(np.linalg.norm(self._points[after] - self._points[path[-1]])))
+            path.append(after)
+            # The parent vessel may be wider than the sac: it begins behind the neck.
+            radii = [self._radii[k] for k in path]
+            dome = max(radii[:-1])
+            if len(path) > 2 and radii[-2] < _NECK * dome and radii[-1] > radii[-2]:
+                return True
+            widest = max(widest, self._radii[after])
+        return False
 
     def _into_lumen(self, path: list[int], radius: float) -> np.ndarray | None:
         """Direction of a path's chord from its first point; None where it has no length. Where the place one radius

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import json
 import os
 from pathlib import Path
 
@@ -12,7 +13,7 @@ from guidewire.anatomy.inspection import Inspection, inspect
 from guidewire.anatomy.mesh import AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.repair import Repaired, repair
-from guidewire.prepare import DOOR, PreparationError
+from guidewire.prepare import DOOR, ROOT, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.whole_files import whole_file, write_whole
 
@@ -54,14 +55,35 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     if arguments.open:
         from guidewire.anatomy.ends import open_ends
 
-        repaired = open_ends(repaired)
+        repaired = open_ends(repaired, None if arguments.open == "all" else list(map(int, arguments.open.split(","))))
     line = find_centreline(repaired.mesh, repaired.rims)
-    inlet = output.find_end(line, arguments.inlet) if arguments.inlet else line.ends[0]
+    if arguments.catheter and not arguments.instrument:
+        raise AnatomyError("--catheter needs the wire in it: add --instrument")
+    wire = diameter_of(arguments.instrument) if arguments.instrument else arguments.wire
+    if arguments.catheter:
+        diameter_of(arguments.catheter)
+    inlet = output.find_inlet(line, arguments.inlet)
     target = (output.find_end(line, arguments.target) if arguments.target
-              else output.default_target(line, inlet, found.unit, arguments.wire))
+              else output.default_target(line, inlet, found.unit, wire))
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
-    output.write_scene(folder, output.scene(line, found.unit, inlet, target, arguments.wire, source.axes))
+    output.write_scene(folder, output.scene(line, found.unit, inlet, target, wire, source.axes, arguments.instrument,
+                                             arguments.catheter))
     return _tell(folder, repaired.mesh, found, repaired, line, arguments)
+
+
+def diameter_of(instrument: str) -> float:
+    """Diameter of an instrument of the library, mm.
+
+    Raises
+    ------
+    AnatomyError : there is none of this name.
+    """
+    names = sorted(file.stem for file in (ROOT / "instruments").glob("*.json"))
+    if instrument not in names:
+        raise AnatomyError(f"there is no instrument '{instrument}': there are {', '.join(names)}")
+    said = json.loads((ROOT / "instruments" / f"{instrument}.json").read_text(encoding="utf-8"))["diameter"]["value"]
+    number, unit = said.split()
+    return float(number) * {"mm": 1.0, "in": 25.4, "F": 1.0 / 3.0}[unit]
 
 
 def _source_of(arguments: argparse.Namespace) -> reading.Source:

@@ -12,8 +12,9 @@ import numpy as np
 
 from guidewire.anatomy.centreline import Centreline, End
 from guidewire.anatomy.inspection import Inspection, Unit
+from guidewire.anatomy.loops import count_loops
 from guidewire.anatomy.lumens import write_obj
-from guidewire.anatomy.mesh import AnatomyError, Mesh, signed_volume
+from guidewire.anatomy.mesh import AnatomyError, Mesh, close_rims, signed_volume
 from guidewire.anatomy.patient import Axes
 from guidewire.anatomy.reading import Source
 from guidewire.anatomy.repair import Repaired
@@ -24,6 +25,7 @@ _SPEED, _TIME_STEP = 0.02, 0.05  # m/s, s: 1 mm a step
 _TIP, _BODY = 30.0, 5.0  # mm: length of the soft tip, with elements of 1 mm; length of the other elements
 _FLEXIBLE = 2.5  # mm: length of the elements of a longer flexible section
 _OVER, _TIGHT, _NARROW = 20.0, 75.0, 5.0  # mm, degrees, mm: a lumen of less radius that turns more over that length
+_AHEAD, _BEHIND = 30.0, 60.0  # mm: of a wire's tip ahead of a catheter's, and of its hub behind the catheter's
 _LONGEST = 300.0  # mm of flexible wire, the tip included
 _HUB_FORCE = 5.0  # N, at which a grip slides along the wire
 _CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by less than 0.2 mm
@@ -50,6 +52,7 @@ def write_vessel(folder: Path, mesh: Mesh, line: Centreline, unit: Unit, source:
         "toSource": (axes.to_lps.T * (1e-3 / unit.metres)).tolist(), "mesh": MESH, "ends": ends,
         "centreline": {"points": [_numbers(row, digits) for row in points], "parents": line.parents.tolist(),
                        "branches": line.branches.tolist(),
+                       "links": [list(loop.points) for loop in line.loops],
                        "names": [f"branch {k}" for k in range(1, int(line.branches.max()) + 1)]}}) + "\n")
 
 
@@ -63,6 +66,20 @@ def check_source(folder: Path, source: Source) -> None:
     if (name, known) != (source.name, source.sha256):
         other = f"another {name}" if name == source.name else name
         raise AnatomyError(f"{folder} holds the vessel of {other}: --force replaces it, --out takes another folder")
+
+
+def find_inlet(line: Centreline, asked: str | None) -> End:
+    """The end with a number or a name, or else the widest one.
+
+    Raises
+    ------
+    AnatomyError : there is none, or it is the dome of a sac.
+    """
+    inlet = line.ends[0] if asked is None else find_end(line, asked)
+    if inlet.is_sac:
+        raise AnatomyError(f"end {inlet.number} '{inlet.name}' is the dome of a sac: no wire enters there, unless "
+                           f"--open {inlet.number} opens it")
+    return inlet
 
 
 def find_end(line: Centreline, asked: str) -> End:
@@ -84,7 +101,8 @@ def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) ->
     it comes to none. Of paths within a twentieth of the longest that whose narrowest place is the widest: where two
     branches leave side by side, a wire goes into the wider one."""
     inner, least = line.inner(), _CLEARANCE * 0.5e-3 * diameter / unit.metres
-    others = [end for end in line.ends if end is not inlet] or line.ends
+    others = ([end for end in line.ends if end is not inlet and not end.is_sac]
+              or [end for end in line.ends if end is not inlet] or line.ends)
     paths = {end.number: line.path(inlet.point, end.point) for end in others}
     lengths = {number: line.length(path) for number, path in paths.items()}
     narrowest = {number: float(line.radii[path][inner[path]].min(initial=np.inf)) for number, path in paths.items()}
@@ -95,11 +113,13 @@ def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) ->
 
 
 def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float,
-          axes: Axes = Axes()) -> Mapping[str, Any]:
+          axes: Axes = Axes(), instrument: str | None = None, catheter: str | None = None) -> Mapping[str, Any]:
     """Parameters of a wire that is pushed from an inlet as far as a target; lengths in mm, the vessel's own axes.
 
     diameter : of the wire, mm.
     axes : of the vessel's file.
+    instrument, catheter : names of those that there are, in place of a wire of that diameter, and over it. The catheter's
+        tip begins 30 mm behind the wire's.
     """
     path = line.path(inlet.point, target.point)
     way = 1e3 * unit.metres * line.length(path)
@@ -112,11 +132,19 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
     if flexible:
         sections.insert(0, {"from": body, "to": length - _TIP, "numberRodElements": round(flexible / _FLEXIBLE),
                             **soft})
+    over: dict[str, Any] = {}
+    if catheter:
+        # The wire's hub is so far behind the catheter's, and its tip ahead.
+        length = _BODY * math.ceil((length + _AHEAD + _BEHIND) / _BODY)
+        count = round((length - _AHEAD - _BEHIND) / _BODY)
+        over = {"catheters": [{"instrument": catheter, "start": _BEHIND, "length": _BODY * count, "elements": count,
+                               "insertionSpeed": _SPEED}]}
+    wire = {"instrument": instrument, "guidewireLength": length, "numberRodElements": round(length / _BODY)} if (
+        instrument) else {
+        "guidewireLength": length, "numberRodElements": round(body / _BODY), "wireRadius": 0.5e-3 * diameter,
+        "youngsModulus": 60e9, "shearModulus": 23e9, "density": 6450.0, "wireSections": sections}
     return {
-        "solver": "direct", "guidewireLength": length, "numberRodElements": round(body / _BODY),
-        "wireRadius": 0.5e-3 * diameter, "youngsModulus": 60e9, "shearModulus": 23e9, "density": 6450.0,
-        "wireSections": sections,
-        "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
+        "solver": "direct", **wire, **over, "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
         "hubForceLimit": _HUB_FORCE,
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
         **({"patientAxes": axes.of_vessel()} if axes.is_known else {}),
@@ -190,7 +218,15 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
                      f"volume {closed / 1e3:.4g} ml{change}")
     if line is not None:
         lines += [f"end {end.number} '{end.name}': {'open' if end.is_open else 'closed'}, at {_place(end.centre)}, "
-                  f"radius {mm * end.radius:.3g} mm" for end in line.ends]
+                  f"radius {mm * end.radius:.3g} mm" + (", the dome of a sac: no inlet" if end.is_sac else "")
+                  for end in line.ends]
+        lines += [f"loop: two ways through the vessel meet at {_place(loop.place)}, where the lumen's radius is about "
+                  f"{mm * loop.radius:.2g} mm, or two vessels touch there; paths and targets take the shorter way"
+                  for loop in line.loops]
+        missing = count_loops(close_rims(repaired.mesh, repaired.rims)) - len(line.loops) if repaired else 0
+        if missing > 0:
+            lines.append(f"{missing} small handle{'s' if missing > 1 else ''} of the wall whose ways do not part: the "
+                         "centreline passes them on one side")
         lines += [f"the rim of '{name}' is out of a plane by {mm * off:.2g} mm: a wire may find no straight start "
                   "there; another end, or a sheath.exit farther inside, may do"
                   for name, off in _bent_rims(repaired).items()] if repaired is not None else []

@@ -101,6 +101,18 @@ def positive(text: str) -> int:
     return int(text)
 
 
+def is_list_of_ends(text: str) -> bool:
+    """Whether a word is of numbers of ends, from 1, with commas between them."""
+    return all(word.isdecimal() and int(word) > 0 for word in text.split(","))
+
+
+def ends(text: str) -> str:
+    """Numbers of ends, such as 1,3, or all."""
+    if text != "all" and not is_list_of_ends(text):
+        raise argparse.ArgumentTypeError(f"'{text}' is not numbers of ends such as 1,3")
+    return text
+
+
 def finite(text: str) -> float:
     """A number."""
     try:

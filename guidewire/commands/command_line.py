@@ -7,7 +7,9 @@ import os
 from pathlib import Path
 
 from guidewire.anatomy.formats import is_anatomy
-from guidewire.commands.arguments import Commands, above_zero, assignment, error_part, finite, path, positive
+from guidewire.commands.arguments import (
+    Commands, above_zero, assignment, ends, error_part, finite, is_list_of_ends, path, positive,
+)
 from guidewire.installed import version
 from guidewire.prepare import ANATOMY, DRAWING, INSTALLED, PACKAGING, SWEEPING, TESTING, VIEWING
 from guidewire.studies.builtin import STUDIES
@@ -134,6 +136,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
     steer.add_argument("--attempts", type=positive, default=200, metavar="N",
                        help="largest number of failed attempts with each tip (200)")
+    steer.add_argument("--minutes", type=above_zero, default=30.0, metavar="M",
+                       help="time after which it gives up at the next failed attempt (30)")
     steer.set_defaults(packages=("numpy",))
 
     view = commands.add_parser("view", help="in the browser: open a scene interactively, replay one or two runs, or "
@@ -268,10 +272,16 @@ def parse(argv: list[str]) -> argparse.Namespace:
     check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
     check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
     check.set_defaults(packages=())
-    arguments = commands.parse(argv)
+    arguments = commands.parse(_with_all_ends(argv))
     if arguments.command == "view" and is_anatomy(arguments.what[0]):
         arguments.packages = (*arguments.packages, *ANATOMY)
     return arguments
+
+
+def _with_all_ends(argv: list[str]) -> list[str]:
+    """Words in which --open of 'anatomy' without numbers says "all", so that the word behind it may be a file."""
+    return ["--open=all" if argv[0] == "anatomy" and word == "--open" and not is_list_of_ends("".join(argv[k + 1:k + 2]))
+            else word for k, word in enumerate(argv)]
 
 
 def _add_overrides(parser: argparse.ArgumentParser) -> None:
@@ -293,7 +303,8 @@ def _add_anatomy(commands: Commands) -> None:
     anatomy.add_argument("--aneurysm", type=above_zero, metavar="F", help="made with an aneurysm of F diameters")
     anatomy.add_argument("--out", type=path, help="folder of the results (results/anatomy/<name of FILE>)")
     anatomy.add_argument("--look", action="store_true", help="report and picture only")
-    anatomy.add_argument("--open", action="store_true", help="cut closed ends open")
+    anatomy.add_argument("--open", nargs="?", const="all", metavar="ENDS", type=ends,
+                         help="open closed ends: all, or those with these numbers, such as 1,3")
     anatomy.add_argument("--force", action="store_true", help="write into a folder that has another file's vessel")
     anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="unit of the coordinates (guessed from the sizes)")
     anatomy.add_argument("--axes", metavar="XYZ", help="where x, y and z of the file point in the patient, such as RAS "
@@ -310,6 +321,8 @@ def _add_anatomy(commands: Commands) -> None:
                          help="number or name of the end that it is pushed to (of those about as far as the farthest, the "
                          "one with the widest path)")
     anatomy.add_argument("--wire", type=above_zero, default=0.36, metavar="MM", help="diameter of the wire (0.36)")
+    anatomy.add_argument("--instrument", metavar="NAME", help="wire of the library (one of 0.36 mm with a bent tip)")
+    anatomy.add_argument("--catheter", metavar="NAME", help="catheter of the library over it")
     anatomy.set_defaults(packages=ANATOMY)
 
 

@@ -39,7 +39,7 @@ def instruments_and_sheath(run: Run, log: PositionLog) -> tuple[tuple[Instrument
     """
     if not log.catheters and run.parameters.get("sheath") is None:
         return (), None
-    recording = read_recording(run, [], len(log.steps), {})
+    recording = read_recording(run, [], len(log.steps), {}, lambda _: [])
     if not log.catheters:
         return (), recording.sheath
     values = {channel.name: channel.values[:, 0] for channel in recording.channels if channel.place == "frame"}

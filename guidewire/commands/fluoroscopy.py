@@ -56,6 +56,7 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
     images = []
     try:
         with session_of(run.folder / PARAMETERS_NAME) as session:
+            is_known = session.describe()["patient"] is not None
             for k in chosen:
                 if not np.isfinite(log.positions[k]).all():
                     raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite")
@@ -64,7 +65,7 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
                 nodes = [log.positions[k], *(positions[k] for positions in log.catheters)]
                 grey = session.picture_of(nodes, centre=centre, field_of_view=side, seed=int(log.steps[k]),
                                           **view)
-                images.append(_with_caption(grey, view, log.time[k]))
+                images.append(_with_caption(grey, view, log.time[k], is_known))
                 tell(len(images), len(chosen))
     except SessionError as error:
         raise PreparationError(str(error).removeprefix("request: ")) from error
@@ -79,11 +80,13 @@ def _chosen(log: PositionLog, arguments: argparse.Namespace, is_film: bool) -> S
     return [nearest(log, arguments.times[0])] if arguments.times else [len(log.time) - 1]
 
 
-def _with_caption(grey: np.ndarray, view: dict[str, Any], time: float) -> Image.Image:
-    """The picture with the C-arm's angles, as on a screen of an angiography room, and the time."""
+def _with_caption(grey: np.ndarray, view: dict[str, Any], time: float, is_known: bool) -> Image.Image:
+    """The picture with the C-arm's angles, as on a screen of an angiography room, and the time; without the words for
+    sides of a patient whose axes are unknown."""
     image = Image.fromarray(grey)
     pen = ImageDraw.Draw(image)
     sides = [f"{'LAO' if view['lao'] >= 0 else 'RAO'} {abs(view['lao']):.0f}",
-             f"{'CRAN' if view['cranial'] >= 0 else 'CAUD'} {abs(view['cranial']):.0f}", f"t = {time:.4g} s"]
-    pen.text((8, len(grey) - 20), "   ".join(sides), fill=20)
+             f"{'CRAN' if view['cranial'] >= 0 else 'CAUD'} {abs(view['cranial']):.0f}"] if is_known else [
+                 f"turned by {view['lao']:.0f}", f"tilted by {view['cranial']:.0f}", "axes unknown"]
+    pen.text((8, len(grey) - 20), "   ".join([*sides, f"t = {time:.4g} s"]), fill=20)
     return image

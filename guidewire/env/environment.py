@@ -155,7 +155,7 @@ class Environment(Env):
             self._state = self._scene.start(draw.tip_turn, draw.insertion)
         self._draw = draw
         self._route = self._scene.route(self.task.targets[draw.target])
-        self._place = self._route.place(self._state.positions[-1])
+        self._place = self._route.place(self._front())
         self._first = self._place[1]
         steps = self.drive.step_time / self._scene.time_step
         self._steps = round(steps)
@@ -235,7 +235,7 @@ class Environment(Env):
             last = self._state
             self._state = self.session.step(push / steps, turn / steps)
             force = max(force, report.add(last, self._state, insertion / steps, turn / steps))
-        self._place = self._route.place(self._state.positions[-1])
+        self._place = self._route.place(self._front())
         report.left = self._place[1]
         end = self._end(force)
         reward = self.reward
@@ -258,6 +258,12 @@ class Environment(Env):
         if self._report.left <= self.task.tolerance:
             return "target"
         return "time" if self._report.time > self.task.time - 1e-9 else ""
+
+    def _front(self) -> np.ndarray:
+        """The last point of the wire up to which it has not left the vessel, (3,), units: the tip, as long as it is
+        inside."""
+        place = self._state.place
+        return self._state.positions[-1] if place is None else place.point
 
     def _seen(self) -> Any:
         return self.observation.of(self._state, self._route, self._place, self._scene.unit)

@@ -30,7 +30,7 @@ from guidewire.prepare import DOOR
 from guidewire.runs import building
 from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
 from guidewire.sessions.session_state import (
-    Frames, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
+    Frames, LumenPlace, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
 )
 
 _MOST = 1 << 31  # from here on a number does not fit a request of the library's
@@ -181,9 +181,18 @@ class Session:
         """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
         "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
         element "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
-        to it: "name", "points" (units), "radii", "distances"; None where the run has none."""
+        to it: "name", "reach" (units before it from which on it is reached), "indices" (of the centreline's points in
+        anatomy.json), "points" (units), "radii", "distances"; None where the run has none; and "patient", unit vectors
+        to the patient's "left", "chest" and "head", None where they are unknown."""
         answer = self._ask("describe")
-        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target")}
+        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target", "patient")}
+
+    def places(self, positions: np.ndarray) -> list[LumenPlace]:
+        """Where a wire with nodes elsewhere, (f, n+1, 3), units, is in its vessel, for each of f states; an empty list
+        where the scene has no inlet."""
+        nodes = np.ascontiguousarray(positions, dtype="<f8")
+        answer = self._ask("places", positions=base64.b64encode(nodes.tobytes()).decode("ascii"))
+        return [LumenPlace.of(row) for row in arrays_of(answer)["lumen"]]
 
     def walls(self, middle: Sequence[float] | None = None, reach: float | None = None) -> list[Surface]:
         """The walls as triangles, the vessel first where there is one.
@@ -207,8 +216,8 @@ class Session:
 
     def picture(self, **view: Any) -> np.ndarray:
         """A fluoroscopic picture of the wire as it is now: grey levels from 0 to 255, (pixels, pixels) of uint8, the
-        first row above. Rays are parallel; the patient's head is towards +z, the chest towards +x, the left side
-        towards +y.
+        first row above. Rays are parallel, and turn about the patient as patientAxes says; where it is unknown, as if the
+        head was towards +z, the chest towards +x and the left side towards +y.
 
         Parameters
         ----------

@@ -16,7 +16,7 @@ if TYPE_CHECKING:
 
 _COLUMNS = {
     "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
-    "hub": 14, "catheter": 12, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
+    "hub": 14, "catheter": 12, "lumen": 9, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
 }
 # Parts of a state, each read off once something of it is asked for.
 MOTION, INSTRUMENTS, STRAINS = PARTS = range(3)
@@ -24,7 +24,7 @@ _STRAINS = ("curvature", "couple", "strain", "force", "energy")
 _PART_OF = {
     **dict.fromkeys(("positions", "velocities", "orientations", "angular_velocities", "contact_forces", "reaction"),
                     MOTION),
-    **dict.fromkeys(("hub", "catheters"), INSTRUMENTS), **dict.fromkeys(_STRAINS, STRAINS),
+    **dict.fromkeys(("hub", "catheters", "place"), INSTRUMENTS), **dict.fromkeys(_STRAINS, STRAINS),
 }
 _DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
 
@@ -64,6 +64,36 @@ class Hub:
 
 
 @dataclass(frozen=True)
+class LumenPlace:
+    """Where an instrument has come to in its vessel: the last point of it, seen from the hub, up to which it has not left
+    the lumen. Of a tip that left by an end that is a point near the end, wherever the tip goes outside.
+
+    Attributes
+    ----------
+    is_inside : whether the tip is in the lumen, and all of the instrument between the inlet and it.
+    is_at_target : whether the place is within a radius of the target along the centreline, or beyond it.
+    near : number, from 0, of the centreline's point to whose sphere it belongs, as in anatomy.json.
+    branch : the branch there, from 0.
+    distance, left : from the inlet and to the target along the centreline, units; nan without a target.
+    point : (3,), units.
+    """
+
+    is_inside: bool
+    is_at_target: bool
+    near: int
+    branch: int
+    distance: float
+    left: float
+    point: np.ndarray
+
+    @staticmethod
+    def of(numbers: np.ndarray) -> LumenPlace:
+        """From a row of the array "lumen"."""
+        return LumenPlace(bool(numbers[0]), bool(numbers[1]), int(numbers[2]), int(numbers[3]), float(numbers[4]),
+                          float(numbers[5]), numbers[6:9])
+
+
+@dataclass(frozen=True)
 class CatheterState:
     """A catheter over the wire at one moment; m rod elements. SI units but for positions and tip_position.
 
@@ -74,6 +104,7 @@ class CatheterState:
     insertion, turn, force, torque, tip_position, tip_direction : as of `Hub`, of its own hub and tip.
     extension : how far the tip of what is inside is beyond its own, m; negative inside.
     overlap : length over which that is inside, m.
+    place : in the vessel; None where the scene has no inlet.
     """
 
     positions: np.ndarray
@@ -86,6 +117,7 @@ class CatheterState:
     tip_direction: np.ndarray
     extension: float
     overlap: float
+    place: LumenPlace | None
 
 
 @dataclass(frozen=True)
@@ -127,6 +159,7 @@ class State:
     energy : of a material, J: of its motion, stored in it, and of the loads that have a potential; else None.
     hub : of solver direct, what is read off at hub and tip; else None.
     catheters : those over the wire, outermost first.
+    place : of the wire in the vessel; None where the scene has no inlet.
     """
 
     step: int
@@ -147,6 +180,7 @@ class State:
     energy: Energy | None
     hub: Hub | None
     catheters: tuple[CatheterState, ...]
+    place: LumenPlace | None
     _session: ClassVar[Callable[..., Session | None]] = _no_session
 
     def picture(self, **view: Any) -> np.ndarray:
@@ -221,7 +255,7 @@ def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 def part_of(array: str) -> int:
     """Which part of a state an array of an answer belongs to."""
-    return INSTRUMENTS if array == "hub" or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
+    return INSTRUMENTS if array in ("hub", "lumen") or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
 
 
 def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
@@ -252,7 +286,8 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
             contact_forces=arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
             reaction=arrays["reaction"][0] if "reaction" in arrays else None)
     elif part == INSTRUMENTS:
-        vars(state).update(hub=_hub(arrays["hub"][0]) if "hub" in arrays else None, catheters=_catheters(arrays))
+        vars(state).update(hub=_hub(arrays["hub"][0]) if "hub" in arrays else None, catheters=_catheters(arrays),
+                           place=_place(arrays, ""))
     else:
         vars(state).update({name: arrays.get(name) for name in _STRAINS},
                            energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)
@@ -272,8 +307,13 @@ def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
         number = len(catheters) + 1
         numbers = arrays[f"catheter{number}"][0]
         catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
-                                       numbers[7:10], *numbers[10:].tolist()))
+                                       numbers[7:10], *numbers[10:].tolist(), _place(arrays, str(number))))
     return tuple(catheters)
+
+
+def _place(arrays: Mapping[str, np.ndarray], number: str) -> LumenPlace | None:
+    numbers = arrays.get(f"lumen{number}")
+    return None if numbers is None else LumenPlace.of(numbers[0])
 
 
 def _hub(numbers: np.ndarray) -> Hub:

@@ -85,16 +85,15 @@ def view(what: Sequence[Path], html: Path | None, frames: int | None, opens: boo
 def _read(folder: Path, frames: int, exact: bool) -> bytes:
     run = read_run(folder)
     middle, diagonal = extent(read_log(folder, "all"))
-    described: dict[str, Any] = {}
-    surfaces: list[Surface] = []
     try:
         with session_of(folder / PARAMETERS_NAME, native=False) as session:
             described, surfaces = session.describe(), session.walls(middle, max(diagonal, 1.0))
+            return read_recording(run, surfaces, frames, described, session.places).to_bytes(exact)
     except SessionError as error:    # its parameters cannot be used any more
         if run.parameters.get("vessel") or run.parameters.get("obstacles"):
             raise PreparationError(str(error)) from error
         _say(f"no fluoroscopy of {folder.name}: {error}")
-    return read_recording(run, surfaces, frames, described).to_bytes(exact)
+    return read_recording(run, [], frames, {}, lambda _: []).to_bytes(exact)
 
 
 def serve_scene(file: Path, build_runner: Callable[[], list[str]], instruments: HeldInstruments, opens: bool) -> None:

@@ -6,7 +6,7 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 from guidewire.sessions.session import Session, State
-from guidewire.viewer.steered import Steered, exact_push, exact_turn
+from guidewire.sessions.steered import Steered, exact_push, exact_turn
 
 
 class HeldInstruments:

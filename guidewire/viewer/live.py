@@ -24,10 +24,11 @@ from aiohttp import WSCloseCode, WSMsgType, web
 
 from guidewire.logs.surfaces import Surface
 from guidewire.sessions.session import Session, SessionError, State
+from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.held import HeldInstruments
-from guidewire.viewer.steered import RULES as STEERED
 from guidewire.viewer.recording import (
-    ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, make_channels, name_walls, radius_of, read_off, sheath_of, units_of,
+    ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, name_walls, radius_of, read_off,
+    sheath_of, units_of,
 )
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
@@ -337,7 +338,7 @@ class LiveRun:
             **{name: None if values is None else values[None]
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
                                     ("reaction", state.reaction))},
-            **read_off(state),
+            "lumen": lumen_of([state.place]), **read_off(state),
         }
 
     def _may_step(self) -> bool:

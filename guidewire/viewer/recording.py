@@ -7,9 +7,10 @@ then the arrays, lowest byte first. `guidewire/viewer/page/recording.js` reads i
 from __future__ import annotations
 
 import json
+import math
 import re
 import struct
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -18,7 +19,7 @@ import numpy as np
 from guidewire.logs.logs import LogError, read_entries, read_log
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
-from guidewire.sessions.session import State
+from guidewire.sessions.session import LumenPlace, State
 
 _STEPS = 65535  # of a quantised number, from its lowest value to its highest
 _ALIGNED = 8
@@ -191,7 +192,7 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         x, y, z, w; "positions1" (k, m+1, 3) of the first catheter, and so on, and what was read off at its hub with
         "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3); "reaction"
         (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log
-        has of the hub, (k,), with "hub." before its key; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
+        has of the hub, (k,), with "hub." before its key; "lumen" (k, 2), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
         "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
@@ -226,6 +227,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
             Channel("wallForce", "force of all walls", units.force, "frame",
                     np.linalg.norm(forces.sum(axis=1), axis=1)),
         ]
+    if "lumen" in known:
+        channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
     channels += _at_the_hub(known, units, along)
     energies = {key: known[key] for key in ENERGIES if key in known}
     if energies:
@@ -330,7 +333,8 @@ def _twist(orientations: np.ndarray, lengths: np.ndarray) -> np.ndarray:
     return np.pad(turn / np.where(means > 0.0, means, 1.0), ((0, 0), (1, 1)))
 
 
-def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: Mapping[str, Any]) -> Recording:
+def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: Mapping[str, Any],
+                   places: Callable[[np.ndarray], Sequence[LumenPlace]]) -> Recording:
     """A run from its folder.
 
     Parameters
@@ -339,6 +343,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     walls : the vessel first, where the run has one, and the obstacles.
     frames : how many at most; of more entries they are taken at even distances, the first and the last among them.
     described : as of `Session.describe`.
+    places : as `Session.places`; empty where that is not known.
 
     Raises
     ------
@@ -356,6 +361,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         **{f"positions{k + 1}": positions[kept] for k, positions in enumerate(log.catheters)},
         **_wall_times(log.steps, log.elapsed, log.time, kept),
     }
+    numbers["lumen"] = lumen_of(places(log.positions[kept]))
     if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
             or run.parameters.get("sheath") is not None):
         numbers.update(_read_more(run, log.steps[kept]))
@@ -369,6 +375,13 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described,
     )
+
+
+def lumen_of(places: Sequence[LumenPlace | None]) -> np.ndarray | None:
+    """(k, 2): units to the target along the vessel and whether it is reached, of k states; None without a target."""
+    if not places or any(place is None or math.isnan(place.left) for place in places):
+        return None
+    return np.array([[place.left, float(place.is_at_target)] for place in places])
 
 
 def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[tuple[str, Surface]]:

@@ -51,6 +51,9 @@ namespace Guidewire.Cli
                 case "walls":
                     answer["walls"] = Convert.ToBase64String(Walls(request.Middle, request.Reach));
                     return;
+                case "places":
+                    TakePlaces(request, answer);
+                    return;
                 case "change":
                     _pictures = null;
                     Change(Opened(), request);
@@ -70,15 +73,15 @@ namespace Guidewire.Cli
                     break;
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
-                        "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"walls\","
+                        "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"places\", \"walls\","
                             + " \"change\", \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
 
-        /// <summary>The run as it is now.</summary>
+        /// <summary>The session as it is now.</summary>
         /// <exception cref="ParameterException">No session is open.</exception>
-        public Simulation Simulation => Opened().Simulation;
+        public SimulationSession Session => Opened();
 
         private SimulationSession Opened()
         {
@@ -204,11 +207,47 @@ namespace Guidewire.Cli
                 ["attenuations"] = new JArray(instrument.Attenuations),
             }));
             answer["target"] = session.RouteToTarget();
+            answer["patient"] = session.Parameters.Scene.PatientAxes is PatientAxes axes ? new JObject
+            {
+                ["left"] = Vector(axes.Left),
+                ["chest"] = Vector(axes.Chest),
+                ["head"] = Vector(axes.Head),
+            }
+            : null;
+        }
+
+        // Where the wire is in its vessel, of as many states as there are positions: rows as of the array "lumen".
+        private void TakePlaces(RunRequest request, JObject answer)
+        {
+            SimulationSession session = Opened();
+            double[] numbers = Doubles(request);
+            int nodes = session.Simulation.State.SphereCount;
+            if (numbers.Length % (3 * nodes) != 0)
+            {
+                throw new ParameterException("request: positions needs to be of " + nodes
+                    + " nodes a state, three numbers each");
+            }
+            _state.ReadPlaces(session, numbers, nodes);
+            answer["lumen"] = Text(_state.Numbers.AsSpan(0, _state.Count));
+        }
+
+        private static JArray Vector(in Vector3d vector)
+        {
+            return new JArray(vector.X, vector.Y, vector.Z);
         }
 
         private void TakePicture(RunRequest request, JObject answer)
         {
             PictureView view = PictureRequest.Read(request.View);
+            double[] positions = Doubles(request);
+            var grey = new byte[view.Pixels * view.Pixels];
+            Picture(view, positions, grey);
+            answer["pixels"] = view.Pixels;
+            answer["grey"] = Convert.ToBase64String(grey);
+        }
+
+        private static double[] Doubles(RunRequest request)
+        {
             byte[] bytes = Bytes(request.Positions, "positions");
             if (bytes.Length % sizeof(double) != 0)
             {
@@ -216,10 +255,7 @@ namespace Guidewire.Cli
             }
             var positions = new double[bytes.Length / sizeof(double)];
             Buffer.BlockCopy(bytes, 0, positions, 0, bytes.Length);
-            var grey = new byte[view.Pixels * view.Pixels];
-            Picture(view, positions, grey);
-            answer["pixels"] = view.Pixels;
-            answer["grey"] = Convert.ToBase64String(grey);
+            return positions;
         }
 
         private static byte[] Bytes(string text, string name)
@@ -242,7 +278,7 @@ namespace Guidewire.Cli
             answer["step"] = simulation.StepCount;
             answer["time"] = simulation.Time;
             answer["predictionError"] = simulation.PredictionError;
-            _state.Read(simulation);
+            _state.Read(Opened());
             int start = 0;
             foreach (SessionState.Field field in _state.Fields)
             {

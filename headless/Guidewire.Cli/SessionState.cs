@@ -3,6 +3,7 @@ using System.Collections.Generic;
 using System.Globalization;
 using System.Runtime.InteropServices;
 using Guidewire.Core;
+using Guidewire.Io;
 
 namespace Guidewire.Cli
 {
@@ -38,18 +39,19 @@ namespace Guidewire.Cli
         /// <summary>How many there are.</summary>
         public int Count { get; private set; }
 
-        /// <summary>Reads all parts of a simulation off as it is now.</summary>
-        public void Read(Simulation simulation)
+        /// <summary>Reads all parts of a session off as it is now.</summary>
+        public void Read(SimulationSession session)
         {
             Clear();
-            TakeMotion(simulation);
-            TakeInstruments(simulation);
-            TakeStrains(simulation);
+            TakeMotion(session.Simulation);
+            TakeInstruments(session);
+            TakeStrains(session.Simulation);
         }
 
         /// <summary>Reads one part off.</summary>
-        public void Read(Simulation simulation, StatePart part)
+        public void Read(SimulationSession session, StatePart part)
         {
+            Simulation simulation = session.Simulation;
             Clear();
             switch (part)
             {
@@ -57,11 +59,25 @@ namespace Guidewire.Cli
                     TakeMotion(simulation);
                     break;
                 case StatePart.Instruments:
-                    TakeInstruments(simulation);
+                    TakeInstruments(session);
                     break;
                 default:
                     TakeStrains(simulation);
                     break;
+            }
+        }
+
+        /// <summary>Reads where the wire is in its vessel, of several states.</summary>
+        /// <param name="positions">Of the nodes of one state after another, units.</param>
+        /// <param name="nodes">Of a state.</param>
+        public void ReadPlaces(SimulationSession session, double[] positions, int nodes)
+        {
+            Clear();
+            var points = new Vector3d[nodes];
+            for (int start = 0; start < positions.Length; start += 3 * nodes)
+            {
+                MemoryMarshal.Cast<double, Vector3d>(positions.AsSpan(start, 3 * nodes)).CopyTo(points);
+                Put("lumen", session.PlaceOf(points));
             }
         }
 
@@ -85,13 +101,15 @@ namespace Guidewire.Cli
             }
         }
 
-        private void TakeInstruments(Simulation simulation)
+        private void TakeInstruments(SimulationSession session)
         {
+            Simulation simulation = session.Simulation;
             RodState state = simulation.State;
             if (simulation.Hub() is HubRecord hub)
             {
                 Put(hub, state.Positions[state.ElementCount]);
             }
+            Put("lumen", session.PlaceOf(state.Positions));
             IReadOnlyList<CoaxialRecord> catheters = simulation.Catheters();
             for (int k = 0; k < catheters.Count; k++)
             {
@@ -99,6 +117,7 @@ namespace Guidewire.Cli
                 Put("positions" + number, catheters[k].Positions);
                 Put("orientations" + number, catheters[k].Orientations);
                 Put("catheter" + number, catheters[k]);
+                Put("lumen" + number, session.PlaceOf(catheters[k].Positions));
             }
         }
 
@@ -153,6 +172,23 @@ namespace Guidewire.Cli
             numbers[9] = direction.Z;
             numbers[10] = catheter.Extension;
             numbers[11] = catheter.Overlap;
+        }
+
+        private void Put(string name, LumenPlace? found)
+        {
+            if (found is LumenPlace place)
+            {
+                Span<double> numbers = Next(name, 1, 9);
+                numbers[0] = place.IsInside ? 1.0 : 0.0;
+                numbers[1] = place.IsAtTarget ? 1.0 : 0.0;
+                numbers[2] = place.Near;
+                numbers[3] = place.Branch;
+                numbers[4] = place.Distance;
+                numbers[5] = place.Left;
+                numbers[6] = place.Point.X;
+                numbers[7] = place.Point.Y;
+                numbers[8] = place.Point.Z;
+            }
         }
 
         private void Put(string name, Vector3d[] values)

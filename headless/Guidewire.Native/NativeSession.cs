@@ -61,7 +61,7 @@ namespace Guidewire.Native
         {
             try
             {
-                _state.Read(_host.Simulation, part);
+                _state.Read(_host.Session, part);
                 if (numbers.Length >= _state.Count)
                 {
                     _state.Numbers.AsSpan(0, _state.Count).CopyTo(numbers);

@@ -144,8 +144,9 @@ namespace Guidewire.Core
             OfCatheters(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfCatheters(p => p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
                 "drive \"displace\" or \"hold\""),
-            OfCatheters(p => p.Drive.Kind == Drive.Hold || Vector3d.Normalize(p.Drive.DisplacementDirection).Z == 1.0,
-                "displacementDirection [0, 0, 1], along the wire"),
+            OfCatheters(p => p.Drive.Kind == Drive.Hold || Vector3d.Dot(Vector3d.Normalize(
+                p.Drive.DisplacementDirection), p.Scene.StartAxis?.Direction ?? Vector3d.UnitZ) > 1.0 - 1e-12,
+                "displacementDirection along the wire, [0, 0, 1] without an inlet"),
             OfCatheters(p => p.Drive.Displacement == 0.0 || p.Drive.Kind != Drive.Hold, "displacement 0"),
             OfCatheters(p => p.Scene.DistalEnd == DistalEnd.Free, "distalEnd \"free\""),
             OfCatheters(p => p.Scene.StartShape == StartShape.Straight

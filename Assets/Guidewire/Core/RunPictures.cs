@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly Fluoroscopy _fluoroscopy;
         private readonly Extents? _vessel;
         private readonly double _perUnit;   // mm
+        private readonly PatientAxes? _axes;
         private readonly ImagedInstrument[] _instruments;
         private ImagedInstrument[] _drawn;
         private double? _attenuation;
@@ -28,6 +29,7 @@ namespace Guidewire.Core
             bool isMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             double metres = isMaterial ? parameters.Scene.MetresPerUnit : Millimetre;
             _perUnit = metres / Millimetre;
+            _axes = parameters.Scene.PatientAxes;
             var vessels = new List<WallSurface>();
             var corners = new List<Vector3d>();
             foreach (ContactShape wall in parameters.Scene.Walls)
@@ -140,7 +142,8 @@ namespace Guidewire.Core
             if (!view.FieldOfView.HasValue)
             {
                 // The box as the C-arm sees it, from its middle: with a scale of 1 pixel is 1 unit.
-                var look = new CArm(view.LeftOblique, view.Cranial, 0.5 * (box.Low + box.High), 1.0, 1);
+                var look = new CArm(view.LeftOblique, view.Cranial, 0.5 * (box.Low + box.High), 1.0, 1,
+                    _axes);
                 for (int corner = 0; corner < 8; corner++)
                 {
                     Vector3d seen = look.ToDetector(new Vector3d((corner & 1) == 0 ? box.Low.X : box.High.X,
@@ -148,7 +151,7 @@ namespace Guidewire.Core
                     side = Math.Max(side, 2.0 * Margin * Math.Max(Math.Abs(seen.X - 0.5), Math.Abs(seen.Y - 0.5)));
                 }
             }
-            return new CArm(view.LeftOblique, view.Cranial, middle, side, view.Pixels);
+            return new CArm(view.LeftOblique, view.Cranial, middle, side, view.Pixels, _axes);
         }
     }
 }

@@ -9,7 +9,7 @@ pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install 
 
 from guidewire.anatomy.masks import mesh_of_image  # noqa: E402
 from guidewire.anatomy.mesh import AnatomyError, find_bodies  # noqa: E402
-from guidewire.anatomy.reading import Image  # noqa: E402
+from guidewire.anatomy.images import Image  # noqa: E402
 
 SPACING = 0.5
 
@@ -32,8 +32,8 @@ def test_a_tube_keeps_its_radius_over_random_axes(radius: float, allowed: float)
     for _ in range(4):
         axis = rng.standard_normal(3)
         axis /= np.linalg.norm(axis)
-        mesh, unit, _ = mesh_of_image(voxels(radius, axis, rng.uniform(-0.5, 0.5, 3)), None, None, None)
-        assert unit == "mm" and find_bodies(mesh).max() == 0
+        mesh, _ = mesh_of_image(voxels(radius, axis, rng.uniform(-0.5, 0.5, 3)), None, None, None)
+        assert find_bodies(mesh).max() == 0
         area, middle = mesh.area_vectors(), mesh.corners.mean(axis=1)
         size, along = np.linalg.norm(area, axis=1), middle @ axis
         away = middle - along[:, None] * axis
@@ -51,8 +51,8 @@ def test_decimation_stays_within_its_error() -> None:
     from guidewire.anatomy.surfaces import farthest
 
     image = voxels(4.0, np.array([0.6, 0.0, 0.8]), np.zeros(3))
-    fine, _, _ = mesh_of_image(image, None, None, 1e-6)
-    coarse, _, notes = mesh_of_image(image, None, None, 0.03)
+    fine, _ = mesh_of_image(image, None, None, 1e-6)
+    coarse, notes = mesh_of_image(image, None, None, 0.03)
     assert len(coarse.triangles) < 0.7 * len(fine.triangles)
     assert farthest(fine, coarse) <= 0.03
     assert "allowed: 0.03 mm" in notes[1]
@@ -63,8 +63,8 @@ def test_a_mirrored_image_keeps_its_place_and_its_orientation() -> None:
 
     image = voxels(3.0, np.array([0.0, 0.6, 0.8]), np.zeros(3))
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    plain, _, _ = mesh_of_image(image, None, None, None)
-    mirrored, _, _ = mesh_of_image(Image(image.values, mirror @ image.to_space), None, None, None)
+    plain, _ = mesh_of_image(image, None, None, None)
+    mirrored, _ = mesh_of_image(Image(image.values, mirror @ image.to_space), None, None, None)
     np.testing.assert_allclose(mirrored.vertices, plain.vertices * [-1.0, 1.0, 1.0], atol=1e-9)
     assert signed_volume(mirrored) == pytest.approx(signed_volume(plain), rel=1e-9)
 
@@ -74,8 +74,8 @@ def test_a_region_is_chosen_by_its_number_and_all_are_listed() -> None:
     values[2:28, 2:28, 2:6] = 1.0  # a table, larger than the vessel
     values[12:18, 12:18, 10:28] = 1.0
     image = Image(values, np.diag([0.5, 0.5, 0.5, 1.0]))
-    largest, _, _ = mesh_of_image(image, None, None, None)
-    second, _, notes = mesh_of_image(image, None, None, None, region=2)
+    largest, _ = mesh_of_image(image, None, None, None)
+    second, notes = mesh_of_image(image, None, None, None, region=2)
     assert largest.vertices[:, 2].max() < 3.5 and second.vertices[:, 2].min() > 4.0
     assert any("2 of 648 voxels around [7.25, 7.25, 9.25]" in note for note in notes)
     with pytest.raises(AnatomyError, match="--region 3: there are 2 regions"):

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import bz2
 import gzip
+import itertools
 import struct
 from pathlib import Path
 
@@ -12,9 +14,11 @@ import pytest
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
 from guidewire.anatomy import reading  # noqa: E402
-from guidewire.anatomy.formats import CENTRELINES, MASKS  # noqa: E402
+from guidewire.anatomy.images import read_image  # noqa: E402
 from guidewire.anatomy.inspection import weld_exactly  # noqa: E402
+from guidewire.anatomy.lines import lines_of_poly_data, read_lines  # noqa: E402
 from guidewire.anatomy.mesh import AnatomyError, signed_volume  # noqa: E402
+from guidewire.anatomy.patient import axes_named  # noqa: E402
 from guidewire.anatomy.surfaces import to_vtk  # noqa: E402
 from guidewire.anatomy.tests.solids import tube, write_stl  # noqa: E402
 
@@ -56,15 +60,15 @@ BINARY = b"\0" * 80 + struct.pack("<I", 4) + b"\0" * 90
 BAD = {
     "a.txt": (b"", "the name has to end in one of"),
     "a.stl": (b"", "empty"),
-    "b.stl": (BINARY, "breaks off: 4 triangles need 284 bytes, there are 174"),
-    "c.stl": (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "breaks off"),
+    "b.stl": (BINARY, "of 4 triangles it needs 284 bytes and has 174"),
+    "c.stl": (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\n", "ends inside a facet"),
     "d.stl": (b"solid words and nothing else, for a hundred characters or so, that no reader of meshes can use at all",
-              "a text, but not an STL"),
+              "has no triangles"),
     "e.stl": (b"solid a\nfacet normal 0 0 1\nouter loop\nvertex 0 nan 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\n"
               b"endfacet\nendsolid a\n", "line 4"),
-    "a.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4: a face of '1 2 9'"),
+    "a.obj": (b"v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 9\n", "line 4 'f 1 2 9' needs vertices from 1 to 3"),
     "b.obj": (b"v 0 0\n", "line 1"),
-    "c.obj": (b"hello\n", "no triangles"),
+    "c.obj": (b"hello\n", "line 1 'hello' needs an OBJ word"),
     "d.obj": (b"v 0 0 0\0", "not a text"),
     "a.ply": (b"solid", "not a PLY"),
     "b.ply": (b"ply\nformat binary_little_endian 1.0\nelement vertex 1000000000\nproperty float x\nproperty float y\n"
@@ -92,10 +96,7 @@ def test_bad_file_is_one_line(tmp_path: Path, name: str, capfd: pytest.CaptureFi
     file = tmp_path / name
     file.write_bytes(content)
     with pytest.raises(AnatomyError) as error:
-        kind = reading.kind_of(file)
-        read = (reading.read_image if kind in MASKS else reading.read_line if kind in CENTRELINES
-                else reading.read_mesh)
-        read(file)
+        reading.read(file)
     assert expected in str(error.value) and "\n" not in str(error.value) and str(file) in str(error.value)
     assert capfd.readouterr().err == ""
 
@@ -110,7 +111,7 @@ def test_centreline_of_slicer_and_of_columns(tmp_path: Path) -> None:
     other = tmp_path / "b.csv"
     other.write_text("X;Y;Z;R\n1;2;3;2\n1;2;5;1.5\n")
     for file in (markup, table, other):
-        line = reading.read_line(file)
+        line = read_lines(file, reading.kind_of(file)).lines[0]
         np.testing.assert_array_equal(line.points, [[1.0, 2.0, 3.0], [1.0, 2.0, 5.0]])
         np.testing.assert_array_equal(line.radii, [2.0, 1.5])
 
@@ -134,11 +135,12 @@ def lines_of_vtp(file: Path, points: str, radii: str) -> Path:
 ])
 def test_bad_lines_of_a_vtp_are_one_line(tmp_path: Path, points: str, radii: str, expected: str) -> None:
     with pytest.raises(AnatomyError, match=expected):
-        reading.line_of_poly_data(lines_of_vtp(tmp_path / "a.vtp", points, radii))
+        reading.read(lines_of_vtp(tmp_path / "a.vtp", points, radii))
 
 
 def test_points_there_twice_are_left_out_of_the_lines_of_a_vtp(tmp_path: Path) -> None:
-    line = reading.line_of_poly_data(lines_of_vtp(tmp_path / "a.vtp", "0 0 0 0 0 0 0 0 2", "1 1 1.5"))
+    file = lines_of_vtp(tmp_path / "a.vtp", "0 0 0 0 0 0 0 0 2", "1 1 1.5")
+    line = lines_of_poly_data(file, reading._poly_data(file, ".vtp")).lines[0]
     np.testing.assert_array_equal(line.points, [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])
     np.testing.assert_array_equal(line.radii, [1.0, 1.5])
 
@@ -148,7 +150,7 @@ def test_voxels_of_a_nifti_lie_where_its_header_says(tmp_path: Path) -> None:
     voxels[1, 2, 5] = 1
     file = tmp_path / "a.nii"
     file.write_bytes(nifti(voxels=voxels.ravel(order="F").tobytes()))
-    image = reading.read_image(file)
+    image = read_image(file, ".nii")
     assert image.values.shape == (8, 8, 8) and image.values[1, 2, 5] == 1
     place = image.to_space @ [1.0, 2.0, 5.0, 1.0]
     np.testing.assert_allclose(place[:3], [0.5, 1.0, 2.5], atol=1e-6)
@@ -159,22 +161,118 @@ def test_a_nifti_in_metres_is_read_in_mm(tmp_path: Path) -> None:
     (tmp_path / "mm.nii").write_bytes(bytes(content))
     content[123] = 1
     (tmp_path / "m.nii").write_bytes(bytes(content))
-    millimetres, metres = (reading.read_image(tmp_path / name).to_space for name in ("mm.nii", "m.nii"))
+    millimetres, metres = (read_image(tmp_path / name, ".nii").to_space for name in ("mm.nii", "m.nii"))
     np.testing.assert_allclose(metres[:3], 1e3 * millimetres[:3], rtol=1e-12)
 
 
 @pytest.mark.parametrize("space, signs", [
-    ("left-posterior-superior", [1, 1, 1]), ("RAS", [1, 1, 1]), ("left-anterior-superior", [1, -1, 1]),
-    ("RPI", [1, 1, 1]), ("RPS", [-1, 1, 1])])
-def test_a_left_handed_space_of_an_nrrd_is_turned_and_lines_may_end_as_in_windows(tmp_path: Path, space, signs) -> None:
+    ("left-posterior-superior", [1, 1, 1]), ("RAS", [-1, -1, 1]), ("left-anterior-superior", [1, -1, 1]),
+    ("RPI", [-1, 1, -1]), ("RPS", [-1, 1, 1]), ("scanner-xyz", [1, 1, 1]), ("3D-right-handed", [1, 1, 1])])
+def test_an_nrrd_is_turned_to_lps_and_lines_may_end_as_in_windows(tmp_path: Path, space, signs) -> None:
     head = (f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: 12 12 12\nencoding: gzip\nspace: {space}\n"
             "space directions: (0.5,0,0) (0,0.6,0) (0,0,0.7)\nspace origin: (1,2,3)\n\n")
     for name, text in (("a.nrrd", head), ("b.nrrd", head.replace("\n", "\r\n"))):
         (tmp_path / name).write_bytes(text.encode() + gzip.compress(bytes(12**3)))
-        image = reading.read_image(tmp_path / name)
+        image = read_image(tmp_path / name, ".nrrd")
         expected = np.c_[np.diag([0.5, 0.6, 0.7]), [1.0, 2.0, 3.0]] * np.array(signs)[:, None]
         np.testing.assert_allclose(image.to_space[:3], expected, atol=1e-12)
-        assert ("left-handed" in image.note) == (signs != [1, 1, 1])
+        assert image.axes.is_known == (space[0] != "s" and space[0] != "3")
+
+
+def test_a_mirrored_space_without_axes_is_refused_unless_they_are_given(tmp_path: Path) -> None:
+    head = ("NRRD0004\ntype: uchar\ndimension: 3\nsizes: 2 2 2\nencoding: raw\nspace: 3D-left-handed\n"
+            "space directions: (1,0,0) (0,1,0) (0,0,1)\n\n")
+    (tmp_path / "a.nrrd").write_bytes(head.encode() + bytes(8))
+    with pytest.raises(AnatomyError, match="give --axes"):
+        read_image(tmp_path / "a.nrrd", ".nrrd")
+    assert read_image(tmp_path / "a.nrrd", ".nrrd", axes_named("LAS")).to_space[1, 1] == -1.0
+
+
+LETTERS = [a + b + c for order in itertools.permutations(("LR", "PA", "SI")) for a in order[0] for b in order[1]
+           for c in order[2]]
+TOWARDS = {"L": (0, 1.0), "R": (0, -1.0), "P": (1, 1.0), "A": (1, -1.0), "S": (2, 1.0), "I": (2, -1.0)}
+
+
+@pytest.mark.parametrize("letters", LETTERS)
+def test_voxels_of_all_48_orientations_lie_in_one_place_of_the_patient(tmp_path: Path, letters: str) -> None:
+    """The same box of numbers stored along other axes, as NRRD in LPS and in axes of its own, and as NIfTI."""
+    sizes, steps, origin = (4, 5, 6), np.array([0.5, 0.6, 0.7]), np.array([3.0, -2.0, 1.0])    # along L, P, S
+    patient = np.arange(120.0).reshape(sizes).astype(np.uint8)
+    axes = [TOWARDS[letter] for letter in letters]
+    stored = patient.transpose([axis for axis, _ in axes])[tuple(slice(None, None, int(s)) for _, s in axes)]
+    columns = np.zeros((3, 3))
+    first = origin.copy()
+    for k, (axis, sign) in enumerate(axes):
+        columns[axis, k] = sign * steps[axis]
+        first[axis] += 0.0 if sign > 0.0 else steps[axis] * (sizes[axis] - 1)
+    voxels = stored.ravel(order="F").tobytes()
+    words = [{"L": "left", "R": "right", "P": "posterior", "A": "anterior", "S": "superior", "I": "inferior"}[one]
+             for one in letters]
+    own = np.array([[s * float(axis == row) for row in range(3)] for axis, s in axes])    # from LPS to the letters
+    for name, space, matrix, corner in (("lps", "left-posterior-superior", columns, first),
+                                        ("own", "-".join(words), own @ columns, own @ first)):
+        rows = " ".join("(" + ",".join(f"{v:.17g}" for v in matrix[:, k]) + ")" for k in range(3))
+        (tmp_path / f"{name}.nrrd").write_bytes(
+            f"NRRD0004\ntype: uchar\ndimension: 3\nsizes: {' '.join(map(str, stored.shape))}\nencoding: raw\n"
+            f"space: {space}\nspace directions: {rows}\nspace origin: ({','.join(f'{v:.17g}' for v in corner)})\n\n"
+            .encode() + voxels)
+    head = bytearray(nifti(stored.shape, voxels))
+    struct.pack_into("<2h", head, 252, 0, 1)
+    struct.pack_into("<12f", head, 280, *(np.diag([-1.0, -1.0, 1.0]) @ np.c_[columns, first]).ravel())
+    (tmp_path / "a.nii").write_bytes(bytes(head))
+    for file, kind in (("lps.nrrd", ".nrrd"), ("own.nrrd", ".nrrd"), ("a.nii", ".nii")):
+        image = read_image(tmp_path / file, kind)
+        assert image.axes.is_known
+        for index in np.ndindex(*stored.shape):
+            place = image.to_space @ [*index, 1.0]
+            of_patient = np.rint((place[:3] - origin) / steps).astype(int)
+            assert np.abs(origin + steps * of_patient - place[:3]).max() < 1e-5
+            assert image.values[index] == patient[tuple(of_patient)]
+
+
+def test_a_nifti_with_a_quaternion_lies_where_vtk_has_it(tmp_path: Path) -> None:
+    from vtkmodules.vtkIOImage import vtkNIFTIImageReader
+
+    head = bytearray(nifti((4, 5, 6)))
+    struct.pack_into("<8f", head, 76, -1.0, 0.5, 0.6, 0.7, 0.0, 0.0, 0.0, 0.0)
+    struct.pack_into("<2h", head, 252, 1, 0)
+    struct.pack_into("<6f", head, 256, 0.3, -0.4, 0.5, 7.0, 8.0, 9.0)
+    (tmp_path / "a.nii").write_bytes(bytes(head))
+    reader = vtkNIFTIImageReader()
+    reader.SetFileName(str(tmp_path / "a.nii"))
+    reader.Update()
+    matrix = reader.GetQFormMatrix()
+    ras = np.array([[matrix.GetElement(i, j) for j in range(4)] for i in range(4)])
+    spacing = np.diag([*reader.GetOutput().GetSpacing(), 1.0])
+    origin = np.eye(4)
+    origin[:3, 3] = reader.GetOutput().GetOrigin()
+    expected = np.diag([-1.0, -1.0, 1.0, 1.0]) @ ras @ origin @ spacing
+    # VTK turns the third axis of a mirrored file by reordering its slices: the box of all voxels is the same.
+    ours = read_image(tmp_path / "a.nii", ".nii").to_space
+    corners = np.array([[*index, 1.0] for index in itertools.product((0, 3), (0, 4), (0, 5))])
+    one, other = (np.sort((corners @ to_space.T)[:, :3].round(4), axis=0) for to_space in (ours, expected))
+    np.testing.assert_allclose(one, other, atol=2e-4)
+
+
+def test_values_are_what_slope_intercept_byte_order_and_encoding_make_of_them(tmp_path: Path) -> None:
+    numbers = np.arange(-30, 34, dtype=np.int16).reshape(4, 4, 4)
+    for order in "<>":
+        head = bytearray(nifti((4, 4, 4), numbers.astype(order + "i2").ravel(order="F").tobytes()))
+        if order == ">":
+            for at, form in ((0, "i"), (40, "8h"), (76, "8f"), (108, "f")):
+                struct.pack_into(">" + form, head, at, *struct.unpack_from("<" + form, head, at))
+        struct.pack_into(order + "2h", head, 70, 4, 16)
+        struct.pack_into(order + "2f", head, 112, 0.5, -7.0)
+        (tmp_path / "a.nii").write_bytes(bytes(head))
+        np.testing.assert_array_equal(read_image(tmp_path / "a.nii", ".nii").values, 0.5 * numbers - 7.0)
+    base = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nspace: LPS\nspace directions: (1, 0, 0) (0, 1, 0) (0,0,1)\n"
+    flat = numbers.ravel(order="F")
+    for endian, order in (("little", "<"), ("big", ">")):
+        raw = flat.astype(order + "i2").tobytes()
+        for encoding, data in (("raw", raw), ("gzip", gzip.compress(raw)), ("bzip2", bz2.compress(raw)),
+                               ("hex", raw.hex().encode()), ("ascii", " ".join(map(str, flat)).encode())):
+            (tmp_path / "a.nrrd").write_bytes(f"{base}endian: {endian}\nencoding: {encoding}\n\n".encode() + data)
+            np.testing.assert_array_equal(read_image(tmp_path / "a.nrrd", ".nrrd").values, numbers)
 
 
 def test_binary_stl_is_read(tmp_path: Path) -> None:

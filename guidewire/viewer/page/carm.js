@@ -2,23 +2,29 @@
 /** @typedef {[number, number, number]} Point */
 
 /**
- * Where a fluoroscopic picture is taken from, as CArm of the core: the head is towards +z, the chest towards +x, the
- * left side towards +y; rays are parallel. LAO and cranial angles are positive.
+ * How a patient lies: unit vectors to the left side, the chest and the head.
+ * @typedef {{left: Point, chest: Point, head: Point}} Patient
  */
+/** Where nobody says it, as PatientAxes of the core. @type {Patient} */
+export const UNKNOWN = { left: [0, 1, 0], chest: [1, 0, 0], head: [0, 0, 1] };
+
+/** Where a fluoroscopic picture is taken from, as CArm of the core: rays are parallel, LAO and cranial are positive. */
 export class CArm {
   /**
    * @param {number} lao degrees @param {number} cranial degrees @param {Point} centre units
-   * @param {number} field side of the picture, units @param {number} pixels of a side
+   * @param {number} field side of the picture, units @param {number} pixels of a side @param {Patient} patient
    */
-  constructor(lao, cranial, centre, field, pixels) {
+  constructor(lao, cranial, centre, field, pixels, patient = UNKNOWN) {
     const [a, b] = [lao, cranial].map((angle) => (angle * Math.PI) / 180);
     this.centre = centre;
     this.pixels = pixels;
     /** Pixels per unit. */
     this.scale = pixels / field;
-    this._towards = [Math.cos(b) * Math.cos(a), Math.cos(b) * Math.sin(a), Math.sin(b)];
-    this._up = [-Math.sin(b) * Math.cos(a), -Math.sin(b) * Math.sin(a), Math.cos(b)];
-    this._right = [-Math.sin(a), Math.cos(a), 0];
+    const { left, chest, head } = patient;
+    const level = chest.map((value, k) => Math.cos(a) * value + Math.sin(a) * left[k]);
+    this._towards = level.map((value, k) => Math.cos(b) * value + Math.sin(b) * head[k]);
+    this._up = level.map((value, k) => Math.cos(b) * head[k] - Math.sin(b) * value);
+    this._right = left.map((value, k) => Math.cos(a) * value - Math.sin(a) * chest[k]);
   }
 
   /**
@@ -38,10 +44,11 @@ export class CArm {
   /**
    * The side of a picture in which a box is seen from its middle, units.
    * @param {number} lao @param {number} cranial @param {Point} low corner, units @param {Point} high
+   * @param {Patient} patient
    */
-  static framing(lao, cranial, low, high) {
+  static framing(lao, cranial, low, high, patient = UNKNOWN) {
     const middle = /** @type {Point} */ (low.map((value, k) => 0.5 * (value + high[k])));
-    const look = new CArm(lao, cranial, middle, 1, 1);
+    const look = new CArm(lao, cranial, middle, 1, 1, patient);
     let side = 1e-9;
     for (let corner = 0; corner < 8; corner++) {
       const [x, y] = look.project([corner & 1 ? high[0] : low[0], corner & 2 ? high[1] : low[1],

@@ -83,6 +83,7 @@ export function makeChannels(rules, parameters, state, hasWalls, measured) {
     add("contactForce", "contact force", force, "sphere", rows(forces).map((i) => Math.sqrt(dot(forces, i, i))));
     add("wallForce", "force of all walls", force, "frame", [Math.sqrt(sum[0] ** 2 + sum[1] ** 2 + sum[2] ** 2)]);
   }
+  if (state.lumen && !Number.isNaN(state.lumen[5])) add("lumen", "", "", "frame", [state.lumen[5], state.lumen[1]]);
   const hub = (/** @type {string} */ key) => state.hub?.[HUB[key]] ?? NaN;
   const hubName = (/** @type {string} */ key) => key[0].toUpperCase() + key.slice(1);
   for (const [key, [label, unit, isSigned]] of Object.entries(rules.hub)) {

@@ -1,5 +1,5 @@
 // @ts-check
-import { CArm } from "./carm.js";
+import { CArm, UNKNOWN } from "./carm.js";
 import { Lumen } from "./lumen.js";
 import { NUMBERS, Pieces } from "./pieces.js";
 import { BLUR, COMPOSE, COVER, SHOW, STRIP, STRIP_CORNERS } from "./shaders.js";
@@ -53,6 +53,8 @@ export class Fluoroscopy {
     /** Lowest and highest corner of what is framed, units. @type {[Point, Point]} */
     this.box = [[0, 0, 0], [1, 1, 1]];
     this.millimetres = 1; // of a unit
+    /** How the patient lies. @type {import("./carm.js").Patient} */
+    this.patient = UNKNOWN;
     this.look = plainLook();
     this._seen = "";
     this._shown = "";
@@ -80,9 +82,10 @@ export class Fluoroscopy {
   /**
    * Says what is seen.
    * @param {import("./recording.js").Wall[]} walls @param {[Point, Point]} box what is framed, units
-   * @param {number} millimetres of a unit
+   * @param {number} millimetres of a unit @param {import("./carm.js").Patient | null} [patient] null: unknown
    */
-  set(walls, box, millimetres) {
+  set(walls, box, millimetres, patient = null) {
+    this.patient = patient ?? UNKNOWN;
     this._lumens = walls.filter((wall) => wall.kind === "vessel").map((wall) => new Lumen(wall));
     this.box = box;
     this.millimetres = millimetres;
@@ -94,8 +97,8 @@ export class Fluoroscopy {
     const { lao, cranial, centre, field } = this.look;
     const [low, high] = this.box;
     const middle = centre ?? /** @type {Point} */ (low.map((value, k) => 0.5 * (value + high[k])));
-    const side = field === null ? CArm.framing(lao, cranial, low, high) : field / this.millimetres;
-    return new CArm(lao, cranial, middle, side, this.pixels);
+    const side = field === null ? CArm.framing(lao, cranial, low, high, this.patient) : field / this.millimetres;
+    return new CArm(lao, cranial, middle, side, this.pixels, this.patient);
   }
 
   /** Draws. @param {[Instrument, ArrayLike<number>][]} instruments with the points of their centrelines, units */

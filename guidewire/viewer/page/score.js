@@ -49,8 +49,8 @@ export class Score {
       if (force >= LIMITS.wallForce[1]) this.stop += seconds;
       else if (force >= LIMITS.wallForce[0]) this.caution += seconds;
       this._time = time;
-      if (!route) continue;
-      const { left, fraction, isReached } = progress(route, this._recording.at("positions", this._next).slice(-3));
+      if (!route || !this._recording.channels.has("lumen")) continue;
+      const { left, fraction, isReached } = progress(route, this._recording.at("lumen", this._next));
       this.left = left;
       this.best = Math.max(this.best, fraction);
       if (isReached && Number.isNaN(this.reachedAt)) this.reachedAt = time;

@@ -8,6 +8,9 @@ import { byId, make } from "./panel.js";
 const PIXELS = 512;
 const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30", 30, 0], ["RAO 30", -30, 0],
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
+/** The same of a patient whose axes are unknown. */
+const PLAIN_VIEWS = VIEWS.map(([, lao, cranial]) => /** @type {[string, number, number]} */ (
+  [cranial ? `tilted ${cranial}°` : `turned ${lao}°`, lao, cranial]));
 const DEGREES_A_POINT = 0.4; // of dragging
 const WIDEST = 180; // mm, as of a detector: where the vessel is larger the picture goes with the tip
 const CLOSE_UP = 80; // mm
@@ -27,6 +30,8 @@ export class Xray {
     }
     /** @type {Model[]} */
     this._models = [];
+    /** How the patient lies; null where it is unknown. @type {import("./carm.js").Patient | null} */
+    this._patient = null;
     this._isClose = false;
     this._frames = 0;
     /** Pictures drawn so far. */
@@ -56,7 +61,9 @@ export class Xray {
     if (!this.fluoroscopy || !isShown) return;
     const [{ recording }] = this._models;
     this.fluoroscopy.look = { ...plainLook(), ...WORN };
-    this.fluoroscopy.set(recording.walls, recording.box, recording.millimetres);
+    this._patient = recording.described?.patient ?? null;
+    this.fluoroscopy.set(recording.walls, recording.box, recording.millimetres, this._patient);
+    this._makeTools();
     this._zoom = 1;
     this.ask();
   }
@@ -134,8 +141,10 @@ export class Xray {
     const { lao, cranial, field } = this.fluoroscopy.look;
     const angle = (/** @type {number} */ value, /** @type {string[]} */ names) =>
       `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;
-    byId("arm").textContent = `${angle(lao, ["LAO", "RAO"])}  ${angle(cranial, ["CRAN", "CAUD"])}\n${
-      Math.round(field ?? 0)} mm`;
+    const [turned, tilted] = this._patient ? [["LAO", "RAO"], ["CRAN", "CAUD"]]
+      : [["turned", "turned −"], ["tilted", "tilted −"]];
+    byId("arm").textContent = `${angle(lao, turned)}  ${angle(cranial, tilted)}\n${Math.round(field ?? 0)} mm${
+      this._patient ? "" : ", axes unknown"}`;
     for (const button of byId("armTools").querySelectorAll("button[data-lao]")) {
       button.setAttribute("aria-pressed", String(Number(button.dataset.lao) === Math.round(lao)
         && Number(button.dataset.cranial) === Math.round(cranial)));
@@ -171,7 +180,7 @@ export class Xray {
     near.setAttribute("aria-label", "nearer");
     const far = make("button", { onclick: () => this.zoom(1.25) }, "−");
     far.setAttribute("aria-label", "farther");
-    byId("armTools").replaceChildren(...VIEWS.map(([name, lao, cranial]) => {
+    byId("armTools").replaceChildren(...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
       const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
       Object.assign(button.dataset, { lao, cranial });
       return button;

@@ -4,11 +4,10 @@ namespace Guidewire.Core
 {
     /// <summary>The view of a fluoroscopic picture: the angles of a C-arm about the patient, a centre, parallel rays,
     /// and the field of view.</summary>
-    /// <remarks>The patient lies with the head towards +z, the chest towards +x and the left side towards +y, because
-    /// wires enter scenes along +z. The detector is in front of the chest at 0 and 0; a left anterior oblique angle
-    /// (LAO) moves it to the patient's left, a cranial one towards the head; RAO and caudal are negative. The picture
-    /// is seen from the detector, with the head above: at 0 and 0 its x axis is +y and its upward axis +z. With
-    /// parallel rays nothing is magnified.</remarks>
+    /// <remarks>The detector is in front of the chest at 0 and 0; a left anterior oblique angle (LAO) moves it to the
+    /// patient's left, a cranial one towards the head; RAO and caudal are negative. The picture is seen from the
+    /// detector, with the head above: at 0 and 0 the patient's left side is at its right. With parallel rays nothing is
+    /// magnified.</remarks>
     public sealed class CArm : IEquatable<CArm>
     {
         private readonly Vector3d _right;
@@ -21,8 +20,10 @@ namespace Guidewire.Core
         /// <param name="centre">What is in the middle of the picture, units.</param>
         /// <param name="fieldOfView">Side of the square, units, above 0.</param>
         /// <param name="pixels">Pixels of a side, from 1 to <see cref="MostPixels"/>.</param>
+        /// <param name="axes">How the patient lies; null: unknown.</param>
         /// <exception cref="ArgumentException">A value out of its range.</exception>
-        public CArm(double leftOblique, double cranial, in Vector3d centre, double fieldOfView, int pixels)
+        public CArm(double leftOblique, double cranial, in Vector3d centre, double fieldOfView, int pixels,
+            PatientAxes? axes = null)
         {
             if (!(fieldOfView > 0.0) || double.IsInfinity(fieldOfView) || pixels < 1 || pixels > MostPixels
                 || !(Math.Abs(leftOblique) <= 360.0) || !(Math.Abs(cranial) <= 90.0) || !centre.IsFinite)
@@ -35,12 +36,13 @@ namespace Guidewire.Core
             Centre = centre;
             FieldOfView = fieldOfView;
             Pixels = pixels;
+            Axes = axes ?? PatientAxes.Unknown;
             double a = leftOblique * Math.PI / 180.0;
             double b = cranial * Math.PI / 180.0;
-            var level = new Vector3d(Math.Cos(a), Math.Sin(a), 0.0);
-            _towards = Math.Cos(b) * level + Math.Sin(b) * Vector3d.UnitZ;
-            _up = Math.Cos(b) * Vector3d.UnitZ - Math.Sin(b) * level;
-            _right = new Vector3d(-Math.Sin(a), Math.Cos(a), 0.0);
+            Vector3d level = Math.Cos(a) * Axes.Chest + Math.Sin(a) * Axes.Left;
+            _towards = Math.Cos(b) * level + Math.Sin(b) * Axes.Head;
+            _up = Math.Cos(b) * Axes.Head - Math.Sin(b) * level;
+            _right = Math.Cos(a) * Axes.Left - Math.Sin(a) * Axes.Chest;
         }
 
         /// <summary>Most pixels of a picture's side.</summary>
@@ -61,6 +63,9 @@ namespace Guidewire.Core
         /// <summary>Pixels of a side.</summary>
         public int Pixels { get; }
 
+        /// <summary>How the patient lies.</summary>
+        public PatientAxes Axes { get; }
+
         /// <summary>Pixels per unit.</summary>
         public double Scale => Pixels / FieldOfView;
 
@@ -77,7 +82,8 @@ namespace Guidewire.Core
         public bool Equals(CArm? other)
         {
             return other != null && LeftOblique == other.LeftOblique && Cranial == other.Cranial
-                && Centre == other.Centre && FieldOfView == other.FieldOfView && Pixels == other.Pixels;
+                && Centre == other.Centre && FieldOfView == other.FieldOfView && Pixels == other.Pixels
+                && Axes.Equals(other.Axes);
         }
 
         /// <inheritdoc/>
@@ -89,7 +95,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override int GetHashCode()
         {
-            return HashCode.Combine(LeftOblique, Cranial, Centre, FieldOfView, Pixels);
+            return HashCode.Combine(LeftOblique, Cranial, Centre, FieldOfView, Pixels, Axes);
         }
     }
 }

@@ -25,6 +25,9 @@ namespace Guidewire.Core
         /// <summary>Length of one unit, m.</summary>
         public double MetresPerUnit { get; set; } = 1e-3;
 
+        /// <summary>How the patient lies in the scene, or null where nobody says it.</summary>
+        public PatientAxes? PatientAxes { get; set; }
+
         /// <summary>The shape it starts from.</summary>
         public StartShape StartShape { get; set; } = StartShape.Straight;
 

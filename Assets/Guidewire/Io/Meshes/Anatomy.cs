@@ -28,8 +28,27 @@ namespace Guidewire.Io
         /// <summary>The branch of each, an index of <see cref="BranchNames"/>.</summary>
         public int[] Branches { get; set; } = Array.Empty<int>();
 
+        /// <summary>Pairs of points where branches of the tree meet again: the vessel is a loop there.</summary>
+        public IReadOnlyList<(int One, int Other)> Links { get; set; } = Array.Empty<(int One, int Other)>();
+
+        /// <summary>Axes of the patient in the scene, as the file states them, or null.</summary>
+        public PatientAxes? Axes { get; set; }
+
         /// <summary>The branches' names.</summary>
         public IReadOnlyList<string> BranchNames { get; set; } = Array.Empty<string>();
+
+        /// <summary>The points next to each: its parent, its children, and those that it meets in a loop.</summary>
+        public List<int>[] Neighbours()
+        {
+            List<int>[] found = Array.ConvertAll(Parents, _ => new List<int>());
+            foreach ((int one, int other) in Links.Concat(
+                Enumerable.Range(0, Parents.Length).Where(k => Parents[k] >= 0).Select(k => (Parents[k], k))))
+            {
+                found[one].Add(other);
+                found[other].Add(one);
+            }
+            return found;
+        }
 
         /// <summary>The end with a name, whatever its case, or null.</summary>
         public VesselEnd? Find(string name)

@@ -8,7 +8,7 @@ namespace Guidewire.Io
 {
     /// <summary>Reads the file of a vessel's ends and centreline: {"ends": [{"number", "name", "centre", "radius",
     /// "direction", "open", "point"}, ..], "centreline": {"points": [[x, y, z, radius], ..], "parents": [..],
-    /// "branches": [..], "names": [..]}}, lengths in the mesh's units.</summary>
+    /// "branches": [..], "names": [..], "links": [[one, other], ..]}}, lengths in the mesh's units.</summary>
     internal static class AnatomyReader
     {
         /// <summary>The anatomy that the key vessel names, placed as the vessel is; null where it names none.</summary>
@@ -64,11 +64,14 @@ namespace Guidewire.Io
                 Parents = line["parents"]!.Select(item => (int)item).ToArray(),
                 Branches = line["branches"]!.Select(item => (int)item - 1).ToArray(),
                 BranchNames = line["names"]!.Select(item => (string)item!).ToArray(),
+                Links = (line["links"] ?? new JArray()).Select(pair => ((int)pair[0]!, (int)pair[1]!)).ToArray(),
+                Axes = PatientAxes.Named((string?)root["patientAxes"] ?? "")?.Turned(placement),
             };
             int count = rows.Length;
             bool isTree = count > 1 && anatomy.Parents.Length == count && anatomy.Branches.Length == count
                 && anatomy.Parents[0] == -1 && anatomy.Radii.All(radius => radius > 0.0)
                 && Enumerable.Range(1, count - 1).All(k => anatomy.Parents[k] >= 0 && anatomy.Parents[k] < k)
+                && anatomy.Links.All(link => link.One >= 0 && link.One < count && link.Other >= 0 && link.Other < count)
                 && anatomy.Branches.All(branch => branch >= 0 && branch < anatomy.BranchNames.Count);
             if (!isTree)
             {

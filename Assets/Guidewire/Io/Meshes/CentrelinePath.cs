@@ -9,10 +9,11 @@ namespace Guidewire.Io
     /// lumen.</summary>
     /// <remarks>A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, the power of p: not
     /// to the nearest centre, because beside a wide vessel the middle of a narrow one may be nearer to points of the
-    /// wide one. The centreline is a tree: of a loop of vessels it has the shorter sides.</remarks>
+    /// wide one.</remarks>
     internal sealed class CentrelinePath
     {
         private readonly Anatomy _anatomy;
+        private CentrelinePath? _fromTarget;
         private readonly int[] _before;   // next point towards the inlet, -1 there
 
         /// <param name="anatomy">The vessel.</param>
@@ -22,30 +23,30 @@ namespace Guidewire.Io
             _anatomy = anatomy;
             Inlet = inlet;
             int count = anatomy.Points.Length;
-            _before = (int[])anatomy.Parents.Clone();
-            int after = -1;
-            for (int k = inlet.Point; k >= 0; k = anatomy.Parents[k])
-            {
-                _before[k] = after;    // from the inlet to the root the tree's direction is turned
-                after = k;
-            }
+            _before = new int[count];
             Distances = new double[count];
-            var isKnown = new bool[count];
-            isKnown[inlet.Point] = true;
-            var chain = new List<int>();
-            for (int k = 0; k < count; k++)
+            Array.Fill(_before, -1);
+            Array.Fill(Distances, double.PositiveInfinity);
+            Distances[inlet.Point] = 0.0;
+            List<int>[] neighbours = anatomy.Neighbours();
+            var isDone = new bool[count];
+            // Dijkstra's shortest paths: of a loop of vessels the shorter way to each point.
+            var waiting = new SortedSet<(double Distance, int Point)> { (0.0, inlet.Point) };
+            while (waiting.Count > 0)
             {
-                chain.Clear();
-                for (int i = k; !isKnown[i]; i = _before[i])
+                (double distance, int own) = waiting.Min;
+                waiting.Remove((distance, own));
+                isDone[own] = true;
+                foreach (int other in neighbours[own])
                 {
-                    chain.Add(i);
-                }
-                for (int i = chain.Count - 1; i >= 0; i--)
-                {
-                    int own = chain[i];
-                    Distances[own] = Distances[_before[own]]
-                        + Vector3d.Distance(anatomy.Points[own], anatomy.Points[_before[own]]);
-                    isKnown[own] = true;
+                    double through = distance + Vector3d.Distance(anatomy.Points[other], anatomy.Points[own]);
+                    if (!isDone[other] && through < Distances[other])
+                    {
+                        waiting.Remove((Distances[other], other));
+                        Distances[other] = through;
+                        _before[other] = own;
+                        waiting.Add((through, other));
+                    }
                 }
             }
         }
@@ -57,10 +58,28 @@ namespace Guidewire.Io
         public Vector3d? TargetPoint => Target < 0 ? (Vector3d?)null : _anatomy.Points[Target];
 
         /// <summary>Target of the tip: a point of the centreline; -1 without a target.</summary>
-        public int Target { get; set; } = -1;
+        public int Target { get; private set; } = -1;
+
+        /// <summary>Sets the target.</summary>
+        /// <param name="target">A point of the centreline.</param>
+        /// <param name="name">As it is called.</param>
+        /// <param name="reach">How far before the target along the centreline it counts as reached, units: the radius
+        /// of the lumen there. At a closed end the sphere of the centreline's last point has none.</param>
+        public void SetTarget(int target, string name, double reach)
+        {
+            (Target, TargetName, Reach) = (target, name, reach);
+            Vector3d ahead = _before[target] < 0 ? Inlet.Direction
+                : _anatomy.Points[_before[target]] - _anatomy.Points[target];
+            ahead = ahead.LengthSquared > 0.0 ? Vector3d.Normalize(ahead) : Inlet.Direction;
+            _fromTarget = new CentrelinePath(_anatomy,
+                new VesselEnd(0, name, _anatomy.Points[target], reach, ahead, target));
+        }
+
+        /// <summary>How far before the target it counts as reached, units.</summary>
+        public double Reach { get; private set; }
 
         /// <summary>The target as it is called.</summary>
-        public string TargetName { get; set; } = "";
+        public string TargetName { get; private set; } = "";
 
         /// <summary>Of each point of the centreline from the inlet along it, units.</summary>
         public double[] Distances { get; }
@@ -100,6 +119,13 @@ namespace Guidewire.Io
             return Distances[near] + Math.Max(-most, Math.Min(most, ahead));
         }
 
+        /// <summary>Distance of a point along the centreline to the target, negative beyond it; not a number without a
+        /// target.</summary>
+        public double LeftFrom(in Vector3d point, int near)
+        {
+            return _fromTarget == null ? double.NaN : _fromTarget.DistanceOf(point, near);
+        }
+
         /// <summary>Whether a point of the centreline is at the target: within a radius of it along the centreline, or
         /// beyond it.</summary>
         public bool IsAtTarget(int near)
@@ -115,7 +141,7 @@ namespace Guidewire.Io
                     return true;
                 }
             }
-            for (int k = Target; k >= 0 && Distances[Target] - Distances[k] <= _anatomy.Radii[Target]; k = _before[k])
+            for (int k = Target; k >= 0 && Distances[Target] - Distances[k] <= Reach; k = _before[k])
             {
                 if (k == near)
                 {
@@ -125,8 +151,14 @@ namespace Guidewire.Io
             return false;
         }
 
+        /// <summary>The branch of a point of the centreline, from 0.</summary>
+        public int BranchOf(int near)
+        {
+            return _anatomy.Branches[near];
+        }
+
         /// <summary>The points of the centreline from the inlet to the target, units, with radii and distances: "name",
-        /// "points", "radii", "distances".</summary>
+        /// "reach", "indices" (in the anatomy's file), "points", "radii", "distances".</summary>
         public JObject RouteToTarget()
         {
             var route = new List<int>();
@@ -138,6 +170,8 @@ namespace Guidewire.Io
             return new JObject
             {
                 ["name"] = TargetName,
+                ["reach"] = Reach,
+                ["indices"] = new JArray(route),
                 ["points"] = new JArray(route.ConvertAll(k =>
                     new JArray(_anatomy.Points[k].X, _anatomy.Points[k].Y, _anatomy.Points[k].Z))),
                 ["radii"] = new JArray(route.ConvertAll(k => _anatomy.Radii[k])),

@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using System.Security.Cryptography;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -16,6 +17,9 @@ namespace Guidewire.Io
         private Vector3d[] _rims = Array.Empty<Vector3d>();
         private Placement _placement;
         private MeshShape? _wall;
+
+        /// <summary>SHA-256 of what was read, in hex.</summary>
+        internal string Sha256 { get; private set; } = "";
 
         /// <summary>The wall in a file, placed.</summary>
         /// <param name="file">As of <see cref="MeshFile.Read"/>.</param>
@@ -34,6 +38,8 @@ namespace Guidewire.Io
             _wall = null;
             _wall = new MeshShape(MeshFile.Make(file, bytes, scale, rims), placement);
             (_file, _bytes, _scale, _rims, _placement) = (file, bytes, scale, rims, placement);
+            using SHA256 sha = SHA256.Create();
+            Sha256 = BitConverter.ToString(sha.ComputeHash(bytes)).Replace("-", "").ToLowerInvariant();
             return _wall;
         }
     }

@@ -6,13 +6,12 @@ using Guidewire.Core;
 namespace Guidewire.Io
 {
     /// <summary>Wavefront OBJ: lines "v x y z" and "f i j k ..." with indices from 1, or from the end when negative. A
-    /// polygon becomes a fan; texture and normal indices, groups and materials are ignored.</summary>
+    /// polygon becomes a fan; what stands behind a slash, groups and materials are ignored.</summary>
     internal static class ObjReader
     {
-        private static readonly string[] PassedOver =
-        {
-            "vt", "vn", "vp", "g", "o", "s", "l", "p", "mtllib", "usemtl",
-        };
+        private static readonly HashSet<string> PassedOver = new HashSet<string>((
+            "vt vn vp g o s l p mg mtllib usemtl maplib usemap cstype deg bmat step curv curv2 surf parm trim hole scrv"
+            + " sp end con bevel c_interp d_interp lod shadow_obj trace_obj ctech stech call csh").Split(' '));
 
         /// <summary>Adds what the file holds; what is wrong with it in one phrase, or null.</summary>
         public static string? Read(byte[] bytes, List<Vector3d> vertices, List<int> triangles)
@@ -31,7 +30,7 @@ namespace Guidewire.Io
                 string word = lines.Words.Length > 0 ? lines.Words[0] : "";
                 string? problem = word == "v" ? lines.ReadVertex(vertices)
                     : word == "f" ? ReadFace(lines, vertices.Count, triangles)
-                    : word.Length == 0 || Array.IndexOf(PassedOver, word) >= 0 ? null
+                    : word.Length == 0 || PassedOver.Contains(word) ? null
                     : lines.Error("an OBJ word (v, f, ...)");
                 if (problem != null)
                 {
@@ -57,7 +56,8 @@ namespace Guidewire.Io
                 if (!int.TryParse(text, NumberStyles.AllowLeadingSign, CultureInfo.InvariantCulture, out int index)
                     || index == 0 || index > count || index < -count)
                 {
-                    return lines.Error("vertices from 1 to " + count.ToString(CultureInfo.InvariantCulture));
+                    return lines.Error(count == 0 ? "vertices before it"
+                        : "vertices from 1 to " + count.ToString(CultureInfo.InvariantCulture));
                 }
                 index = index > 0 ? index - 1 : count + index;
                 if (k > 2)

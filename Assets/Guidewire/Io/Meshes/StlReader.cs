@@ -6,8 +6,9 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>STL, binary (80 bytes, a count, 50 bytes a triangle, little-endian single precision) or text ("solid",
-    /// "vertex x y z"). The normals in the file are ignored: the order of the corners gives them.</summary>
+    /// <summary>STL, binary (80 bytes, a count, 50 bytes a triangle, little-endian single precision, less than 50 bytes
+    /// behind) or text ("solid", "vertex x y z", small letters or capitals). The normals in the file are ignored: the
+    /// order of the corners gives them.</summary>
     internal static class StlReader
     {
         private const int Header = 84;
@@ -31,6 +32,11 @@ namespace Guidewire.Io
             if (TextLines.IsText(bytes) && StartsWithSolid(bytes))
             {
                 return ReadText(bytes, vertices, triangles);
+            }
+            long behind = bytes.Length - (Header + Record * count);
+            if (count > 0 && behind > 0 && behind < Record)
+            {
+                return ReadBinary(bytes, (int)count, vertices, triangles);
             }
             return count < 0 ? "is neither text STL (it does not begin with 'solid') nor long enough for binary STL"
                 : string.Format(
@@ -72,7 +78,7 @@ namespace Guidewire.Io
             {
                 if (lines.Words.Length > 0)
                 {
-                    return lines.Words[0] == "solid";
+                    return lines.Words[0].StartsWith("solid", StringComparison.OrdinalIgnoreCase);
                 }
             }
             return false;
@@ -84,8 +90,7 @@ namespace Guidewire.Io
             int corners = 0;
             while (lines.Next())
             {
-                string word = lines.Words.Length > 0 ? lines.Words[0] : "";
-                switch (word)
+                switch (Word(lines.Words))
                 {
                     case "vertex":
                         triangles.Add(vertices.Count);
@@ -104,6 +109,7 @@ namespace Guidewire.Io
                         break;
                     case "":
                     case "solid":
+                    case "end":
                     case "facet":
                     case "outer":
                     case "endloop":
@@ -113,7 +119,17 @@ namespace Guidewire.Io
                         return lines.Error("an STL word (facet, vertex, ...)");
                 }
             }
-            return corners != 0 ? "ends inside a facet" : triangles.Count == 0 ? "has no triangles" : null;
+            return corners != 0 ? "ends inside a facet: the file breaks off"
+                : triangles.Count == 0 ? "has no triangles" : null;
+        }
+
+        // In small letters; some files have a blank in "end facet".
+        private static string Word(string[] words)
+        {
+            string word = words.Length > 0 ? words[0].ToLowerInvariant() : "";
+            bool isEndOfFacet = word == "end" && words.Length > 1
+                && words[1].Equals("facet", StringComparison.OrdinalIgnoreCase);
+            return isEndOfFacet ? "endfacet" : word;
         }
     }
 }

@@ -1,21 +1,25 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 using System.Text;
 using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>Lines of words separated by blanks, from the bytes of a text file.</summary>
+    /// <summary>Lines of words separated by blanks, from the bytes of a text file. A mark of UTF-8 at its beginning is
+    /// left out, and a backslash at the end of a line continues it.</summary>
     internal sealed class TextLines
     {
-        private static readonly char[] Blanks = { ' ', '\t' };
+        private static readonly char[] Blanks = { ' ', '\t', '\v', '\f', '\r' };
+        private static readonly byte[] Mark = { 0xEF, 0xBB, 0xBF };
         private readonly byte[] _bytes;
         private int _next;
 
         public TextLines(byte[] bytes)
         {
             _bytes = bytes;
+            _next = bytes.AsSpan().StartsWith(Mark) ? Mark.Length : 0;
         }
 
         /// <summary>Number of the current line, from 1.</summary>
@@ -37,15 +41,29 @@ namespace Guidewire.Io
             {
                 return false;
             }
+            bool isContinued = ReadLine(out string[] words);
+            while (isContinued && _next < _bytes.Length)
+            {
+                isContinued = ReadLine(out string[] more);
+                words = words.Concat(more).ToArray();
+            }
+            Words = words;
+            return true;
+        }
+
+        private bool ReadLine(out string[] words)
+        {
             int end = Array.IndexOf(_bytes, (byte)'\n', _next);
             end = end < 0 ? _bytes.Length : end;
-            string line = Encoding.UTF8.GetString(_bytes, _next, end - _next).TrimEnd('\r');
+            string line = Encoding.UTF8.GetString(_bytes, _next, end - _next);
             int comment = line.IndexOf('#');
-            Words = (comment < 0 ? line : line.Substring(0, comment))
+            line = (comment < 0 ? line : line.Substring(0, comment)).TrimEnd();
+            bool isContinued = line.EndsWith("\\", StringComparison.Ordinal);
+            words = (isContinued ? line.Substring(0, line.Length - 1) : line)
                 .Split(Blanks, StringSplitOptions.RemoveEmptyEntries);
             _next = end + 1;
             Number++;
-            return true;
+            return isContinued;
         }
 
         /// <summary>Adds the vertex that the three words after the first are.</summary>

@@ -10,6 +10,9 @@ namespace Guidewire.Io
     /// obstacles have absolute coordinates.</summary>
     internal static class WallReader
     {
+        /// <summary>The key of a mesh's sum.</summary>
+        public const string Sha256 = "sha256";
+
         /// <summary>All walls of a scene.</summary>
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
         /// <param name="sourceOf">Who said what stands at a path: a parameter file, or "command line".</param>
@@ -20,12 +23,16 @@ namespace Guidewire.Io
             RunParameters values, Func<string, string> sourceOf, List<string> warnings, LastMesh? last)
         {
             var walls = new List<ContactShape>();
+            PatientAxesReader.Read(values, sourceOf, warnings);
+            values.Places = null;
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(sourceOf, "vessel", values.Vessel);
                 ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"), last);
                 vessel.FrictionCoefficient = Friction(fields);
                 walls.Add(vessel);
+                values.Places = values.Path == null ? null
+                    : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);
                 WarnOfSelfIntersection(vessel, fields.Text("file"), warnings);
             }
             int count = 0;
@@ -66,7 +73,7 @@ namespace Guidewire.Io
                         return Tube(fields, scene, placement);
                     case "mesh":
                         fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims",
-                            "anatomy");
+                            "anatomy", Sha256);
                         return Mesh(fields, scene, placement, fileSource, last);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
@@ -151,7 +158,16 @@ namespace Guidewire.Io
             {
                 rims = anatomy.OpenRims;
             }
-            return (last ?? new LastMesh()).Read(file, scale, rims, placement);
+            last ??= new LastMesh();
+            MeshShape wall = last.Read(file, scale, rims, placement);
+            // The parameters of a run carry the sum of its vessel: who reads the run sees no other vessel.
+            string stated = fields.Text(Sha256);
+            if (stated.Length > 0 && stated != last.Sha256)
+            {
+                throw fields.Refused(file + " has changed since: it is not the vessel that this was made with");
+            }
+            fields.Replace(Sha256, last.Sha256);
+            return wall;
         }
 
         private static ContactShape Obstacle(JsonFields fields)

@@ -44,13 +44,13 @@ namespace Guidewire.Io
             values.Path = new CentrelinePath(anatomy, inlet);
             if (values.Target != null)
             {
-                values.Path.Target = Target(values.Target, anatomy, values.Path, out string name);
-                values.Path.TargetName = name;
-                if (values.Path.Target < 0)
+                int target = Target(values.Target, anatomy, values.Path, out string name, out double reach);
+                if (target < 0)
                 {
                     throw Wrong(given, "target", values.Target, "a point of the lumen, a branch, one of "
                         + string.Join(", ", anatomy.BranchNames) + ", or an end, one of " + anatomy.List());
                 }
+                values.Path.SetTarget(target, name, reach);
             }
             StartAt(inlet, values, given);
         }
@@ -100,18 +100,26 @@ namespace Guidewire.Io
             return anatomy.Find((string)value!);
         }
 
-        private static int Target(JToken value, Anatomy anatomy, CentrelinePath path, out string name)
+        private static int Target(JToken value, Anatomy anatomy, CentrelinePath path, out string name,
+            out double reach)
         {
             name = value.Type == JTokenType.String ? (string)value! : value.ToString(Formatting.None);
+            VesselEnd? end = null;
+            int target;
             if (VectorEntry.TryVector(value, out Vector3d point))
             {
                 int near = path.Locate(point);
                 // The lumen may be wider than its sphere, up to half as much again.
-                return Vector3d.Distance(anatomy.Points[near], point) <= 1.5 * anatomy.Radii[near] ? near : -1;
+                target = Vector3d.Distance(anatomy.Points[near], point) <= 1.5 * anatomy.Radii[near] ? near : -1;
             }
-            VesselEnd? end = End(value, anatomy, out _);
-            name = end?.Name ?? name;
-            return end?.Point ?? (value.Type == JTokenType.String ? path.Within((string)value!) : -1);
+            else
+            {
+                end = End(value, anatomy, out _);
+                name = end?.Name ?? name;
+                target = end?.Point ?? (value.Type == JTokenType.String ? path.Within((string)value!) : -1);
+            }
+            reach = target < 0 ? 0.0 : Math.Max(end?.Radius ?? 0.0, anatomy.Radii[target]);
+            return target;
         }
 
         private static ParameterException Wrong(GivenParameters given, string key, JToken value, string needed)

@@ -177,6 +177,7 @@ namespace Guidewire.Io
             }
             ApplyDuration();
             SimulationParameters simulation = Values.Simulation;
+            LengthDefaults.Convert(simulation, _given);
             WireStiffness.Apply(Values, _given);
             if (_given.Has("SteadyState") && simulation.Drive.Kind == Drive.Displace
                 && !_given.Has("displacementPerStep"))

@@ -60,6 +60,7 @@ namespace Guidewire.Io
                 string[] files = { (string?)vessel["file"] ?? "", (string?)vessel["anatomy"] ?? "" };
                 vessel.Remove("file");
                 vessel.Remove("anatomy");
+                vessel.Remove(WallReader.Sha256);
                 text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
                 foreach (string file in files)
                 {

@@ -101,6 +101,12 @@ namespace Guidewire.Io
         /// <summary>The path from the inlet to the target, or null where there is no inlet.</summary>
         internal CentrelinePath? Path { get; set; }
 
+        /// <summary>Where instruments are in the vessel, or null where there is no inlet.</summary>
+        internal LumenPlaces? Places { get; set; }
+
+        /// <summary>Letters of the patient's axes as given by their key; empty where they are not.</summary>
+        public string PatientAxes { get; set; } = "";
+
         /// <summary>The files of loads over time as their key has them, or null.</summary>
         public JToken? LoadTables { get; set; }
 

@@ -37,7 +37,8 @@ namespace Guidewire.Io
             _folder = folder;
             _repeat = repeat;
             _logger = logger;
-            _target = handler.Values.Path == null ? null : new TargetRecord(handler.Values.Path);
+            _target = handler.Values.Places is LumenPlaces places
+                ? new TargetRecord(handler.Values.Path!, places) : null;
         }
 
         /// <summary>Wall time since the run's start in ms.</summary>
@@ -168,7 +169,7 @@ namespace Guidewire.Io
         {
             if (simulation.HasStateOfStep)
             {
-                _target?.Update(simulation.State.Positions[simulation.State.ElementCount], simulation.Time);
+                _target?.Update(simulation.State.Positions, simulation.Time);
             }
         }
 

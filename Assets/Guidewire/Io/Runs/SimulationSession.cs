@@ -72,7 +72,14 @@ namespace Guidewire.Io
         /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
 
-        /// <summary>The centreline from the inlet to the target: "name", "points" (units), "radii" and "distances";
+        /// <summary>Where an instrument is in its vessel now; null where the run has no inlet.</summary>
+        /// <param name="points">Of its spheres, from the hub on, units.</param>
+        public LumenPlace? PlaceOf(Vector3d[] points)
+        {
+            return _handler.Values.Places?.Of(points);
+        }
+
+        /// <summary>The centreline from the inlet to the target, as <see cref="CentrelinePath.RouteToTarget"/> has it;
         /// null where the run has no target.</summary>
         public JObject? RouteToTarget()
         {

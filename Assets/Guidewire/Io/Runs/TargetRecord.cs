@@ -3,36 +3,36 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>How far the tip of a wire has come along the vessel's centreline, and whether to its target.</summary>
+    /// <summary>How far a wire has come within its vessel along the centreline, and whether to its target.</summary>
     internal sealed class TargetRecord
     {
         private readonly CentrelinePath _path;
-        private int _near;
-        private double _distance;   // units
+        private readonly LumenPlaces _places;
+        private LumenPlace _place;
         private double _farthest = double.NegativeInfinity;
         private double _reachedAt = double.NaN;   // s
 
-        public TargetRecord(CentrelinePath path)
+        public TargetRecord(CentrelinePath path, LumenPlaces places)
         {
             _path = path;
+            _places = places;
         }
 
-        /// <summary>Takes the tip's position.</summary>
-        /// <param name="tip">Units.</param>
+        /// <summary>Takes the wire's position.</summary>
+        /// <param name="points">Of its spheres, units.</param>
         /// <param name="time">s.</param>
-        public void Update(in Vector3d tip, double time)
+        public void Update(Vector3d[] points, double time)
         {
-            _near = _path.Locate(tip);
-            _distance = _path.DistanceOf(tip, _near);
-            _farthest = System.Math.Max(_farthest, _distance);
-            if (double.IsNaN(_reachedAt) && _path.IsAtTarget(_near))
+            _place = _places.Of(points);
+            _farthest = System.Math.Max(_farthest, _place.Distance);
+            if (double.IsNaN(_reachedAt) && _place.IsAtTarget)
             {
                 _reachedAt = time;
             }
         }
 
         /// <summary>What the summary says of it: distances along the centreline from the inlet in units, times in s,
-        /// the branches from the inlet to the tip.</summary>
+        /// the branches from the inlet to there.</summary>
         public JObject ToJson()
         {
             bool isReached = !double.IsNaN(_reachedAt);
@@ -40,9 +40,10 @@ namespace Guidewire.Io
             return new JObject
             {
                 ["inlet"] = _path.Inlet.Name,
-                ["distance"] = _distance,
+                ["inLumen"] = _place.IsInside,
+                ["distance"] = _place.Distance,
                 ["farthest"] = _farthest,
-                ["path"] = new JArray(_path.BranchesTo(_near)),
+                ["path"] = new JArray(_path.BranchesTo(_place.Near)),
                 ["target"] = isRequested ? _path.TargetName : null,
                 ["targetDistance"] = isRequested ? _path.Distances[_path.Target] : (double?)null,
                 ["reached"] = isRequested ? isReached : (bool?)null,

@@ -136,6 +136,10 @@ namespace Guidewire.Io
                 "end or branch of the vessel, or a point of its lumen: the summary says whether and when the tip "
                 + "comes within a radius of it along the centreline (for a branch: a radius beyond its root); needs "
                 + "inlet").OnlyWith(Takers.Walls),
+            new AxesEntry("patientAxes",
+                "where x, y and z of the scene point in the patient: left or right (L, R), anterior or posterior (A,"
+                + " P), superior or inferior (S, I); empty: as vessel.anatomy says, or unknown; a C-arm turns about"
+                + " them"),
             new JsonEntry("obstacles", JTokenType.Array, "null or a list of {\"shape\": \"sphere\", \"centre\","
                 + " \"radius\"}, {\"shape\": \"capsule\", \"from\", \"to\", \"radius\"}, {\"shape\": \"box\","
                 + " \"centre\", \"halfSize\", \"rotation\"}, {\"shape\": \"hull\", \"points\", \"radius\"},"

@@ -106,7 +106,8 @@ namespace Guidewire.Core.Tests
         public void Target_IsReachedAtARadiusBeforeAndBeyond_NotInTheOtherBranch()
         {
             Anatomy fork = Fork();
-            var path = new CentrelinePath(fork, fork.Ends[0]) { Target = 25 };
+            var path = new CentrelinePath(fork, fork.Ends[0]);
+            path.SetTarget(25, "right", 1.0);
             Assert.That(path.IsAtTarget(23), Is.False, "two radii before");
             Assert.That(path.IsAtTarget(24), Is.True, "a radius before");
             Assert.That(path.IsAtTarget(30), Is.True, "beyond");

@@ -23,6 +23,38 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        [TestCase("f 1/ 3/ 2/", "f 1 2 4\nf 1 4 3\nf 2 3 4", "", "")]
+        [TestCase("f 1// 3//7 2/5", "f 1 2 4\nf 1 4 3\nf -3 -2 -1", "usemtl \n", "")]
+        [TestCase("f 1 3 \\\n2", "f 1 2 4\nf 1 4 3\nf 2 3 4", "", "\uFEFF")]
+        [TestCase("f 1 3 2", "f 1 2 4 # a comment\r\nf 1 4 3\r\nf 2 3 4\r", "lod 3\nvn 0 0 1\n", "")]
+        public void Tetrahedron_IsReadFromEveryKindOfFace(string first, string others, string between, string before)
+        {
+            byte[] file = Encoding.UTF8.GetBytes(before + "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\n" + between + first
+                + "\n" + others + "\n");
+            TriangleMesh mesh = MeshFile.Read(Write("a.obj", file), 1.0, Array.Empty<Vector3d>());
+            Assert.That(mesh.Report.Triangles, Is.EqualTo(4));
+            Assert.That(mesh.Report.Volume, Is.EqualTo(1000.0 / 6.0).Within(1e-9));
+        }
+
+        [Test]
+        public void Stl_IsReadInCapitals_WithABlankInItsEnds_AndWithBytesBehind()
+        {
+            TestMeshes cube = TestMeshes.Cube();
+            string text = Encoding.ASCII.GetString(TextStl(cube));
+            byte[] binary = BinaryStl(cube);
+            var tail = new byte[binary.Length + 2];
+            binary.CopyTo(tail, 0);
+            foreach (byte[] file in new[] { Text(text.ToUpperInvariant()), tail,
+                Text(text.Replace("endsolid", "end solid").Replace("endfacet", "end facet")), })
+            {
+                Assert.That(MeshFile.Read(Write("a.stl", file), 1.0, Array.Empty<Vector3d>()).Report.Triangles,
+                    Is.EqualTo(12));
+            }
+            var longer = new byte[binary.Length + 50];
+            binary.CopyTo(longer, 0);
+            Refused("b.stl", longer, "as binary STL of 12 triangles it needs 684 bytes and has 734");
+        }
+
         [Test]
         public void BrokenFiles_GiveOneLineThatNamesFileAndFault()
         {

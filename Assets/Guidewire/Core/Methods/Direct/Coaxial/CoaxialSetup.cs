@@ -222,7 +222,8 @@ namespace Guidewire.Core
             string? problem = null;
             for (int i = 0; i < Scenes.Length && problem == null; i++)
             {
-                double lead = Catheter.Schedule.Hub.PositionAt(0.0).Z - Scenes[i].Schedule.Hub.PositionAt(0.0).Z;
+                double lead = Vector3d.Dot(
+                    Catheter.Schedule.Hub.PositionAt(0.0) - Scenes[i].Schedule.Hub.PositionAt(0.0), Axis);
                 double around = lead + tip;
                 int first = i == 0 ? 1 : Array.FindIndex(Instruments[i].Stations, 1, station => station > around);
                 int end = Scenes[i].Rod.ElementCount;

@@ -12,7 +12,7 @@ from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 from guidewire.viewer.held import HeldInstruments
-from guidewire.viewer.steered import Steered, exact_push, exact_turn
+from guidewire.sessions.steered import Steered, exact_push, exact_turn
 
 SCENES = [pytest.param("insertion-accurate.json", id="a mesh"),
           pytest.param("sheath.json", id="a sheath", marks=pytest.mark.long("2 s; the same table in a mesh"))]

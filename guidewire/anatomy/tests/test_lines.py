@@ -1,0 +1,93 @@
+"""Centrelines: columns by their headings, leaps, and several lines as the tree that they are."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import numpy as np
+import pytest
+
+pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
+
+from guidewire.anatomy.lines import Line, read_lines, tree_of  # noqa: E402
+from guidewire.anatomy.mesh import AnatomyError  # noqa: E402
+
+# x, y, z, radius and a number that is none of them, of a straight line.
+ROWS = [(10.0 + k, 20.0, 30.0, 2.0, float(k)) for k in range(41)]
+
+
+@pytest.mark.parametrize(("heading", "order", "letters", "factor"), [
+    ("x,y,z,Abscissas,MaximumInscribedSphereRadius", (0, 1, 2, 4, 3), "", 1.0),
+    ("MaximumInscribedSphereRadius,Points:0,Points:1,Points:2", (3, 0, 1, 2), "", 1.0),
+    ("Distance,Diameter,R,A,S", (4, 3, 0, 1, 2), "RAS", 0.5),
+    ("radius,S,P,L", (3, 2, 1, 0), "LPS", 1.0),
+    (",X,Y,Z,Radius (mm)", (4, 0, 1, 2, 3), "", 1.0),
+    ("x,y,z,r", (0, 1, 2, 3), "", 1.0),
+])
+@pytest.mark.parametrize("separator", [",", ";", "\t"])
+def test_columns_are_taken_by_their_headings(tmp_path: Path, heading, order, letters, factor, separator) -> None:
+    file = tmp_path / "a.csv"
+    file.write_text("\n".join([heading.replace(",", separator),
+                               *(separator.join(f"{row[k]:g}" for k in order) for row in ROWS)]) + "\n")
+    found = read_lines(file, ".csv")
+    np.testing.assert_allclose(found.lines[0].points, np.array(ROWS)[:, :3])
+    np.testing.assert_allclose(found.lines[0].radii, factor * 2.0)
+    assert found.axes.letters == letters
+
+
+@pytest.mark.parametrize(("heading", "expected"), [
+    ("a,b,c,d", "name no coordinates and radius: known are x, y, z"),
+    ("x,y,z,width", "name no coordinates and radius"),
+    ("x,y,x,radius", "the headings 'x' and 'x' are the same coordinate"),
+    ("R,A,z,radius", "name no coordinates"),
+])
+def test_other_headings_are_refused(tmp_path: Path, heading, expected) -> None:
+    (tmp_path / "a.csv").write_text(heading + "\n1,2,3,1\n1,2,4,1\n")
+    with pytest.raises(AnatomyError, match=expected):
+        read_lines(tmp_path / "a.csv", ".csv")
+
+
+def test_more_columns_without_headings_are_refused(tmp_path: Path) -> None:
+    (tmp_path / "a.csv").write_text("1,2,3,0,1\n1,2,4,1,1\n")
+    with pytest.raises(AnatomyError, match="5 columns without headings"):
+        read_lines(tmp_path / "a.csv", ".csv")
+
+
+def test_a_leap_is_named(tmp_path: Path) -> None:
+    rows = [*ROWS[1:], ROWS[0]]
+    (tmp_path / "a.csv").write_text("x,y,z,radius\n" + "\n".join(",".join(map(str, row[:4])) for row in rows) + "\n")
+    with pytest.raises(AnatomyError, match="from point 40 to 41 it is 40, 40 times the median step"):
+        read_lines(tmp_path / "a.csv", ".csv")
+
+
+def straight(start, end, radius: float = 2.0) -> Line:
+    start, end = np.array(start, float), np.array(end, float)
+    count = round(np.linalg.norm(end - start)) + 1
+    return Line(start + np.linspace(0.0, 1.0, count)[:, None] * (end - start), np.full(count, radius))
+
+
+def joined(*lines: Line) -> Line:
+    return Line(np.concatenate([line.points for line in lines]), np.concatenate([line.radii for line in lines]))
+
+
+def test_lines_from_one_inlet_are_a_tree_with_the_trunk_once() -> None:
+    trunk = straight([0, 0, 0], [0, 0, 20])
+    lines = [joined(trunk, straight([1, 0, 21], [20, 0, 40])), joined(trunk, straight([-1, 0, 21], [-15, 0, 35]))]
+    tubes, same = tree_of(lines)
+    assert [tube.ends for tube in tubes] == [(True, True), (False, True)] and tubes[1].parent == 0 and same == 0
+    # The second begins where it parts from the first, within a third of the radius.
+    assert tubes[1].points[0][2] > 18.0 and tubes[1].points[-1].tolist() == [-15.0, 0.0, 35.0]
+
+
+def test_fragments_in_any_order_and_sense_are_a_tree() -> None:
+    lines = [straight([12, 0, 40], [0, 0, 21]), straight([0, 0, 0], [0, 0, 20.5]), straight([-12, 0, 40], [0, 0, 21]),
+             straight([0, 0, 5], [0, 0, 9])]
+    tubes, same = tree_of(lines)
+    assert same == 1
+    outer = sorted(tuple(point) for tube in tubes for point, is_open in zip(tube.points[[0, -1]], tube.ends) if is_open)
+    assert outer == [(-12.0, 0.0, 40.0), (0.0, 0.0, 0.0), (12.0, 0.0, 40.0)]
+
+
+def test_a_line_apart_from_the_others_is_refused() -> None:
+    with pytest.raises(AnatomyError, match=r"line 2 of 2, from \[30, 0, 0\] on, begins 28 outside of the others"):
+        tree_of([straight([0, 0, 0], [0, 0, 40]), straight([30, 0, 0], [60, 0, 0])])

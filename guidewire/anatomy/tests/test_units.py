@@ -1,0 +1,43 @@
+"""Units that are guessed: never wrong, and asked for where sizes do not tell."""
+
+from __future__ import annotations
+
+import numpy as np
+import pytest
+
+pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
+
+from guidewire.anatomy.inspection import UNITS, find_unit  # noqa: E402
+from guidewire.anatomy.mesh import Mesh  # noqa: E402
+from guidewire.anatomy.tests.solids import tube  # noqa: E402
+
+# Radius, length and edges in mm of vessels as they are imaged: aortas, iliac, carotid, coronary, cerebral arteries, and
+# pieces of them.
+VESSELS = [(14.0, 500.0, 2.0), (12.0, 300.0, 1.0), (10.0, 200.0, 1.5), (13.0, 120.0, 0.8), (8.0, 150.0, 1.0),
+           (5.0, 200.0, 1.0), (4.0, 120.0, 0.6), (3.0, 150.0, 0.5), (3.0, 60.0, 0.5), (2.5, 40.0, 0.4), (2.3, 80.0, 0.4),
+           (2.0, 60.0, 0.3), (1.8, 100.0, 0.3), (1.7, 25.0, 0.3), (1.5, 20.0, 0.3), (1.5, 15.0, 0.25), (1.2, 40.0, 0.2),
+           (1.0, 15.0, 0.2), (0.9, 30.0, 0.2), (0.8, 20.0, 0.15)]
+
+
+def vessel(radius: float, length: float, edge: float) -> Mesh:
+    sides = int(np.clip(2.0 * np.pi * radius / edge, 8, 60))
+    return tube(radius, length, sides=sides, rings=int(np.clip(length / edge, 4, 120)))
+
+
+@pytest.mark.parametrize("unit", UNITS)
+def test_of_twenty_vessels_no_unit_is_wrong(unit: str) -> None:
+    asked = 0
+    for sizes in VESSELS:
+        mesh = vessel(*sizes)
+        found = find_unit(Mesh(mesh.vertices * 1e-3 / UNITS[unit], mesh.triangles))
+        assert found.name == unit or not found.is_sure, (sizes, found)
+        asked += not found.is_sure
+    # A small vessel in mm is a large one in cm: most files are in mm, and centimetres are mostly asked for.
+    assert asked <= {"mm": 3, "cm": 20, "m": 3}[unit]
+
+
+def test_a_unit_that_is_known_is_not_doubted() -> None:
+    mesh = vessel(12.0, 300.0, 1.0)
+    found = find_unit(Mesh(0.1 * mesh.vertices, mesh.triangles), "mm", "as the file says")
+    assert found.is_sure and found.name == "mm" and "cm" not in found.reason
+    assert find_unit(Mesh(0.1 * mesh.vertices, mesh.triangles)).reason.count("--unit") in (0, 2)
