@@ -17,7 +17,7 @@ from pathlib import Path
 
 import numpy as np
 
-from guidewire.anatomy.centreline import cut_edges
+from guidewire.anatomy.sampling import cut_edges
 from guidewire.anatomy.lumens import write_obj
 from guidewire.anatomy.mesh import Edges, Mesh
 from guidewire.logs.surfaces import read_obj

@@ -27,7 +27,7 @@ import numpy as np
 
 from experiments.campaigns.anatomy_campaign import DIAMETERS
 from experiments.campaigns.push_campaign import parser_of
-from guidewire.anatomy.centreline import cut_edges
+from guidewire.anatomy.sampling import cut_edges
 from guidewire.anatomy.lumens import write_obj
 from guidewire.anatomy.mesh import Edges, Mesh
 from guidewire.logs.logs import read_log

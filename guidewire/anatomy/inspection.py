@@ -16,9 +16,9 @@ UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 # What vessels and their files have: a range within which a size says nothing, and the deviation of its logarithm beyond.
 _RADIUS, _SIDE = (0.6e-3, 14e-3), (15e-3, 0.7)  # m, of the lumen, and of the largest side
 _BEYOND = 0.25
-_EDGE, _EDGE_SPREAD = 0.7e-3, 0.8  # m, of the median edge, which comes from voxels of some tenths of a mm to one
-_FILES = {"mm": 0.85, "cm": 0.1, "m": 0.05}  # fraction of files in a unit, where nothing else is known
-_CERTAIN = 0.95  # of the probability, from which on a unit is taken without being given
+_EDGE, _EDGE_SPREAD = 0.7e-3, 1.2  # m, of the median edge, which comes from voxels of some tenths of a mm to one
+_FILES = {"mm": 0.8, "cm": 0.15, "m": 0.05}  # fraction of files in a unit, where nothing else is known
+_CERTAIN = 0.97  # of the probability, from which on a unit is taken without being given
 _WELD = 1e-3  # of the median edge: vertices so near are one
 _SIDES = 5  # of a rim; a gap of fewer is one triangle that is missing, or two
 _HOLE = 2.5  # a lumen so many times wider than its rim: the rim is a hole in its side

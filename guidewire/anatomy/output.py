@@ -144,7 +144,8 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
         "guidewireLength": length, "numberRodElements": round(body / _BODY), "wireRadius": 0.5e-3 * diameter,
         "youngsModulus": 60e9, "shearModulus": 23e9, "density": 6450.0, "wireSections": sections}
     return {
-        "solver": "direct", **wire, **over, "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
+        "solver": "direct", **wire, **over,
+        "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "insertionSpeed": _SPEED,
         "hubForceLimit": _HUB_FORCE,
         "vessel": {"shape": "mesh", "file": MESH, "metresPerUnit": unit.metres, "anatomy": ANATOMY},
         **({"patientAxes": axes.of_vessel()} if axes.is_known else {}),

@@ -7,9 +7,10 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.collections import LineCollection, PolyCollection
 from matplotlib.figure import Figure
 
-from guidewire.anatomy.centreline import Centreline, thinned
+from guidewire.anatomy.centreline import Centreline
 from guidewire.anatomy.inspection import Inspection
 from guidewire.anatomy.mesh import Mesh
+from guidewire.anatomy.sampling import thinned
 
 _MOST = 60_000  # triangles drawn
 _LIGHT = np.array([0.3, 0.4, 0.85])

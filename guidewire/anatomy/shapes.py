@@ -25,8 +25,8 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 from scipy.spatial import cKDTree
 
-from guidewire.anatomy.centreline import resample
 from guidewire.anatomy.mesh import Mesh
+from guidewire.anatomy.sampling import resample
 from guidewire.anatomy.tubes import Tube, mesh_of_tubes
 
 _CARINA = 0.12  # radius of curvature of an edge between branches, of the largest branch's radius

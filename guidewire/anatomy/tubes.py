@@ -14,11 +14,11 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.spatial import cKDTree
 
-from guidewire.anatomy.centreline import cut_edges, resample
 from guidewire.anatomy.distance_grid import cut_open
 from guidewire.anatomy.intersections import relaxed
 from guidewire.anatomy.lumens import Lumen, near_lines
 from guidewire.anatomy.mesh import Edges, Mesh, find_bodies, signed_volume
+from guidewire.anatomy.sampling import cut_edges, resample
 from guidewire.anatomy.surfaces import contour, decimate
 
 _FINE = 3.5  # cells a smallest radius

@@ -14,7 +14,8 @@ from typing import Any
 
 from guidewire.env.spaces import Error
 
-_MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "output", "mesh", "intersections")
+_MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "sampling", "loops", "output", "mesh",
+            "intersections")
 
 
 def made_vessel(which: Mapping[str, Any]) -> Path:

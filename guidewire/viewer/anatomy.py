@@ -71,7 +71,7 @@ class VesselPicture:
         """
         mesh, mm = self._mesh, 1e3 * self._found.unit.metres
         if len(mesh.triangles) > _MOST:
-            from guidewire.anatomy.centreline import thinned
+            from guidewire.anatomy.sampling import thinned
 
             mesh = thinned(mesh, float(np.sqrt(2.3 * np.linalg.norm(mesh.area_vectors(), axis=1).sum() / _MOST)))
         found = self._found

@@ -61,7 +61,7 @@ def test_look_writes_no_vessel(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize("words, expected", [
-    ("{file} --inlet 9", "there is no end '9': there are 1 'rim 1', 2 'rim 2'"),
+    ("{file} --unit mm --inlet 9", "there is no end '9': there are 1 'rim 1', 2 'rim 2'"),
     ("none.stl", "none.stl: no such file"),
     ("--make arch --type 5", "arches are of type 1, 2 or 3"),
 ])
@@ -80,3 +80,52 @@ def test_a_centreline_alone_becomes_a_tube(tmp_path: Path) -> None:
     assert anatomy(f"{tmp_path / 'a.csv'} --unit mm --out {tmp_path / 'out'}") == 0
     found = json.loads((tmp_path / "out" / "anatomy.json").read_text())
     assert [end["radius"] for end in found["ends"]] == pytest.approx([2.3, 2.0], rel=0.02)
+
+
+def test_a_name_ends_at_its_known_ending_and_a_folder_keeps_its_own_vessel(tmp_path: Path, monkeypatch) -> None:
+    monkeypatch.chdir(tmp_path)
+    for name, radius in (("p1", 3.0), ("p2", 2.5)):
+        (tmp_path / name).mkdir()
+        write_stl(tmp_path / name / "a.b.stl", tube(radius))
+    assert anatomy("p1/a.b.stl --unit mm") == 0
+    written = (tmp_path / "results" / "anatomy" / "a.b" / "vessel.obj").read_bytes()
+    assert anatomy("p1/a.b.stl --unit mm --inlet 2") == 0    # the same file
+    with pytest.raises(PreparationError, match="holds the vessel of another a.b.stl: --force replaces it"):
+        anatomy("p2/a.b.stl --unit mm")
+    assert (tmp_path / "results" / "anatomy" / "a.b" / "vessel.obj").read_bytes() == written
+    assert anatomy("p2/a.b.stl --unit mm --force") == 0
+    assert (tmp_path / "results" / "anatomy" / "a.b" / "vessel.obj").read_bytes() != written
+
+
+def test_axes_that_are_given_turn_the_vessel_and_lead_back(tmp_path: Path) -> None:
+    file = write_stl(tmp_path / "a.stl", tube())
+    for axes in ("LPS", "RAS", "SLA"):
+        assert anatomy(f"{file} --unit mm --axes {axes} --out {tmp_path / axes}") == 0
+    found = {axes: json.loads((tmp_path / axes / "anatomy.json").read_text()) for axes in ("LPS", "RAS", "SLA")}
+    for axes, one in found.items():
+        assert one["patientAxes"] == "LPS" and one["sourceAxes"] == axes
+        assert json.loads((tmp_path / axes / "scene.json").read_text())["patientAxes"] == "LPS"
+        back = np.array([end["centre"] for end in one["ends"]]) @ np.array(one["toSource"]).T
+        np.testing.assert_allclose(np.sort(back, axis=0),
+                                   np.sort([end["centre"] for end in found["LPS"]["ends"]], axis=0), atol=2e-3)
+    with pytest.raises(PreparationError, match="three letters that say where x, y and z point"):
+        anatomy(f"{file} --unit mm --axes LRS --out {tmp_path / 'no'}")
+
+
+def test_a_unit_that_is_not_certain_is_asked_for(tmp_path: Path) -> None:
+    file = write_stl(tmp_path / "a.stl", tube(1.2, 20.0))
+    with pytest.raises(PreparationError, match="not certain from the sizes: give --unit mm, .* or --unit cm"):
+        anatomy(f"{file} --out {tmp_path / 'out'}")
+    assert not (tmp_path / "out").exists()
+    assert anatomy(f"{file} --unit mm --out {tmp_path / 'out'}") == 0
+
+
+def test_a_catheter_begins_behind_its_wire(tmp_path: Path) -> None:
+    file = write_stl(tmp_path / "a.stl", tube())
+    names = "--instrument radifocus-angled-0.035 --catheter catheter-angled-5f"
+    assert anatomy(f"{file} --unit mm {names} --out {tmp_path / 'out'}") == 0
+    scene = json.loads((tmp_path / "out" / "scene.json").read_text())
+    catheter = scene["catheters"][0]
+    assert scene["guidewireLength"] - catheter["start"] - catheter["length"] == 30.0
+    with pytest.raises(PreparationError, match="there is no instrument 'none': there are amplatz-0.035"):
+        anatomy(f"{file} --unit mm --instrument none --out {tmp_path / 'no'}")

@@ -50,7 +50,7 @@ namespace Guidewire.Core
         public abstract bool Contains(in Vector3d point);
 
         /// <summary>The same without what an open end of a vessel leads to.</summary>
-        internal virtual bool IsWithin(in Vector3d point)
+        public virtual bool IsWithin(in Vector3d point)
         {
             return Contains(point);
         }

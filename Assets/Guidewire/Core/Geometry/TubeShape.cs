@@ -86,7 +86,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        internal override bool IsWithin(in Vector3d point)
+        public override bool IsWithin(in Vector3d point)
         {
             int piece = _tree.Deepest(point, 0, out double distance);
             bool isBefore = piece < FirstKnot;

@@ -32,7 +32,7 @@ namespace Guidewire.Io
         public LumenPlace Of(Vector3d[] points)
         {
             int last = points.Length - 1;
-            bool isInside = _vessel.Contains(points[last]) && !MayHaveLeft(points);
+            bool isInside = _vessel.IsWithin(points[last]) && !MayHaveLeft(points);
             int front = isInside ? last : Front(points, out isInside);
             Vector3d place = front < 0 ? _path.Inlet.Centre : points[front];
             int near = front < 0 ? _path.Inlet.Point : _path.Locate(place);
@@ -68,13 +68,13 @@ namespace Guidewire.Io
         private int Front(Vector3d[] points, out bool isInside)
         {
             int first = 0;
-            while (first < points.Length && !(IsBeyondInlet(points[first]) && _vessel.Contains(points[first])))
+            while (first < points.Length && !(IsBeyondInlet(points[first]) && _vessel.IsWithin(points[first])))
             {
                 first++;
             }
             if (first == points.Length)
             {
-                first = Array.FindIndex(points, point => _vessel.Contains(point));
+                first = Array.FindIndex(points, point => _vessel.IsWithin(point));
                 if (first < 0)
                 {
                     isInside = false;
@@ -82,7 +82,7 @@ namespace Guidewire.Io
                 }
             }
             int next = first + 1;
-            while (next < points.Length && _vessel.Contains(points[next]))
+            while (next < points.Length && _vessel.IsWithin(points[next]))
             {
                 next++;
             }
