@@ -113,7 +113,7 @@ def test_axes_that_are_given_turn_the_vessel_and_lead_back(tmp_path: Path) -> No
 
 
 def test_a_unit_that_is_not_certain_is_asked_for(tmp_path: Path) -> None:
-    file = write_stl(tmp_path / "a.stl", tube(1.2, 20.0))
+    file = write_stl(tmp_path / "a.stl", tube(1.2, 20.0, rings=60))
     with pytest.raises(PreparationError, match="not certain from the sizes: give --unit mm, .* or --unit cm"):
         anatomy(f"{file} --out {tmp_path / 'out'}")
     assert not (tmp_path / "out").exists()
