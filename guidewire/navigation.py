@@ -177,7 +177,7 @@ class _Search:
         described = session.describe()
         self._unit = described["millimetresPerUnit"]
         if described["target"] is None or session.state.place is None:
-            raise SessionError("the scene has no target: needs the scene.json that '{DOOR} anatomy' wrote")
+            raise SessionError(f"the scene has no target: needs the scene.json that '{DOOR} anatomy' wrote")
         anatomy = json.loads(Path(session.parameters["vessel"]["anatomy"]).read_text(encoding="utf-8"))
         self.route = Route(described["target"], anatomy, self._unit)
         dt = asked["timeStep"]

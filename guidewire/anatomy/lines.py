@@ -183,13 +183,14 @@ def _read_csv(file: Path) -> Lines:
     except (UnicodeDecodeError, csv.Error) as error:
         raise AnatomyError(f"{file}: not a text of x, y, z, radius in columns") from error
     if not rows:
-        raise AnatomyError(f"{file}: the file is empty")
+        raise AnatomyError(f"{file}: 0 points: a centreline has two or more")
     columns, factor, axes, unit = list(range(4)), 1.0, Axes(), ""
     has_headings = False
-    if not all(_is_number(word) for word in rows[0][1]):
+    if any(re.search("[a-df-zA-DF-Z]", word) for word in rows[0][1]):
         columns, factor, axes, unit = _columns(file, rows[0][1])
         rows, has_headings = rows[1:], True
-    elif len(rows[0][1]) != 4:
+    elif len(rows[0][1]) > 4 and all(_is_number(word) for word in rows[0][1]) and not any(
+            re.fullmatch(r"\s*[-+]?\d+,\d+\s*", word) for word in rows[0][1]):
         raise AnatomyError(f"{file}: {len(rows[0][1])} columns without headings: x, y, z, radius are taken by their "
                            f"order, others need headings: {_KNOWN}")
     numbers = []
@@ -232,9 +233,13 @@ def _columns(file: Path, headings: list[str]) -> tuple[list[int], float, Axes, s
             found[axis] = (k, letter)
         elif name in _RADII and radius is None:
             radius = (k, _RADII[name])
+    missing = [name for axis, name in enumerate("xyz") if axis not in found] + (["radius"] if radius is None else [])
+    if missing:
+        raise AnatomyError(f"{file}: line 1 has no column {missing[0]}: needed are x, y, z, radius, under one of the "
+                           f"headings {_KNOWN}")
     letters = "".join(found[axis][1] for axis in sorted(found))
-    if len(found) != 3 or radius is None or len(letters) not in (0, 3):
-        raise AnatomyError(f"{file}: the headings '{', '.join(headings)[:80]}' name no coordinates and radius: known "
+    if len(letters) not in (0, 3):
+        raise AnatomyError(f"{file}: the headings '{', '.join(headings)[:80]}' name axes of the patient and others: known "
                            f"are {_KNOWN}")
     own = [found[0][0], found[1][0], found[2][0], radius[0]]
     units = {parted[k][2] or "" for k in own} - {""}

@@ -10,7 +10,7 @@ import pytest
 
 from guidewire import Environment, Session, SessionError, VectorEnvironment
 from guidewire.anatomy.mesh import AnatomyError
-from guidewire.anatomy.reading import read_line
+from guidewire.anatomy.lines import read_lines
 from guidewire.env.spaces import Error
 from guidewire.library import find_study
 from guidewire.prepare import PreparationError
@@ -159,12 +159,13 @@ def _file(folder, text):
 def test_anatomies(tmp_path, text, said):
     (tmp_path / "line.csv").write_text(text)
     if said is None:
-        line = read_line(tmp_path / "line.csv")
+        found = read_lines(tmp_path / "line.csv", ".csv")
+        line = found.lines[0]
         assert line.points.tolist() == [[0, 0, 0], [0, 0, 9]] and line.radii.tolist() == [1, 2]
-        assert line.unit == ("mm" if "_mm" in text else "")
+        assert found.unit == ("mm" if "_mm" in text else "")
         return
     with pytest.raises(AnatomyError) as caught:
-        read_line(tmp_path / "line.csv")
+        read_lines(tmp_path / "line.csv", ".csv")
     assert_one_line(str(caught.value), said)
 
 

@@ -36,10 +36,10 @@ def test_columns_are_taken_by_their_headings(tmp_path: Path, heading, order, let
 
 
 @pytest.mark.parametrize(("heading", "expected"), [
-    ("a,b,c,d", "name no coordinates and radius: known are x, y, z"),
-    ("x,y,z,width", "name no coordinates and radius"),
+    ("a,b,c,d", "line 1 has no column x: needed are x, y, z, radius"),
+    ("x,y,z,width", "line 1 has no column radius"),
     ("x,y,x,radius", "the headings 'x' and 'x' are the same coordinate"),
-    ("R,A,z,radius", "name no coordinates"),
+    ("l,A,z,radius", "name axes of the patient and others"),
 ])
 def test_other_headings_are_refused(tmp_path: Path, heading, expected) -> None:
     (tmp_path / "a.csv").write_text(heading + "\n1,2,3,1\n1,2,4,1\n")
