@@ -17,7 +17,7 @@ from guidewire.viewer import live
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.parts import PAGE
 from guidewire.viewer.recording import facts_of, largest_shown, radius_of, sheath_of
-from guidewire.viewer.steered import RULES, exact_push, exact_turn
+from guidewire.sessions.steered import RULES, exact_push, exact_turn
 
 SCENES = [*(pytest.param(name, {}, id=name) for name in ("insertion", "insertion-accurate", "catheter-branch")),
           pytest.param("cantilever", {"solver": "xpbd", "timeStep": 0.001}, id="xpbd"),
