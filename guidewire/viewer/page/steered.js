@@ -1,7 +1,7 @@
 // @ts-check
 /**
- * Steering that a drive table can repeat to the bit, as guidewire/sessions/steered.py and guidewire/viewer/held.py have it: a test compares
- * the two. Constants come from there, as rules.
+ * Steering that a drive table can repeat to the bit, as guidewire/sessions/steered.py and guidewire/viewer/held.py have
+ * it: a test compares the two. Constants come from there, as rules.
  *
  * @typedef {{grain: number, turnGrain: number, constant: number, stopped: number, tries: number}} Rules
  * @typedef {Record<string, any>} Parameters effective values
