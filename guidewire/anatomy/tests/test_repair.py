@@ -60,10 +60,10 @@ def test_rims_have_number_place_radius_and_normal() -> None:
 
 @pytest.mark.parametrize("unit, scale", [("mm", 1.0), ("cm", 0.1), ("m", 0.001)])
 @pytest.mark.parametrize("radius, length", [(12.0, 400.0), (3.0, 150.0), (1.0, 80.0)])
-def test_unit_is_guessed_from_sizes(unit: str, scale: float, radius: float, length: float) -> None:
-    mesh = tube(scale * radius, scale * length, rings=60)
-    guess = inspect(mesh).unit
-    assert guess.name == unit and f"{radius:.3g} mm" in guess.reason.replace(f"{0.99 * radius:.3g}", f"{radius:.3g}")
+def test_unit_is_guessed_from_sizes_or_asked_for(unit: str, scale: float, radius: float, length: float) -> None:
+    guess = inspect(tube(scale * radius, scale * length, rings=60)).unit
+    assert guess.name == unit if guess.is_sure else f"--unit {unit}" in guess.reason
+    assert f"{radius:.3g} mm" in guess.reason.replace(f"{0.99 * radius:.3g}", f"{radius:.3g}")
 
 
 def test_jitter_is_welded() -> None:
