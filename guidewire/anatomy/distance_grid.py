@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 from scipy.ndimage import binary_dilation, label
+from scipy.spatial import cKDTree
 
 from guidewire.anatomy.mesh import AnatomyError, Mesh, Rim, close_rims, find_bodies, signed_volume
 from guidewire.anatomy.surfaces import contour, distances, nearest, to_vtk
@@ -37,7 +38,7 @@ def remesh(mesh: Mesh, rims: list[Rim], spacing: float) -> tuple[Mesh, float]:
     made = made.part(find_bodies(made) == 0)
     if signed_volume(made) > 0.0:
         made = made.turned()
-    moved = _displacement(closed, made)
+    moved = displacement(closed, made)
     for rim in rims:
         if np.abs((mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max() > 1.5 * spacing:
             made = _without_lid(made, close_rims(mesh, [rim]), len(mesh.triangles))
@@ -58,16 +59,20 @@ def _without_lid(made: Mesh, closed: Mesh, count: int) -> Mesh:
     return left.part(find_bodies(left) == 0)
 
 
-def _displacement(before: Mesh, after: Mesh) -> float:
-    """The largest distance of the new wall from the old one, and of the old one where it is outside of the new one."""
+def displacement(before: Mesh, after: Mesh, places: np.ndarray | None = None, reach: float = np.inf) -> float:
+    """The largest distance of the new wall from the old one, and of the old one where it is outside of the new one; both
+    closed. With places (k, 3), within a distance of them."""
     from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
+
+    def sample(points: np.ndarray) -> np.ndarray:
+        near = points if places is None else points[cKDTree(places).query(points)[0] < reach]
+        return near[:: max(1, len(near) // _SAMPLES)]
 
     outside = vtkImplicitPolyDataDistance()
     outside.SetInput(to_vtk(after if signed_volume(after) > 0.0 else after.turned()))
-    points = np.concatenate([before.vertices, before.corners.mean(axis=1)])
-    points = points[:: max(1, len(points) // _SAMPLES)]
-    lost = max(0.0, max(outside.EvaluateFunction(*point) for point in points))
-    return float(max(lost, distances(after.vertices[:: max(1, len(after.vertices) // _SAMPLES)], before).max()))
+    old = sample(np.concatenate([before.vertices, before.corners.mean(axis=1)]))
+    lost = max([0.0, *(outside.EvaluateFunction(*point) for point in old)])
+    return float(max(lost, distances(sample(after.vertices), before).max(initial=0.0)))
 
 
 def signed_distances(mesh: Mesh, origin: np.ndarray, spacing: float, shape: tuple[int, int, int]) -> np.ndarray:

@@ -194,6 +194,20 @@ def close_rims(mesh: Mesh, rims: list[Rim]) -> Mesh:
     return Mesh(np.concatenate(vertices), np.concatenate(triangles))
 
 
+def pinched_triangles(mesh: Mesh) -> np.ndarray:
+    """(t,): triangles at a vertex where more than one piece of rim begins, but for the larger fan there."""
+    edges = Edges.of(mesh)
+    opened = edges.ends[edges.counts == 1].ravel()
+    counts = np.bincount(opened, minlength=len(mesh.vertices))
+    bad = np.zeros(len(mesh.triangles), dtype=bool)
+    for vertex in np.flatnonzero(counts > 2):
+        around = np.flatnonzero((mesh.triangles == vertex).any(axis=1))
+        shared = [[len(set(mesh.triangles[a]) & set(mesh.triangles[b])) >= 2 for b in around] for a in around]
+        _, labels = connected_components(np.array(shared, dtype=int), directed=False)
+        bad[around[labels != np.argmax(np.bincount(labels))]] = True
+    return bad
+
+
 def _labels(count: int, a: np.ndarray, b: np.ndarray) -> np.ndarray:
     graph = coo_matrix((np.ones(len(a), dtype=np.int8), (a, b)), shape=(count, count))
     return connected_components(graph, directed=False)[1]

@@ -14,7 +14,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import breadth_first_order, connected_components
 from scipy.spatial import cKDTree
 
-from guidewire.anatomy.distance_grid import cut_open, remesh
+from guidewire.anatomy.distance_grid import cut_open, displacement, remesh
 from guidewire.anatomy.double_wall import are_folds, inner_wall
 from guidewire.anatomy.inspection import (
     facing, narrow_radius, sort_rims, typical_radius, weld, weld_exactly, weld_length_of, without_fins,
@@ -23,8 +23,10 @@ from guidewire.anatomy.inspection import (
 from guidewire.anatomy.intersections import relaxed, self_intersections
 from guidewire.anatomy.medial_graph import WallDistance
 from guidewire.anatomy.mesh import (
-    AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, find_sheets, signed_volume,
+    AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, find_sheets, pinched_triangles,
+    signed_volume,
 )
+from guidewire.anatomy.patch import patched
 from guidewire.anatomy.surfaces import distances
 
 _FACING = 0.3
@@ -32,6 +34,7 @@ _ROUNDS = 3
 _MOST_MOVED = 0.25  # of the typical radius, by a lid
 _STRAY = 0.05  # of the largest body's box: a body up to that is a remnant
 _NESTED = 0.5  # of the largest sheet's box: a wall of a nested pair is at least so large
+_REACHES = (3.0, 5.0, 8.0)  # steps of the grid around crossings, as far as the wall is reconstructed
 _WITHIN = 0.6  # of the vertices of the inner wall of a nested pair that crosses or touches lie within the outer one
 
 
@@ -236,13 +239,12 @@ class _Work:
         bad = np.zeros(len(self.mesh.triangles), dtype=bool)
         bad[pairs.ravel()] = True
         if bad.sum() <= max(40, 0.02 * len(bad)) and find_bodies(self.mesh).max() == 0:
-            before = self.mesh
+            before, known = self.mesh, list(self.changes)
             self._take_out(bad, "triangles that passed through others removed")
             self.fill_holes()
             if not len(self_intersections(self.mesh)[1]):
                 return
-            self.mesh = before
-            self.changes = self.changes[:-1]
+            self.mesh, self.changes = before, known
         # What is left goes through the distance grid.
 
     def cut_crossings_of_lids(self) -> None:
@@ -269,7 +271,7 @@ class _Work:
         work = before.part(~bad)
         # A vertex between two fans would leave rims that touch: the smaller fan goes as well.
         for _ in range(20):
-            pinched = _pinched_triangles(work)
+            pinched = pinched_triangles(work)
             if not pinched.any():
                 break
             work = work.part(~pinched)
@@ -309,9 +311,21 @@ class _Work:
         place = points[0] if len(points) else self.mesh.vertices[crowded[0]].mean(axis=0)
         count = len(points) + len(crowded)
         rims = sort_rims(self.mesh, find_rims(self.mesh, edges))
-        self.mesh, moved = remesh(self.mesh, [rim for rim in rims if not rim.is_hole], 0.25 * narrow_radius(self.mesh))
-        self.mesh = relaxed(self.mesh)
-        self._note("crossings left: the wall reconstructed from its signed distance", count, moved, place)
+        before, ends = self.mesh, [rim for rim in rims if not rim.is_hole]
+        spacing = 0.25 * narrow_radius(before)
+        made, moved = remesh(before, ends, spacing)
+        places = np.concatenate([points, before.vertices[crowded].reshape(-1, 3)])
+        step = max(spacing, float(np.median(before.edge_lengths())))
+        for reach in _REACHES:
+            mended = patched(before, made, places, reach * step, step)
+            if mended is not None and _is_whole(mended := relaxed(mended), len(ends)):
+                self.mesh, _ = _turned_alike(mended)
+                closed = close_rims(self.mesh, find_rims(self.mesh, Edges.of(self.mesh)))
+                self._note("crossings left: the wall reconstructed there from its signed distance", count,
+                           displacement(close_rims(before, ends), closed, places, reach * step), place)
+                return
+        self.mesh = relaxed(made)
+        self._note("crossings left: the whole wall reconstructed from its signed distance", count, moved, place)
         points, _ = self_intersections(self.mesh)
         if len(points):
             raise AnatomyError(f"the surface passes through itself at {len(points)} places, the first at "
@@ -325,6 +339,13 @@ class _Work:
             mesh = mesh.turned()
             self._note("normals turned into the lumen", len(mesh.triangles))
         self.mesh = mesh
+
+
+def _is_whole(mesh: Mesh, ends: int) -> bool:
+    """Whether a surface is of one body, with so many rims, and does not cross itself."""
+    edges = Edges.of(mesh)
+    return bool((edges.counts <= 2).all() and find_bodies(mesh).max() == 0 and len(find_rims(mesh, edges)) == ends
+                and not len(self_intersections(mesh)[1]))
 
 
 def _keys(mesh: Mesh) -> np.ndarray:
@@ -378,20 +399,6 @@ def _is_around(mesh: Mesh, bodies: np.ndarray, outer: int, inner: int) -> bool:
     points = mesh.part(bodies == inner).vertices
     points = points[:: max(1, len(points) // 100)]
     return np.mean([select.IsInsideSurface(*point) for point in points]) > 0.9
-
-
-def _pinched_triangles(mesh: Mesh) -> np.ndarray:
-    """(t,): triangles at a vertex where more than one piece of rim begins, but for the larger fan there."""
-    edges = Edges.of(mesh)
-    opened = edges.ends[edges.counts == 1].ravel()
-    counts = np.bincount(opened, minlength=len(mesh.vertices))
-    bad = np.zeros(len(mesh.triangles), dtype=bool)
-    for vertex in np.flatnonzero(counts > 2):
-        around = np.flatnonzero((mesh.triangles == vertex).any(axis=1))
-        shared = [[len(set(mesh.triangles[a]) & set(mesh.triangles[b])) >= 2 for b in around] for a in around]
-        _, labels = connected_components(np.array(shared, dtype=int), directed=False)
-        bad[around[labels != np.argmax(np.bincount(labels))]] = True
-    return bad
 
 
 def _turned_alike(mesh: Mesh) -> tuple[Mesh, int]:
