@@ -27,10 +27,10 @@ FAKE_RUNNER = Path(__file__).parent / "guidewire" / "runs" / "tests" / "fake_run
 
 
 def pytest_configure(config):
-    config.addinivalue_line("markers", "long(reason): runs where campaigns run in full; elsewhere skipped, and the reason "
-                                       "names what holds the claim there")
-    config.addinivalue_line("markers", "few(count): so many cases of a parametrised test, spread over its list; all of them "
-                                       "where campaigns run in full")
+    config.addinivalue_line("markers", "long(reason): runs where campaigns run in full; elsewhere skipped, and the "
+                                       "reason names what holds the claim there")
+    config.addinivalue_line("markers", "few(count): so many cases of a parametrised test, spread over its list; all "
+                                       "of them where campaigns run in full")
 
 
 def pytest_collection_modifyitems(items):

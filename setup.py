@@ -20,7 +20,8 @@ os.environ.setdefault("SOURCE_DATE_EPOCH", "315532800")  # 1980: the same source
 
 
 class BuildPackage(build_py):
-    """Adds what lies elsewhere in the repository, and the native programs, which are built; an editable one has both."""
+    """Adds what lies elsewhere in the repository, and the native programs, which are built; an editable one has
+    both."""
 
     def run(self):
         if self.editable_mode:

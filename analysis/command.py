@@ -20,7 +20,8 @@ from guidewire.studies.table import Grid, Source
 from guidewire.sweeps.sweep import FAILED, Means
 
 # Of the arch with its branch, as a C-arm sees them.
-_FILM = ["--fluoroscopy", "--frames", "24", "--pixels", "288", "--noise", "0", "--target", "0", "55", "180", "--field", "150"]
+_FILM = ["--fluoroscopy", "--frames", "24", "--pixels", "288", "--noise", "0", "--target", "0", "55", "180", "--field",
+         "150"]
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
 
 

@@ -3,7 +3,8 @@
 **Gains.** While a wire is nearly straight, a sweep is linear in the distances u from rest, u -> S u, and so is a step
 with its prediction: u_{k+1} = S^m (2 u_k - u_{k-1}). With an eigenvalue s of S and a = s^m the roots of
 r^2 - 2 a r + a = 0 say how the motion grows from step to step; a wire holds where none is above 1. For many sweeps that
-asks for |s| < 1, and a damping d, which makes the equation r^2 - (2 - d) a r + (1 - d) a = 0, changes little. A Gauss-Seidel sweep over equal links that takes back the part f of each error holds up to f = 2:
+asks for |s| < 1, and a damping d, which makes the equation r^2 - (2 - d) a r + (1 - d) a = 0, changes little. A
+Gauss-Seidel sweep over equal links that takes back the part f of each error holds up to f = 2:
 2 for the stretch gain across the wire, 2 (1 + 2 wq l^2/w) along it, where the part 4 wq l^2 of the correction is lost,
 and l for the bend gain, of which 2/l acts. The link at the held sphere moves one sphere only and is softer than the
 others, which a wire of few long elements feels; `limit_along` and `limit_across` have the whole chain.

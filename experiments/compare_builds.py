@@ -55,15 +55,18 @@ def scenes() -> list[Scene]:
     found += [Scene("cantilever", 50, {"proximalEnd": "free", "integrator": order, "tipForce": [0.01, 0, 0]})
               for order in ("implicitEuler", "esdirk3")]
     found += [Scene("buckling", 200), Scene("buckling", 100, {"integrator": "esdirk3"}), Scene("torque", 300),
-              Scene("concentric-tubes", 200), Scene("concentric-tubes", 60, {"integrator": "esdirk3", "timeStep": 0.01})]
+              Scene("concentric-tubes", 200), Scene("concentric-tubes", 60,
+                                                    {"integrator": "esdirk3", "timeStep": 0.01})]
     found += [Scene("insertion-accurate", 230), Scene("insertion-accurate", 100, {"integrator": "trbdf2"}),
               Scene("insertion-accurate", 60, {"hubForceLimit": 0.001}),
               Scene("insertion-accurate", 40, {"timeStep": 0.1}), Scene("cantilever", 40, pushed)]
-    found += [Scene("sheath", 150), Scene("sheath", 90, {"timeStep": 0.1}), Scene("sheath", 150, {"hubForceLimit": 0.01})]
+    found += [Scene("sheath", 150), Scene("sheath", 90, {"timeStep": 0.1}),
+              Scene("sheath", 150, {"hubForceLimit": 0.01})]
     found += [Scene("catheter", 300), Scene("catheter", 150, {"hubForceLimit": 0.02}),
               Scene("catheter", 60, {"timeStep": 0.1}), Scene("catheter", 40, {"timeStep": 0.2}),
               Scene("catheter-branch", 300), Scene("catheter-branch", 60, {"timeStep": 0.1}),
-              Scene("catheter-sheath", 150), Scene("catheter-sheath", 40, {"timeStep": 0.2}), Scene("microcatheter", 200),
+              Scene("catheter-sheath", 150), Scene("catheter-sheath", 40, {"timeStep": 0.2}),
+              Scene("microcatheter", 200),
               Scene("microcatheter", 60, {"timeStep": 0.1}), Scene("guide-catheter", 300),
               Scene("guide-catheter", 60, {"timeStep": 0.05}), Scene("guide-catheter", 50, {"timeStep": 0.1})]
     return found

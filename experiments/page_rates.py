@@ -52,8 +52,8 @@ def main() -> None:
             for views, shown in VIEWS.items():
                 seen = measure(Path(folder) / f"{name}.json", command, views)
                 print(f"{name} (60 elements, {len(mesh.triangles)} triangles), {shown}: {seen['rate']:.0f} pictures a"
-                      f" second, each {seen['cost']:.0f} ms of processor time; from a key to its picture {seen['median']:.0f} ms"
-                      f" (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
+                      f" second, each {seen['cost']:.0f} ms of processor time; from a key to its picture "
+                      f"{seen['median']:.0f} ms (median of {seen['keys']}), at most {seen['worst']:.0f}", flush=True)
 
 
 def measure(scene: Path, command: list[str], views: str) -> dict[str, float]:

@@ -42,7 +42,8 @@ def tube() -> dict[str, Any]:
 def rate(overrides: Mapping[str, Any], native: bool, step: float, seed: int = 0) -> tuple[float, float]:
     """Calls a second of one session: the median of its rounds, and the best, which a busy machine disturbs least."""
     rates = []
-    with Session(SCENE, hand=True, native=native, maxSimulationSteps=1_000_000_000, deltaThreshold=0, **overrides) as session:
+    with Session(SCENE, hand=True, native=native, maxSimulationSteps=1_000_000_000, deltaThreshold=0,
+                 **overrides) as session:
         steps = round(step / session.parameters["timeStep"])
         calls = round(MOTION / step)
         random = np.random.default_rng(seed)

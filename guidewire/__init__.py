@@ -1,4 +1,5 @@
-"""Simulation of medical guidewires: runs, logs, sessions, sweeps, vessels and environments for scripts (docs/python.md).
+"""Simulation of medical guidewires: runs, logs, sessions, sweeps, vessels and environments for scripts
+(docs/python.md).
 
 `from guidewire import Session, read_run, read_log`. Each name is imported when it is asked for, because most of them
 need numpy. Any Python from 3.6 on can read this file.

@@ -1,4 +1,5 @@
-"""The command line: `python -m guidewire`, or `guidewire` once it is installed. Any Python from 3.6 on can read this file."""
+"""The command line: `python -m guidewire`, or `guidewire` once it is installed. Any Python from 3.6 on can read this
+file."""
 
 import sys
 

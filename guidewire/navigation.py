@@ -3,8 +3,8 @@
 The wire is pushed along the vessel's centreline from the inlet, and a snapshot is kept of every few millimetres on the
 path to the target. Where the tip enters a branch that does not lead there, or comes no farther, another attempt begins
 from one of the snapshots: how far behind the farthest one is drawn, most often little, as are the turn of the hub, and
-whether the hub goes on turning while it is pushed. So no progress is lost, and a branch that can be entered only after a
-turn far before it is found as well. What is left at the end is one drive without the
+whether the hub goes on turning while it is pushed. So no progress is lost, and a branch that can be entered only after
+a turn far before it is found as well. What is left at the end is one drive without the
 failed attempts: a table of time, insertion and rotation for each hub, which any run repeats with the same bits. So that
 this holds, a drive that was found is made once more from the start, without a snapshot; where it does not reach the
 target then, the search goes on from there. The draws have a fixed seed: the same scene has the same drive.
@@ -281,10 +281,12 @@ class _Search:
         now = time.monotonic()
         if is_due or now - self._shown > _SHOWN:
             self._shown = now
-            self._tell(f"{(now - self._began) / 60.0:.1f} min: {line}, {self.farthest:.0f} of {self.route.length:.0f} mm")
+            self._tell(f"{(now - self._began) / 60.0:.1f} min: {line}, {self.farthest:.0f} of "
+                       f"{self.route.length:.0f} mm")
 
 
-def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None, tip: Tip | None = None,
+def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None,
+          tip: Tip | None = None,
           minutes: float = np.inf) -> Found:
     """Find a drive from a scene's inlet to its target.
 

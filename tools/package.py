@@ -19,8 +19,8 @@ from guidewire.viewer import parts
 PROJECTS = ("Guidewire.Core", "Guidewire.Io")
 KINDS = ("wheel", "nuget")
 LOG = ROOT / "results" / "package.log"
-_ELSEWHERE = ("Windows, macOS: not tried; the same command needs the .NET SDK there with its C++ compiler, a launcher in place "
-              "of runner.c, and the tag win_amd64 or macosx_11_0_arm64")
+_ELSEWHERE = ("Windows, macOS: not tried; the same command needs the .NET SDK there with its C++ compiler, a launcher "
+              "in place of runner.c, and the tag win_amd64 or macosx_11_0_arm64")
 
 
 def package(arguments: argparse.Namespace) -> int:
@@ -46,7 +46,8 @@ def _nuget(out: Path) -> list[Path]:
     print("packing", *PROJECTS, flush=True)
     with tempfile.TemporaryDirectory(prefix="guidewire-package-") as folder:  # what the repository has built stays
         for project in PROJECTS:
-            _run([building.dotnet()[0], "pack", "-c", "Release", "--nologo", "-v", "q", str(building.HEADLESS / project),
+            _run([building.dotnet()[0], "pack", "-c", "Release", "--nologo", "-v", "q",
+                  str(building.HEADLESS / project),
                   "-o", str(_made(out)), "--artifacts-path", folder])
     return [out / f"{project}.{version()}.nupkg" for project in PROJECTS]
 
@@ -86,7 +87,8 @@ def _run(command: Sequence[str]) -> None:
         _made(LOG.parent)
         LOG.write_text(done.stdout + done.stderr, encoding="utf-8")
         lines = [line.strip() for line in (done.stdout + done.stderr).splitlines() if "rror" in line]
-        raise PreparationError(f"{Path(command[0]).name} failed: {(lines or ['no message'])[0]} (log: {os.path.relpath(LOG)})")
+        raise PreparationError(f"{Path(command[0]).name} failed: {(lines or ['no message'])[0]} (log: "
+                               f"{os.path.relpath(LOG)})")
 
 
 def main() -> int:

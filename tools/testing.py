@@ -25,7 +25,8 @@ from guidewire.runs import building
 RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
 # In this order, so that what needs nothing built runs beside the build, and no long file is left over at the end.
-PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "guidewire/viewer", "tools/unitycheck", "guidewire/sessions",
+PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "guidewire/viewer", "tools/unitycheck",
+          "guidewire/sessions",
           "experiments", "analysis", "guidewire", "tools")
 # The build that Unity compiles has the same sources and runs here on the same runtime as the other. Where campaigns do
 # not run in full it makes the tests of what the two do in different ways: how sweeps are made and numbers are written.
@@ -62,7 +63,8 @@ def test(arguments: argparse.Namespace) -> int:
     workers = (os.cpu_count() or 1) + 1    # one more than processors: a part of their time tests wait
     not_built = threading.Event()
     with ThreadPoolExecutor() as threads:
-        python = threads.submit(run, "pytest", [*PYTEST, "-n", str(workers), "--dist", "loadfile", *PYTHON], seconds, not_built)
+        python = threads.submit(run, "pytest", [*PYTEST, "-n", str(workers), "--dist", "loadfile", *PYTHON], seconds,
+                                not_built)
         total = _dotnet(arguments.all, seconds, not_built) + python.result()
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1

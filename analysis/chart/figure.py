@@ -39,7 +39,8 @@ def draw_costs(found: Sequence[Charted]) -> tuple[Figure, str]:
     figure = _panels(found, seconds, _COST, lines)
     return captioned(figure, (
         "Figure chart. Error against cost of every method. Cost: wall time of the steps per "
-        f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), {_load(found)}. Markers: "
+        f"simulated second, one thread, median of timed runs made one at a time ({repeats_in_words()}), "
+        f"{_load(found)}. Markers: "
         "pbd diamonds, xpbd triangles, explicit squares, direct circles. Thick grey line: the Pareto front, which no "
         "other setting beats in both error and cost; its settings are labelled where they fit (n elements, time "
         "step or substep, m iterations), and all of them in the table and on the page beside this picture. Vertical "
@@ -82,7 +83,8 @@ def draw_summary(found: Sequence[Charted]) -> Figure:
                           color=COLOURS[method], fillstyle="none", markersize=4, linewidth=0.9, label=method)
         axes.axvline(1.0, color="0.3", linestyle="--", linewidth=0.8)
         axes.set(xscale="log", yscale="log")
-        axes.set_title(textwrap.fill(_NO_BREAK.sub("\N{NO-BREAK SPACE}", charted.problem.title), _TITLE_WIDTH), fontsize=8)
+        axes.set_title(textwrap.fill(_NO_BREAK.sub("\N{NO-BREAK SPACE}", charted.problem.title), _TITLE_WIDTH),
+                       fontsize=8)
         axes.tick_params(labelsize=6)
     figure.supxlabel(f"{_COST}; dashed: real time", fontsize=8)
     figure.supylabel("error (1)", fontsize=8)
@@ -120,7 +122,8 @@ def _draw_panel(axes: Axes, charted: Charted, cost: Cost,
                       label=method)
     axes.set(xscale="log", yscale="log")
     costs, errors = [cost(p) for p in charted.points], [p.drawn for p in charted.points if p.held]
-    axes.set_xlim(min(*costs, *(x for x, _ in lines)) / _FRAME_FACTOR, max(*costs, *(x for x, _ in lines)) * _FRAME_FACTOR)
+    axes.set_xlim(min(*costs, *(x for x, _ in lines)) / _FRAME_FACTOR,
+                  max(*costs, *(x for x, _ in lines)) * _FRAME_FACTOR)
     axes.set_ylim(min(errors) / _FRAME_FACTOR, max(errors) * _FRAME_FACTOR**2)
     for x, name in lines:
         axes.axvline(x, color="0.3", linestyle="--", linewidth=0.8)

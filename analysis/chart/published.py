@@ -28,10 +28,10 @@ class Published:
 PUBLISHED = (
     Published(
         "insertion", "2 x 512 elements, GPU", (1e-3, 2e-3),
-        "P. Korzeniowski, N. Hald, F. Bello (2025): Massively-Parallel Implementation of Inextensible Elastic Rods Using "
-        "Inter-block GPU Synchronization, arXiv:2509.04277, abstract",
+        "P. Korzeniowski, N. Hald, F. Bello (2025): Massively-Parallel Implementation of Inextensible Elastic "
+        "Rods Using Inter-block GPU Synchronization, arXiv:2509.04277, abstract",
         "a catheter and a guidewire of 512 Cosserat elements each in a cardiovascular scene, simulated in real time at "
-        "0.5 to 1 kHz by a program that makes several time steps in one launch on a graphics processor; another vessel, "
-        "other wires and another machine, and no error is stated there",
+        "0.5 to 1 kHz by a program that makes several time steps in one launch on a graphics processor; another "
+        "vessel, other wires and another machine, and no error is stated there",
     ),
 )

@@ -51,7 +51,8 @@ def _thin(wall: Mapping[str, Any], duration: float, gain: float) -> tuple[Any, l
         method = {"solver": "xpbd", "numberRodElements": n, "substeps": substeps, "constraintSolverSteps": sweeps}
         return {**scenes.wire_parameters(PLANE_WIRE), **settings.settled(method, 1e-3, _RATE, duration), **wall}
 
-    compliant = [Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m), case(f"xpbd-{n}-{k}-{m}", "xpbd", xpbd(n, k, m)))
+    compliant = [Setting("xpbd", *settings.small_steps(n, 1e-3 / k, m),
+                         case(f"xpbd-{n}-{k}-{m}", "xpbd", xpbd(n, k, m)))
                  for n, k, m in _XPBD]
     return direct, compliant + settings.changed_pbd(gain, _PBD_CHANGES, pbd)
 

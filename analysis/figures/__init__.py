@@ -30,7 +30,8 @@ class FigureSpec:
     id : its number, such as "4.5".
     title : what it shows, in a few words.
     studies : names of the studies whose runs it is drawn from.
-    draw : from a mapping of study name to study folder to the figure and its caption. Raises guidewire.logs.logs.LogError
+    draw : from a mapping of study name to study folder to the figure and its caption. Raises
+        guidewire.logs.logs.LogError
         where a file cannot be read or no run lasts as long as its reference, and analysis.relaxation.RelaxationError
         where nothing relaxes.
     beside : further files of the picture's folder, by name: each writes, from the same mapping, the file at a path.
@@ -102,7 +103,8 @@ FIGURES: dict[str, FigureSpec] = {
                    "Push against a wall, the wire's first two thirds between two plates"),
         _gain_spec("vessel-gain", "gain-vessel", "long elements in a vessel: error, cost, passages",
                    "Insertion into an arch with a branch, until the wire buckles"),
-        _rows_spec("contact-rule", "the published contact rule compared with the lever rule", "contact-rule", read_rests,
+        _rows_spec("contact-rule", "the published contact rule compared with the lever rule", "contact-rule",
+                   read_rests,
                    draw_contact_rule),
         _rows_spec("pulling", "what moves the first sphere in a bend", "drives", read_drives, draw_drives),
         _rows_spec("twist", "tip angle against base angle", "twist", read_twists, draw_twist),

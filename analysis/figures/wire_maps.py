@@ -212,7 +212,8 @@ def _caption(found: Mapping[str, Sequence[Cell]], damped: Sequence[Frontier]) ->
                     if name != "reference")
         + ". No damping is too strong for a step. The schemes that damp by themselves are off where the lowest mode "
         "swings (left of the dashed line, where it is damped critically): by implicit Euler one mode alone is off by "
-        + ", ".join(f"{percent(mode[cell.x])} ({percent(cell.error)} found)" for cell in (euler[0], euler[len(euler) // 2]))
+        + ", ".join(f"{percent(mode[cell.x])} ({percent(cell.error)} found)"
+                    for cell in (euler[0], euler[len(euler) // 2]))
         + f" at {number(euler[0].x, 2)} and {number(euler[len(euler) // 2].x, 2)}. (g) Largest stretch "
         f"stiffness of spheres that lose a fraction of their speed per step: bisections (circles) are within "
         f"{percent(off)} of the chain's limit (dashed). With many iterations damping changes nothing: an error grows "

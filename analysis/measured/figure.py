@@ -97,10 +97,10 @@ def draw(found: Found) -> tuple[Figure, str]:
         axes.set(xlabel=f"{'xyz'[across[0]]} (m)", ylabel=f"{'xyz'[across[1]]} (m)")
         counted = "" if pose.number in COUNTED else "*"
         letter(axes, "defghijk"[4 * (row - 1) + pose.number], f"{pose.wire} {pose.number}: {pose.miss:.1f} mm{counted}")
-    told = [f"{name} {found.mean_miss(name):.1f} mm (the authors' rods {found.peers(name)['adapt']:.1f}, MuJoCo's cable "
-            f"{found.peers(name)['native']:.1f})" for name in ("white", "black")]
-    caption = (f"Loops of 1.5 m with the wire found, and poses of 0.4 m with the wire predicted from them. Mean distance over "
-               f"poses 0 to 2: {', '.join(told)}.")
+    told = [f"{name} {found.mean_miss(name):.1f} mm (the authors' rods {found.peers(name)['adapt']:.1f}, "
+            f"MuJoCo's cable {found.peers(name)['native']:.1f})" for name in ("white", "black")]
+    caption = ("Loops of 1.5 m with the wire found, and poses of 0.4 m with the wire predicted from them. Mean "
+               f"distance over poses 0 to 2: {', '.join(told)}.")
     caption += " * comes near contact with itself, not counted."
     add_caption(figure, caption)
     return figure, caption
@@ -108,13 +108,14 @@ def draw(found: Found) -> tuple[Figure, str]:
 
 def as_markdown(found: Found) -> str:
     """The tables of docs/measured.md."""
-    lines = ["| wire | EI of five digitisations, 1e-5 N m² | mean | spread | standard error | RMS, mm |", "|---|---|---|---|---|---|"]
+    lines = ["| wire | EI of five digitisations, 1e-5 N m² | mean | spread | standard error | RMS, mm |",
+             "|---|---|---|---|---|---|"]
     for name, fits in found.loops.items():
         bending = found.bending(name)
         errors = [fit["bendingStiffness"].error / fit["bendingStiffness"].value for fit in fits]
-        lines.append(f"| {name} | {', '.join(f'{1e5 * value:.3g}' for value in bending)} | {1e5 * np.mean(bending):.3g} | "
-                     f"{100 * np.std(bending, ddof=1) / np.mean(bending):.1f} % | {100 * np.mean(errors):.1f} % | "
-                     f"{np.mean([fit.rms[0] for fit in fits]):.1f} |")
+        lines.append(f"| {name} | {', '.join(f'{1e5 * value:.3g}' for value in bending)} | "
+                     f"{1e5 * np.mean(bending):.3g} | {100 * np.std(bending, ddof=1) / np.mean(bending):.1f} % | "
+                     f"{100 * np.mean(errors):.1f} % | {np.mean([fit.rms[0] for fit in fits]):.1f} |")
     lines += ["", "| wire | GJ, 1e-5 N m² | standard error |", "|---|---|---|"]
     for name, fit in found.twists.items():
         one = fit["torsionalStiffness"]

@@ -114,8 +114,8 @@ def peer_of(wire: Wire, pose: int, name: str) -> np.ndarray:
 
 
 def miss(wire: Wire, pose: int, nodes: np.ndarray) -> tuple[float, np.ndarray, np.ndarray]:
-    """Mean distance, m, of the 11 measured points from points at equal parts of the arc, after the best rigid alignment;
-    and both sets of points."""
+    """Mean distance, m, of the 11 measured points from points at equal parts of the arc, after the best rigid
+    alignment; and both sets of points."""
     measured = _table(f"pose_{wire.name}_{pose}.csv")
     line = by_arc(nodes, np.linspace(0.0, 1.0, len(measured)))
     a, b = measured.mean(axis=0), line.mean(axis=0)

@@ -78,7 +78,8 @@ def write_maps(folder: Path) -> dict[str, Path]:
     for path in folders.values():
         path.mkdir()
     gains = {
-        "limit-stretch-across": lambda n: 2.0, "limit-stretch-along": closed_form_along, "limit-bend": lambda n: LENGTH / n,
+        "limit-stretch-across": lambda n: 2.0, "limit-stretch-along": closed_form_along,
+        "limit-bend": lambda n: LENGTH / n,
     }
     for name, limit in gains.items():
         rows = [f"verlet,{m},{n},gain,{limit(n)},{1.01 * limit(n)},diverged,holds below" for m in (20, 100)

@@ -40,7 +40,8 @@ POINTS = (
 
 
 def charted(*points: Point) -> Charted:
-    return Charted(Problem("bar", "a bar", "of its length", lambda: None, {"explicit": "does not support walls"}), points,
+    return Charted(Problem("bar", "a bar", "of its length", lambda: None, {"explicit": "does not support walls"}),
+                   points,
                    "a closed form", 0.1)
 
 

@@ -1,5 +1,5 @@
-"""States beyond frontiers and in the maps of outcomes (guidewire/studies/frontiers.py, guidewire/studies/maps.py): a method that fails says
-so, by its outcome, its reason or a number of the summary, and does not look fine."""
+"""States beyond frontiers and in the maps of outcomes (guidewire/studies/frontiers.py, guidewire/studies/maps.py): a
+method that fails says so, by its outcome, its reason or a number of the summary, and does not look fine."""
 
 import json
 from contextlib import closing

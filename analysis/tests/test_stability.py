@@ -62,7 +62,8 @@ def test_caption_says_how_far_frontiers_are_from_their_limits_and_what_is_lost(
 
 def test_a_frontier_that_was_not_found_is_reported(studies: dict[str, Path], tmp_path: Path) -> None:
     (tmp_path / "frontier.csv").write_text(
-        "variant,constraintSolverSteps,numberRodElements,key,low,high,fails,note\nverlet,20,30,gain,,,,holds at both ends\n")
+        "variant,constraintSolverSteps,numberRodElements,key,low,high,fails,note\nverlet,20,30,gain,,,,holds at "
+        "both ends\n")
     assert np.isnan(read_frontiers(tmp_path)[0].middle)
     with pytest.raises(LogError, match="lies outside the range"):
         FIGURES["stability"].draw({**studies, "limit-bend": tmp_path})

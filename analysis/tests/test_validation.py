@@ -21,8 +21,8 @@ from tools.testing import FULL_CAMPAIGNS
 
 # The longest run only where campaigns run in full: of the rows in the vessel all but the whip, which needs all of
 # contact, and those whose claim a test of Core holds with the same closed form (TwistedWireTests, MaterialRunTests,
-# MotionTests, ClampTests, CoaxialStaticsTests, CoaxialSlidingTests, StabilityTests, LargeTurnTests); of several checks of
-# one claim one, or those at both ends of its range; of the wire on a plane the row with direct alone.
+# MotionTests, ClampTests, CoaxialStaticsTests, CoaxialSlidingTests, StabilityTests, LargeTurnTests); of several checks
+# of one claim one, or those at both ends of its range; of the wire on a plane the row with direct alone.
 HELD_BY_CORE = ("ring", "localised-helix", "bar", "clamp-frequencies", "coaxial-stability", "coaxial-snap",
                 "coaxial-expulsion", "coaxial-sliding", "coaxial-limits", "strips", "large-turns")
 SECOND = ("end-moment-darboux", "force-balance-default",    # joint-law has both laws; force-balance is stricter

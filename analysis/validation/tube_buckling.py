@@ -7,9 +7,9 @@ cos(phi).
 
 Small phi is a column on an elastic foundation: phi'''' + f phi'' + phi = 0, which an endless wire leaves at f = 2
 (Dawson and Paslay 1984), one between clamps a little later. A helix of even pitch has the energy of the straight wire
-at f = 2 sqrt(2) = 2.83 (Chen, Lin and Cheatham 1990). That is no limit of either shape: a straight wire may snake on above
-it, a helix hold below it. A helix is pushed onto the wall by 4 phi' phi''' + 3 phi''^2 - phi'^4 + f phi'^2 + cos(phi)
-(over w); where that is no push any more at the top it leaves the wall there, and then unwinds.
+at f = 2 sqrt(2) = 2.83 (Chen, Lin and Cheatham 1990). That is no limit of either shape: a straight wire may snake on
+above it, a helix hold below it. A helix is pushed onto the wall by 4 phi' phi''' + 3 phi''^2 - phi'^4 + f phi'^2 +
+cos(phi) (over w); where that is no push any more at the top it leaves the wall there, and then unwinds.
 """
 
 from __future__ import annotations
@@ -88,8 +88,8 @@ def _helix(condition: Callable[[np.ndarray, float, float], float]) -> float:
     """f at which a helix whose number of turns is free meets a condition at its top.
 
     Half a turn from the bottom to the top is solved for, with its length and f: y is phi, its three derivatives, and
-    the energy so far. As turns are free, the energy per length is the least: with the Hamiltonian H, which does not change
-    along the wire, the energy is - H times the length.
+    the energy so far. As turns are free, the energy per length is the least: with the Hamiltonian H, which does not
+    change along the wire, the energy is - H times the length.
     """
 
     def rates(x: np.ndarray, y: np.ndarray, unknown: np.ndarray) -> np.ndarray:

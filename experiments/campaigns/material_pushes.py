@@ -1,5 +1,5 @@
-"""Random wires with a material pushed into the vessels of `pushes`: by direct, by direct through a sheath ("sheath"), and
-by xpbd. Lengths are millimetres, one unit each."""
+"""Random wires with a material pushed into the vessels of `pushes`: by direct, by direct through a sheath ("sheath"),
+and by xpbd. Lengths are millimetres, one unit each."""
 
 from __future__ import annotations
 
@@ -41,7 +41,8 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
         "guidewireLength": outside, "numberRodElements": count, "guidewireOffset": -outside,
         "wireRadius": 1e-3 * radius, "youngsModulus": stiffness, "shearModulus": 0.38 * stiffness,
         "density": _between(random, 1500.0, 13000.0), "massDamping": float(random.choice([0.0, 20.0, 100.0])),
-        "timeStep": _between(random, 1e-3, 3e-2) * (0.1 if method == "xpbd" else 1.0), "displacementPerStep": per_step, "deltaThreshold": 0.0,
+        "timeStep": _between(random, 1e-3, 3e-2) * (0.1 if method == "xpbd" else 1.0), "displacementPerStep": per_step,
+        "deltaThreshold": 0.0,
         "maxSimulationSteps": int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 120)),
         "logFormat": "npz", "logContacts": True, "vessel": dict(vessel.wall),
     }

@@ -3,7 +3,8 @@
 Twelve kinds of vessel: a helix, a branch with a sharp apex, a stenosis, tubes of 8 sides, of 4 (a square channel) and
 of many small triangles, tight bends in closed form, an S-bend of changing radius, cones as mesh and in closed form, a
 bulge, and a slope. Every vessel begins with a straight piece along z in which the wire lies; meshes are closed, so that
-a wire that is outside has passed a wall. ``python3 -m experiments.campaigns.push_campaign --help`` makes a campaign of them.
+a wire that is outside has passed a wall. ``python3 -m experiments.campaigns.push_campaign --help`` makes a campaign of
+them.
 """
 
 from __future__ import annotations

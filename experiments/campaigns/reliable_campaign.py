@@ -1,7 +1,7 @@
 """Random runs of all kinds: is `reliable` what their logs say?
 
-``python3 -m experiments.campaigns.reliable_campaign --runs 500 --keep DIR`` prints one line for each run where it is not,
-and keeps its files there. The criteria stand in `reliable_claims`; the runs are those of `reliable_runs`.
+``python3 -m experiments.campaigns.reliable_campaign --runs 500 --keep DIR`` prints one line for each run where it is
+not, and keeps its files there. The criteria stand in `reliable_claims`; the runs are those of `reliable_runs`.
 """
 
 from __future__ import annotations

@@ -9,7 +9,8 @@ Criteria, written down before the first run. A result is not to be trusted where
 5. its outermost fibre is strained by more than 20 % (direct);
 6. a hub went less far than asked, by more than a thousandth of that and than a millionth of the wire's length;
 7. a hub's force is above its limit, by more than a fiftieth;
-8. the forces on the wire and its change of momentum differ by more than a thousandth of the largest of them, or of EI/L^2
+8. the forces on the wire and its change of momentum differ by more than a thousandth of the largest of them, or of
+EI/L^2
    (direct);
 9. one of its warnings is listed in docs/runs.md as one that makes it so.
 What is nearer to a border than a twentieth may be either.
@@ -26,7 +27,8 @@ from typing import Any
 import numpy as np
 
 SAMPLES = 10
-_ROW = re.compile(r"^\| (.+?) \| (?:before the run|after the reason|at the end) \| is (not changed|false) \| ", re.MULTILINE)
+_ROW = re.compile(r"^\| (.+?) \| (?:before the run|after the reason|at the end) \| is (not changed|false) \| ",
+                  re.MULTILINE)
 _ALLOWED = {"pbd": 1.0, "xpbd": 0.05, "direct": 0.0}
 _NEAR = 0.05
 # Warnings that a criterion here measures too, by their beginning.
@@ -91,7 +93,8 @@ def violations(scene: Mapping[str, Any], summary: Mapping[str, Any], log: Mappin
         if found.is_beyond and summary["reliable"]:
             claims.append(f"{name}: {found.value:.4g} is above {found.limit:.4g}, and the run calls itself reliable")
         elif is_said and found.is_within:
-            claims.append(f"{name}: {found.value:.4g} is within {found.limit:.4g}, and the run says otherwise: {serious}")
+            claims.append(f"{name}: {found.value:.4g} is within {found.limit:.4g}, and the run says otherwise: "
+                          f"{serious}")
     return claims
 
 
@@ -134,7 +137,8 @@ def _against(scene: Mapping[str, Any], x: np.ndarray) -> dict[str, Found]:
     """Distances of points along the wire from a plane or a straight tube along z."""
     vessel = scene["vessel"]
     part = (np.arange(SAMPLES) / SAMPLES)[:, None]
-    points = np.concatenate([(x[:, :-1, None] * (1.0 - part) + x[:, 1:, None] * part).reshape(len(x), -1, 3), x[:, -1:]],
+    points = np.concatenate([(x[:, :-1, None] * (1.0 - part) + x[:, 1:, None] * part).reshape(len(x), -1, 3),
+                             x[:, -1:]],
                             axis=1)
     if vessel["shape"] == "plane":
         normal = np.asarray(vessel["normal"], dtype=float)
@@ -150,7 +154,8 @@ def _against(scene: Mapping[str, Any], x: np.ndarray) -> dict[str, Found]:
     if scene.get("catheters"):
         return {"passed a wall": Found(float(np.count_nonzero(distance < 0.0)), 0.0)}
     return {"passed a wall": Found(float(np.count_nonzero(distance < 0.0)), 0.0),
-            "penetration": Found(float(radius - distance.min(initial=math.inf)) / radius, _ALLOWED[scene["solver"]] + 1e-9)}
+            "penetration": Found(float(radius - distance.min(initial=math.inf)) / radius,
+                                 _ALLOWED[scene["solver"]] + 1e-9)}
 
 
 def _driven(scene: Mapping[str, Any], summary: Mapping[str, Any], log: Mapping[str, np.ndarray]) -> dict[str, Found]:

@@ -145,7 +145,8 @@ def _coaxial(random: np.random.Generator) -> Scene:
     moves = [float(random.choice([0.0, random.uniform(1.0, 30.0)])) for _ in range(2)]
     speed = 1e-3 / (0.02 * steps)
     catheter = {"start": start, "length": random.uniform(0.4, 0.7) * length, "elements": int(random.integers(8, 25)),
-                "wireRadius": 1.4 * lumen, "lumenRadius": lumen, "insertionSpeed": speed * min(moves[1], moves[0] + 10.0),
+                "wireRadius": 1.4 * lumen, "lumenRadius": lumen,
+                "insertionSpeed": speed * min(moves[1], moves[0] + 10.0),
                 "restCurvature": [float(random.choice([0.0, 0.0, random.uniform(1.0, 40.0)])), 0.0, 0.0]}
     scene = {"solver": "direct", "guidewireLength": length, "numberRodElements": int(random.integers(10, 30)),
              "guidewireOffset": 0.0, "wireRadius": lumen * random.uniform(0.5, 0.95), "proximalEnd": "clamped",

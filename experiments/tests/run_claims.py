@@ -20,14 +20,16 @@ ENDINGS = {"converged": 0, "finished": 0, "diverged": 4, "failed": 5}
 GAINS = "pbd"
 SUMMARY_KEYS = {
     "outcome", "reason", "reliable", "steps", "inGameTime", "computationTime", "setUpTime", "wallTime",
-    "averageStepTime", "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages", "maxPenetration", "driveAsked",
+    "averageStepTime", "medianStepTime", "predictionError", "steadyStateStep", "stiffness", "passages",
+    "maxPenetration", "driveAsked",
     "driveShortfall", "hub", "largestContactForce", "largestWallForce",
     "wallForces", "extremes", "timed", "repeat", "warnings", "ignored", "notes", "log", "versions", "parameterHash",
     "complete", "reliable",
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
-    "axialForceTime", "axialTorqueTime", "elementForceTime", "driveAsked", "hub", "lengthInBody", "spheresInBody", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
+    "axialForceTime", "axialTorqueTime", "elementForceTime", "driveAsked", "hub", "lengthInBody", "spheresInBody",
+    "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
     "wallIterations", "halvedSteps", "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque",
     "elementForce", "wallPressure", "frictionPower", "frictionWork",

@@ -70,16 +70,20 @@ def test_the_judge_finds_what_a_run_that_calls_itself_reliable_hides(run, name, 
 
 def test_the_judge_finds_a_run_that_warns_without_reason(run):
     scene, summary, log = run
-    for line in ("3 points of the wire passed a wall", "the outermost fibre was strained by up to 30 %: a real instrument "
+    for line in ("3 points of the wire passed a wall", "the outermost fibre was strained by up to 30 %: a real "
+                                                       "instrument "
                  "would have kinked", "the wire is 2.0 % longer than at rest"):
         said = {**summary, "warnings": [line], "reliable": False}
         assert "says otherwise" in reliable_claims.violations(scene, said, log, WARNINGS)[0]
-        assert reliable_claims.violations(scene, {**said, "reliable": True}, log, WARNINGS)[0].startswith("reliable = True")
-    assert reliable_claims.violations(scene, {**summary, "reliable": False}, log, WARNINGS)[0].startswith("reliable = False")
+        assert reliable_claims.violations(scene, {**said, "reliable": True}, log,
+                                          WARNINGS)[0].startswith("reliable = True")
+    assert reliable_claims.violations(scene, {**summary, "reliable": False}, log,
+                                      WARNINGS)[0].startswith("reliable = False")
 
 
 IN_ONE_ANOTHER = {
-    **reliable_runs.LOGS, "solver": "direct", "guidewireLength": 120.0, "numberRodElements": 30, "guidewireOffset": -20.0,
+    **reliable_runs.LOGS, "solver": "direct", "guidewireLength": 120.0, "numberRodElements": 30,
+    "guidewireOffset": -20.0,
     "wireRadius": 0.0004, "proximalEnd": "clamped", "drive": "displace", "massDamping": 20.0, "timeStep": 0.02,
     "maxSimulationSteps": 100, "logHub": True, "insertionSpeed": 0.008,
     "vessel": {"shape": "tube", "smooth": True, "openStart": True, "openEnd": True, "radius": 3.0,
@@ -91,8 +95,8 @@ IN_ONE_ANOTHER = {
 @pytest.mark.parametrize("bent, is_reliable", [(0.0, True), (2.0, True), (20.0, False), (40.0, True), (200.0, False)])
 @pytest.mark.few(3)
 def test_a_hub_that_rests_does_not_fall_short_and_large_play_is_not_reliable(live, tmp_path, bent, is_reliable):
-    """A wire is pushed through a catheter at rest, whose spring gives way by 1e-10 of its length. The wire's play d = 0.2
-    mm and a difference k of the rest curvatures: sqrt(3 d k), and a = sqrt(12 d/k), of the overlap of 80 mm."""
+    """A wire is pushed through a catheter at rest, whose spring gives way by 1e-10 of its length. The wire's play d =
+    0.2 mm and a difference k of the rest curvatures: sqrt(3 d k), and a = sqrt(12 d/k), of the overlap of 80 mm."""
     catheter = {**IN_ONE_ANOTHER["catheters"][0], "restCurvature": [bent, 0.0, 0.0]}
     (tmp_path / "scene.json").write_text(json.dumps({**IN_ONE_ANOTHER, "catheters": [catheter]}))
     assert live.run(Request("a", tmp_path / "scene.json", tmp_path / "out")).outcome == "finished"

@@ -65,7 +65,8 @@ def scene_of(seed: int) -> dict:
     if rng.random() < 0.2:
         scene["massDamping"] = log_uniform(rng, 1e-3, 1e4)
     if rng.random() < 0.3:
-        scene["restCurvature"] = [2.0 * math.pi * rng.uniform(0.0, 20.0) / length, 0.0, rng.uniform(-10.0, 10.0) / length]
+        scene["restCurvature"] = [2.0 * math.pi * rng.uniform(0.0, 20.0) / length, 0.0,
+                                  rng.uniform(-10.0, 10.0) / length]
     if rng.random() < 0.3:
         border = rng.uniform(0.1, 0.9) * length
         scene["wireSections"] = [{"from": border, "to": length, "youngsModulus": young * log_uniform(rng, 1e-4, 1.0)}]

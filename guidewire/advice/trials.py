@@ -1,9 +1,9 @@
 """The trial runs of a scene: finer runs as its reference, cheaper settings, and runs without a part of the model.
 
 With a material all settings solve the same equations, so any method may be taken, and the finest steps and elements
-are the reference. With pbd the settings are part of the model: m iterations with the stiffnesses k act as m f iterations
-with k/f do, and come the nearer to a limit the larger f is. That limit is the reference; a setting with other n or dt
-counts by how far it is from it.
+are the reference. With pbd the settings are part of the model: m iterations with the stiffnesses k act as m f
+iterations with k/f do, and come the nearer to a limit the larger f is. That limit is the reference; a setting with
+other n or dt counts by how far it is from it.
 """
 
 from __future__ import annotations
@@ -51,7 +51,8 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
     """The reference of a scene of these effective values, and runs half and three quarters as fine that say what it is
     worth."""
     if scene["solver"] == "pbd":
-        return tuple(Trial(f"reference, m times {f} and stiffness over {f}", _softened(scene, float(f))) for f in (8, 4, 6))
+        return tuple(Trial(f"reference, m times {f} and stiffness over {f}", _softened(scene, float(f)))
+                     for f in (8, 4, 6))
     scheme, parts = ("implicitEuler", (16.0, 8.0, 12.0)) if has_walls(scene) \
         else ("esdirk4", (4.0, 2.0, 3.0))
     made = []
@@ -65,7 +66,8 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
 def finer(scene: Values, elements: bool) -> list[Trial]:
     """Half the time step of a scene and, if asked for, twice its elements; without what its steps or start do not
     allow."""
-    found = [("half the time step", _stepped(scene, 0.5)), ("twice the elements", _fewer(scene, 2.0) if elements else None)]
+    found = [("half the time step", _stepped(scene, 0.5)), ("twice the elements",
+                                                            _fewer(scene, 2.0) if elements else None)]
     return [Trial(name, changed) for name, changed in found if changed]
 
 

@@ -24,7 +24,8 @@ GROUPS = {
     "train": ("tasks",),
     "develop": ("python", "test", "bench", "native", "package", "unity-check"),
 }
-OF_THE_REPOSITORY = ("demo", "figures", "test", "bench", "native", "package", "site", "unity-check")  # refused in the package
+# refused in the package
+OF_THE_REPOSITORY = ("demo", "figures", "test", "bench", "native", "package", "site", "unity-check")
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -35,8 +36,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     commands = Commands(prog="guidewire" if INSTALLED else "guidewire.py", version=f"guidewire {version()}",
                         groups=GROUPS, hidden=OF_THE_REPOSITORY if INSTALLED else ())
 
-    demo = commands.add_parser("demo", help="the thesis's default run with Figures 4.1 to 4.4, and the film of a wire that "
-                                            "enters a branch")
+    demo = commands.add_parser("demo", help="the thesis's default run with Figures 4.1 to 4.4, and the film of a "
+                                            "wire that enters a branch")
     demo.add_argument("--out", type=path, default=Path("results/demo"), help="folder for the run and the pictures")
     demo.set_defaults(packages=DRAWING + SWEEPING)
 
@@ -52,8 +53,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.add_argument("--force", action="store_true",
                      help="replace a complete run that the folder holds, once this one is complete")
     run.add_argument("--check", action="store_true",
-                     help="repeat the run with half the time step; the differences go into check.md, and the exit code is "
-                          "6 where the result does not hold")
+                     help="repeat the run with half the time step; the differences go into check.md, and the exit "
+                          "code is 6 where the result does not hold")
     run.add_argument("--elements", action="store_true", help="with --check: also with twice the elements")
     _add_runner(run)
     run.set_defaults(packages=())
@@ -151,7 +152,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     view.add_argument("--open", action="store_true", help="open the page in a browser")
     view.set_defaults(packages=("numpy", *VIEWING))
 
-    site = commands.add_parser("site", help="the page with the simulation in it, as a folder for any web server: scenes "
+    site = commands.add_parser("site", help="the page with the simulation in it, as a folder for any web server: "
+                                            "scenes "
                                               "are steered in a browser, with nothing to install")
     site.add_argument("out", metavar="OUT", type=path, help="folder: a new one, or that of an earlier site")
     site.add_argument("scenes", metavar="SCENE", nargs="*", type=Path,
@@ -193,8 +195,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
                               "units: points of the centreline, those of one shape with the same time)")
     compare.set_defaults(packages=DRAWING)
 
-    identify = commands.add_parser("identify", help="find values of a scene, such as EI, from measured shapes, pictures or "
-                                                    "forces")
+    identify = commands.add_parser("identify", help="find values of a scene, such as EI, from measured shapes, "
+                                                    "pictures or forces")
     identify.add_argument("file", type=Path, metavar="SCENE", help="parameter file; the search starts from its values")
     identify.add_argument("--measured", type=Path, metavar="FILE", nargs="+", required=True,
                           help="CSV files whose first line is x,y,z or x,y (units, or x_mm ...), view,u,v (pixels), "
@@ -205,8 +207,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     identify.add_argument("--align", choices=("none", "plane", "rigid"), default="none",
                           help="frame of the measured points: the scene's (none), shifted and turned within its plane, "
                                "or in space")
-    identify.add_argument("--camera", type=Path, metavar="FILE", help="JSON object of views, each a matrix of 3 x 4 that "
-                                                                      "takes units to pixels")
+    identify.add_argument("--camera", type=Path, metavar="FILE", help="JSON object of views, each a matrix of 3 x "
+                                                                      "4 that takes units to pixels")
     identify.add_argument("--bounds", metavar="KEY=LOW,HIGH", action="append", default=[],
                           help="range of a value (that of the key)")
     identify.add_argument("--out", type=path, metavar="DIR", help="folder of the results (results/SCENE-identified)")
@@ -318,7 +320,8 @@ def _add_anatomy(commands: Commands) -> None:
                                                                         "(a tenth of a voxel)")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")
     anatomy.add_argument("--target", metavar="END",
-                         help="number or name of the end that it is pushed to (of those about as far as the farthest, the "
+                         help="number or name of the end that it is pushed to (of those about as far as the "
+                              "farthest, the "
                          "one with the widest path)")
     anatomy.add_argument("--wire", type=above_zero, default=0.36, metavar="MM", help="diameter of the wire (0.36)")
     anatomy.add_argument("--instrument", metavar="NAME", help="wire of the library (one of 0.36 mm with a bent tip)")

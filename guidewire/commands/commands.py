@@ -358,5 +358,6 @@ _ELSEWHERE = {
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
                     "; completed runs are kept, the same command continues from here"),
-    **dict.fromkeys(("render", "plot", "stress", "hub", "compare", "modes", "instrument", "package"), "; nothing was written"),
+    **dict.fromkeys(("render", "plot", "stress", "hub", "compare", "modes", "instrument", "package"),
+                    "; nothing was written"),
 }

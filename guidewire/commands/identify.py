@@ -54,7 +54,8 @@ def lines(found: Identified, measured: list[Path]) -> list[str]:
     made = [f"{'key':{width}}  {'value':>12}  {'std. error':>10}  95 % interval"]
     for one in found.values:
         told = "not told" if one.value is None else f"{one.value:.6g}"
-        errors = f"{one.error:10.2g}  {one.low:.5g} to {one.high:.5g}" if found.is_complete and one.value is not None else ""
+        is_known = found.is_complete and one.value is not None
+        errors = f"{one.error:10.2g}  {one.low:.5g} to {one.high:.5g}" if is_known else ""
         made.append(f"{one.key:{width}}  {told:>12}  {errors} {one.unit}".rstrip())
     made += [f"{file.name}: RMS residual {rms:.4g} of {len(part.offsets)} points"
              for file, rms, part in zip(measured, found.rms, found.residuals)]

@@ -35,7 +35,7 @@ def draw_hub(log: HubLog) -> Figure:
         axes.set(xlabel="time $t$ (s)")
         letter(axes, name, title)
     add_caption(figure, f"Hub and tip in {log.time.size} log entries up to t = {log.time[-1]:g} s: (a) insertion of the"
-                " hub; (b) rotation of the hub, and of the tip, which is that of the hub plus the twist of all joints; (c)"
-                " displacement of the last sphere; (d, e) force and torque of the hub on the wire, positive where it"
-                " pushes and turns to the right; (f) largest curvature of any joint.")
+                " hub; (b) rotation of the hub, and of the tip, which is that of the hub plus the twist of all "
+                "joints; (c) displacement of the last sphere; (d, e) force and torque of the hub on the wire, "
+                "positive where it pushes and turns to the right; (f) largest curvature of any joint.")
     return figure

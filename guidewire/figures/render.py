@@ -1,8 +1,8 @@
 """Pictures and short films of a run: the wire as a tube, and the far wall of the vessel, so that the inside is visible.
 
 No Unity takes part: the wire and the catheters come from the log, walls are triangles that the caller brings, the
-pixels are made by guidewire.figures.raster. One moment of a wire alone is coloured by curvature, instruments in one another have
-a colour each; several moments in one picture have a colour each.
+pixels are made by guidewire.figures.raster. One moment of a wire alone is coloured by curvature, instruments in one
+another have a colour each; several moments in one picture have a colour each.
 """
 
 from __future__ import annotations

@@ -40,6 +40,6 @@ def draw_curves(curves: Curves, x_label: str, logarithmic: str = "") -> Figure:
     if len(curves.lines) > 1:
         axes.legend(fontsize="small", ncols=1 + len(curves.lines) // 10)
     lost = f" {curves.lost} more have no number there." if curves.lost else ""
-    add_caption(figure, f"{curves.question + ' ' if curves.question else ''}{curves.y} over {curves.x}: one point a run,"
-                        f" {curves.runs} runs.{lost}")
+    add_caption(figure, f"{curves.question + ' ' if curves.question else ''}{curves.y} over {curves.x}: one "
+                        f"point a run, {curves.runs} runs.{lost}")
     return figure

@@ -23,7 +23,8 @@ def smooth(nodes: np.ndarray) -> np.ndarray:
     along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(nodes, axis=0), axis=1))))
     at = np.interp(np.arange(_PIECES * (len(nodes) - 1) + 1) / _PIECES, np.arange(len(nodes)), along)
     if len(nodes) < 3 or np.any(np.diff(along) <= 0.0):
-        return np.stack([np.interp(np.arange(len(at)) / _PIECES, np.arange(len(nodes)), column) for column in nodes.T], 1)
+        return np.stack([np.interp(np.arange(len(at)) / _PIECES, np.arange(len(nodes)), column) for column in nodes.T],
+                        1)
     return CubicSpline(along, nodes)(at)
 
 

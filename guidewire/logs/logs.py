@@ -1,9 +1,9 @@
 """Reads position logs of any size in one pass.
 
 A log of format json is one JSON object, ``{"0": {"totalTime", "elapsedMilliseconds", "delta", "sphere": {"0": {"x",
-...}}}, ...}``. It may stand on one line or on many. Only one entry is decoded at a time and only what was asked for is kept, so that
-memory is set by the request and not by the file. Logs of format npz (logFormat) have an array for each quantity, which
-guidewire.logs.array_logs reads; what stands here gives the same of both.
+...}}}, ...}``. It may stand on one line or on many. Only one entry is decoded at a time and only what was asked for is
+kept, so that memory is set by the request and not by the file. Logs of format npz (logFormat) have an array for each
+quantity, which guidewire.logs.array_logs reads; what stands here gives the same of both.
 """
 
 from __future__ import annotations
@@ -196,7 +196,8 @@ def _read_arrays(source: Path, spheres: str | Sequence[int], every: int, velocit
         velocities=np.asarray(log["velocities"][whole][:, columns], dtype=float) if velocities else None,
         final_step=int(steps[-1]), final_spheres=logged, final_positions=np.asarray(positions[-1], dtype=float),
         warning=log.warning,
-        catheters=tuple(np.asarray(log[name][whole], dtype=float) for name in log.catheters) if spheres == "all" else (),
+        catheters=tuple(np.asarray(log[name][whole], dtype=float) for name in log.catheters) if spheres == "all"
+        else (),
     )
 
 

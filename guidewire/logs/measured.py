@@ -1,8 +1,8 @@
 """Measurements of a real wire in a CSV file, and the error of a run against them.
 
 Two kinds, distinguished by their first line: `time,force` (s, and N at the hub), or `time,x,y,z` (s, and a point of the
-centreline in the run's units), where lines of the same time are points of one shape. Other units stand behind the names,
-such as `force_mN` and `x_mm` (guidewire.logs.measurement).
+centreline in the run's units), where lines of the same time are points of one shape. Other units stand behind the
+names, such as `force_mN` and `x_mm` (guidewire.logs.measurement).
 """
 
 from __future__ import annotations

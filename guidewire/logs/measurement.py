@@ -104,8 +104,8 @@ def read_measurement(file: Path, metres_per_unit: float, forms: Sequence[str] = 
     plain = tuple(name for name in columns if name not in ("time", "view"))
     is_known = columns in HUB or plain in SHAPES or plain == ("u", "v") or len(columns) == 1 and factors
     if not is_known or columns[:1] == ("critical",):
-        raise LogError(f"{file}: the first line is \"{','.join(first)}\", must be {' or '.join(forms)}, each name with its "
-                       "unit behind it where that is another, such as x_mm")
+        raise LogError(f"{file}: the first line is \"{','.join(first)}\", must be {' or '.join(forms)}, each name "
+                       "with its unit behind it where that is another, such as x_mm")
     rows, views = _rows(file, lines[1:], first, columns)
     numbers = rows * np.array([factor for name, factor in zip(columns, factors) if name != "view"])
     if columns in HUB:

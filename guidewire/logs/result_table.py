@@ -19,7 +19,8 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "hub.insertion": ("insertion", "m"), "hub.turn": ("rotation of the hub", "rad"),
     "hub.twist": ("twist from hub to tip", "rad"), "hub.lengthInBody": ("length in the body", "m"),
     "hub.largestCurvature": ("largest curvature at the end", "1/m"),
-    "extremes.axialForce": ("largest force of the hub", "N"), "extremes.axialTorque": ("largest torque of the hub", "N m"),
+    "extremes.axialForce": ("largest force of the hub", "N"),
+    "extremes.axialTorque": ("largest torque of the hub", "N m"),
     "extremes.curvature": ("largest curvature", "1/m"), "extremes.strain": ("largest strain", ""),
     "extremes.elementForce": ("largest force of walls on an element", "N"),
     "extremes.wallPressure": ("largest pressure of a wall", "Pa"),
@@ -110,7 +111,8 @@ def read_curves(table: Path, x: str, y: str, by: str | None = None) -> Curves:
     if not points:
         raise LogError(f"{file}: {y} is a number in none of {len(chosen)} runs; there are {', '.join(numbers)}")
     texts = any(isinstance(across, str) for line in points.values() for across, _ in line)
-    lines = tuple(Line(colour, rest, *zip(*([(str(across), value) for across, value in line] if texts else sorted(line))))
+    lines = tuple(Line(colour, rest, *zip(*([(str(across), value) for across, value in line] if texts
+                                            else sorted(line))))
                   for (colour, rest), line in points.items())
     return Curves(lines, x, name + ("" if index is None else f"[{index}]"), by, _label(name, index, rows[0]),
                   len(chosen) - lost, lost, question)

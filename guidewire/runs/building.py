@@ -1,9 +1,9 @@
 """Builds programs of the headless solution if their sources have changed.
 
 After a build a stamp holds one digest of all that it came from and of what it wrote: the content of every file that a
-build can read, the .NET SDKs, and size and time of the programs' files. Where it is the same, nothing is built; contents
-are compared, not times, because 600 files take 8 ms. It goes before a build and comes back after it, and only if no
-source changed meanwhile, so that a build that failed, was killed, or was overtaken by an edit leaves none.
+build can read, the .NET SDKs, and size and time of the programs' files. Where it is the same, nothing is built;
+contents are compared, not times, because 600 files take 8 ms. It goes before a build and comes back after it, and only
+if no source changed meanwhile, so that a build that failed, was killed, or was overtaken by an edit leaves none.
 
 MSBuild goes by times: it takes an assembly that a killed build left half-written for a whole one, and overlooks a file
 replaced by an older one. So without a stamp, or with such a file, all is compiled anew.
@@ -225,7 +225,8 @@ def _compile(command: list[str], name: str) -> None:
     log = ROOT / "results" / "build.log"
     log.parent.mkdir(parents=True, exist_ok=True)
     with log.open("wb") as output:
-        code = subprocess.run(command, cwd=HEADLESS, env={"DOTNET_TieredPGO": "0", **os.environ}, stdin=subprocess.DEVNULL,
+        code = subprocess.run(command, cwd=HEADLESS, env={"DOTNET_TieredPGO": "0", **os.environ},
+                              stdin=subprocess.DEVNULL,
                               stdout=output, stderr=subprocess.STDOUT, check=False).returncode
     if code != 0:
         errors = [line.strip() for line in log.read_text("utf-8", "replace").splitlines() if "error" in line]

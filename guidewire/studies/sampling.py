@@ -1,7 +1,8 @@
 """Samples of parameters: points within ranges, at random or as a Latin hypercube.
 
 A Latin hypercube of N points divides every range into N parts and puts one point into each part of each range, so that
-no part of any range stays empty. Same ranges, count and seed, same points. (SciPy draws them; it is imported only here.)
+no part of any range stays empty. Same ranges, count and seed, same points. (SciPy draws them; it is imported only
+here.)
 """
 
 from __future__ import annotations
@@ -36,7 +37,8 @@ class Range:
 
     def __post_init__(self) -> None:
         if not self.low < self.high:
-            raise ValueError(f"{self.key} goes from {self.low:g} to {self.high:g}: the second has to be above the first")
+            raise ValueError(f"{self.key} goes from {self.low:g} to {self.high:g}: the second has to be above "
+                             "the first")
         if self.logarithmic and self.low <= 0:
             raise ValueError(f"{self.key} goes from {self.low:g}: a logarithmic range lies above 0")
 

@@ -185,7 +185,8 @@ class Findings:
     rows: Sequence[Mapping[str, Any]]
 
 
-# Yields cases, is sent the summaries of their untimed runs by key, None for a run that is not done; may return Findings.
+# Yields cases, is sent the summaries of their untimed runs by key, None for a run that is not done; may return
+# Findings.
 Rounds = Generator[Sequence[Case], Mapping[str, Optional[Mapping[str, Any]]], Any]
 
 

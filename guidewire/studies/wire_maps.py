@@ -55,7 +55,8 @@ def _study(name: str, title: str, scene: str, grid: Grid) -> Study:
 WIRE_MAPS: tuple[Study, ...] = (
     _study("map-twist", "up to which twist is a wire straight, bent, and lost?", "cantilever", Grid(
         (Axis("numberRodElements", (6, 12, 24, 48)),
-         Axis("distalRotation", (3.0, 6.0, 9.0, 11.0, 11.5, 12.0, 12.5, 15.0, 18.0, 22.0, 30.0, 45.0, 70.0, 110.0, 170.0))),
+         Axis("distalRotation", (3.0, 6.0, 9.0, 11.0, 11.5, 12.0, 12.5, 15.0, 18.0, 22.0, 30.0, 45.0, 70.0, 110.0,
+                                 170.0))),
         {**_TWISTED, "initialState": "equilibrium", "maxSimulationSteps": 0, "maxNewtonIterations": 200},
     )),
     _study("map-twisting", "up to which twist does a wire follow that is being twisted?", "cantilever", Grid(
@@ -70,7 +71,8 @@ WIRE_MAPS: tuple[Study, ...] = (
          "drive": "push", "displacementPerStep": 0, "deltaThreshold": 0, "maxSimulationSteps": TURNED_STEPS,
          "logOrientations": True, "logSpheres": "last"},
     )),
-    _study("map-speed", "how fast, and in how few steps, may a wire be pushed into a vessel?", "insertion-accurate", Grid(
+    _study("map-speed", "how fast, and in how few steps, may a wire be pushed into a vessel?", "insertion-accurate",
+           Grid(
         common={"logHub": False, **_ENDS}, variants={name: _pushed(*push) for name, push in pushes().items()},
     )),
     _study("map-barrier", "how stiff, and how thin, may a barrier be?", "insertion-accurate", Grid(

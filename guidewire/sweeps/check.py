@@ -8,8 +8,8 @@ what it needs depends on what it saw, and returns what it found:
         ...
         return Finding(...)
 
-Whoever makes the runs drives it once (guidewire/sweeps/sweep.py), and whoever draws them drives it again over the folders
-that are there (`replay`).
+Whoever makes the runs drives it once (guidewire/sweeps/sweep.py), and whoever draws them drives it again over the
+folders that are there (`replay`).
 """
 
 from __future__ import annotations

@@ -254,7 +254,8 @@ class _Queue:
         self._again: list[Job] = []  # have failed once; handed out when all others are done
         self._second: set[Path] = set()  # folders of runs that are made the second time
         self._flying: dict[Future, list[Job]] = {}
-        self._landed = threading.Event()  # a batch of this queue; `distributed.wait` asks the client of the whole process
+        # a batch of this queue; `distributed.wait` asks the client of the whole process
+        self._landed = threading.Event()
         self._on_answer = on_answer
         self._seconds = 0.0  # that workers spent
         self._answered = 0

@@ -1,8 +1,8 @@
 """Makes the runs of studies and checks, round by round, and writes tables of their results.
 
-Runs stand in one store, each under the address that the runner gives its parameters (guidewire/sweeps/store.py), so that
-what is done is not run again, whoever asked for it. In `<out>/<source>/` stand study.json, what was asked for and in
-which folder it is, and runs.csv, what came of it, one line for each run.
+Runs stand in one store, each under the address that the runner gives its parameters (guidewire/sweeps/store.py), so
+that what is done is not run again, whoever asked for it. In `<out>/<source>/` stand study.json, what was asked for and
+in which folder it is, and runs.csv, what came of it, one line for each run.
 """
 
 from __future__ import annotations

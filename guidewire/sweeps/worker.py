@@ -1,7 +1,7 @@
 """A worker of the cluster: keeps runners alive and makes batches of runs with them.
 
-This code travels to workers by value (see guidewire/sweeps/cluster.py): they need dask's packages and, under the paths that
-they have here, the programs that make runs and the folder of the results.
+This code travels to workers by value (see guidewire/sweeps/cluster.py): they need dask's packages and, under the paths
+that they have here, the programs that make runs and the folder of the results.
 """
 
 from __future__ import annotations
@@ -48,7 +48,8 @@ class Job:
     def to_plain(self) -> Plain:
         """The job as it travels."""
         asked = self.request
-        return (asked.name, str(asked.parameters), str(asked.out or ""), asked.overrides, asked.repeat, asked.log, self.timed,
+        return (asked.name, str(asked.parameters), str(asked.out or ""), asked.overrides, asked.repeat, asked.log,
+                self.timed,
                 self.seconds)
 
     @classmethod

@@ -18,7 +18,8 @@ from guidewire.runs import checking
 from guidewire.runs.runner import Request
 
 SMALL = '"maxSimulationSteps": 1, "displacement": 0'
-DRIVEN = {"solver": "direct", "drive": "displace", "proximalEnd": "clamped", "guidewireLength": 50, "numberRodElements": 5,
+DRIVEN = {"solver": "direct", "drive": "displace", "proximalEnd": "clamped", "guidewireLength": 50,
+          "numberRodElements": 5,
           "timeStep": 0.5, "maxSimulationSteps": 2, "deltaThreshold": 0, "driveFile": "hub.csv", "logHub": True}
 STUDY = '"study": "mine", "scene": "scene.json"'
 TASK = '"anatomies": [{"make": "iliac", "seed": 1, "inlet": 1, "target": 2}], "targets": [2]'

@@ -53,7 +53,8 @@ def test_a_parameter_file_gives_its_run(kept, file):
         np.testing.assert_allclose(catheter.positions, logged[-1], atol=near)
 
 
-@pytest.mark.parametrize("kept", [path for path in CASES if path.parent.name == str(FORMAT)], ids=lambda path: path.name)
+@pytest.mark.parametrize("kept", [path for path in CASES if path.parent.name == str(FORMAT)],
+                         ids=lambda path: path.name)
 def test_a_saved_state_is_restored_and_goes_on(kept):
     state = json.loads((kept / "state.json").read_text(encoding="utf-8"))
     with Session(kept / "given.json", native=False, maxSimulationSteps=100) as session:
@@ -77,7 +78,8 @@ def test_a_saved_state_of_an_older_version_is_refused_in_one_line(kept):
     """A step keeps other numbers now; parameter files, runs and recorded drives go on loading."""
     with Session(kept / "given.json", native=False, maxSimulationSteps=100) as session:
         before = session.state
-        with pytest.raises(SessionError, match=r"^the snapshot has format 1: guidewire \S+ reads format 2: save it anew$"):
+        with pytest.raises(SessionError, match=r"^the snapshot has format 1: guidewire \S+ reads format 2: save "
+                                               r"it anew$"):
             session.restore(base64.b64decode((kept / "snapshot.txt").read_text(encoding="ascii")))
         assert session.state is before
 

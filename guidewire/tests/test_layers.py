@@ -11,7 +11,8 @@ from guidewire.runs.building import HEADLESS, dotnet
 
 CORE = ROOT / "Assets" / "Guidewire" / "Core"
 # From the bottom up; folders within these are part of them, but each method is a folder of its own.
-LAYERS = ("Numbers", "Warnings", "Geometry", "Imaging", "Parameters", "Rod", "Scene", "Contact", "Material", "Methods", "Methods/*", ".")
+LAYERS = ("Numbers", "Warnings", "Geometry", "Imaging", "Parameters", "Rod", "Scene", "Contact", "Material", "Methods",
+          "Methods/*", ".")
 _NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"', re.DOTALL)
 _TYPE = re.compile(r"^    (?:\w+ )*(?:class|struct|interface|enum|delegate \w+) (\w+)", re.MULTILINE)
 _MEMBER = re.compile(r"^        (?:\w+[?\]\[]* )+(\w+)(?= \{| =|;|\()", re.MULTILINE)
@@ -51,7 +52,8 @@ def test_the_analysers_find_nothing_in_any_project():
 # From the bottom up. A line's packages and modules may use those of lines before it, and what stands in the same line
 # only within itself.
 PYTHON = (("prepare",), ("installed", "json_text"), ("studies",), ("logs", "runs"), ("figures", "anatomy", "sessions"),
-          ("sweeps", "identification"), ("benches", "advice", "navigation", "rod_suite"), ("library", "viewer"), ("env",), ("commands",),
+          ("sweeps", "identification"), ("benches", "advice", "navigation", "rod_suite"), ("library", "viewer"),
+          ("env",), ("commands",),
           ("__init__", "__main__"))
 _LAYER = {name: k for k, names in enumerate(PYTHON) for name in names}
 

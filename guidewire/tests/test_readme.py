@@ -1,4 +1,5 @@
-"""README.md is short, opens with what one types first, names every command, and its example is a file that can be relied on."""
+"""README.md is short, opens with what one types first, names every command, and its example is a file that can be
+relied on."""
 
 import json
 import re

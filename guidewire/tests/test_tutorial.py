@@ -22,10 +22,12 @@ PAGE = (ROOT / "docs" / "tutorial.md").read_text(encoding="utf-8")
 @pytest.mark.long("each command has tests of its own")
 def test_every_command_of_the_tutorial_works_in_its_order(runner_command, tmp_path, monkeypatch, capfd):
     monkeypatch.chdir(tmp_path)
-    monkeypatch.setattr("guidewire.viewer.command.three", lambda tell: {})  # nothing to install; the page has tests of its own
+    # nothing to install; the page has tests of its own
+    monkeypatch.setattr("guidewire.viewer.command.three", lambda tell: {})
     (tmp_path / "params").symlink_to(ROOT / "params")
     saved = re.findall(r"[Ss]ave this as `([\w.]+)`:\n\n```\w*\n(.*?)^```$", PAGE, re.MULTILINE | re.DOTALL)
-    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py", "tube.json", "friction.json",
+    assert [name for name, _ in saved] == ["wire.json", "curves.py", "turns.json", "table.py", "tube.json",
+                                           "friction.json",
                                          "train.py"]
     for name, text in saved:
         (tmp_path / name).write_text(text, encoding="utf-8")

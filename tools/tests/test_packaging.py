@@ -1,5 +1,5 @@
-"""The wheel: what it holds; and where the native library is there, the package laid out as pip lays it out, run from another
-folder without the repository and without .NET."""
+"""The wheel: what it holds; and where the native library is there, the package laid out as pip lays it out, run from
+another folder without the repository and without .NET."""
 
 import ast
 import json
@@ -61,7 +61,8 @@ def site(tmp_path_factory):
 
 
 def test_the_package_holds_what_is_needed_and_nothing_else(site):
-    held = {path.relative_to(site / "guidewire").as_posix() for path in (site / "guidewire").rglob("*") if path.is_file()}
+    held = {path.relative_to(site / "guidewire").as_posix() for path in (site / "guidewire").rglob("*")
+            if path.is_file()}
     listed = subprocess.run(["git", "ls-files", "guidewire", "params", "instruments"], cwd=ROOT, text=True, check=True,
                             capture_output=True).stdout.split()
     ours = {path.removeprefix("guidewire/") for path in listed if "/tests/" not in path}
@@ -74,7 +75,8 @@ def test_everything_public_has_a_docstring():
     """Of the modules that scripts import from."""
     for place in ("__init__.py", "sessions/session.py", "library.py", "logs/runs.py", "logs/logs.py"):
         tree = ast.parse((ROOT / "guidewire" / place).read_text(encoding="utf-8"))
-        public = [node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef)) and node.name[0] != "_"]
+        public = [node for node in tree.body if isinstance(node, (ast.ClassDef, ast.FunctionDef))
+                  and node.name[0] != "_"]
         public += [method for node in public for method in node.body if isinstance(method, ast.FunctionDef)]
         for node in [tree, *public]:
             if not getattr(node, "name", "").startswith("_"):
@@ -84,7 +86,8 @@ def test_everything_public_has_a_docstring():
 def test_names_for_type_checkers_are_those_that_are_lent():
     tree = ast.parse((ROOT / "guidewire" / "__init__.py").read_text(encoding="utf-8"))
     typed = next(node for node in tree.body if isinstance(node, ast.If))
-    named = {(alias.asname, node.module) for node in typed.body if isinstance(node, ast.ImportFrom) for alias in node.names}
+    named = {(alias.asname, node.module) for node in typed.body if isinstance(node, ast.ImportFrom)
+             for alias in node.names}
     import guidewire
 
     assert {name for name, _ in named} == set(guidewire.__all__)
@@ -166,22 +169,27 @@ def test_what_only_the_repository_has_is_refused_in_one_line(site, tmp_path):
 def test_a_missing_extra_is_named(site, tmp_path):
     code = ("import sys\nsys.modules['distributed'] = sys.modules['vtkmodules'] = None\nimport importlib.util\n"
             "find = importlib.util.find_spec\n"
-            "importlib.util.find_spec = lambda name, *more: None if name in ('distributed', 'vtkmodules') else find(name)\n"
-            "from guidewire.__main__ import main\nsys.exit(main())\n")
-    for words, name, extra in ((["sweep", "default"], "distributed", "sweep"), (["anatomy", "x.stl"], "vtkmodules", "anatomy")):
+            "importlib.util.find_spec = lambda name, *more: None if name in ('distributed', 'vtkmodules') else "
+            "find(name)\nfrom guidewire.__main__ import main\nsys.exit(main())\n")
+    for words, name, extra in ((["sweep", "default"], "distributed", "sweep"),
+                               (["anatomy", "x.stl"], "vtkmodules", "anatomy")):
         done = outside(site, tmp_path, "-c", code, *words)
         assert done.returncode == 2
-        assert done.stderr == (f"guidewire: this needs the Python packages {name}: 'pip install \"guidewire[{extra}]\"' "
+        assert done.stderr == (f"guidewire: this needs the Python packages {name}: 'pip install "
+                               f"\"guidewire[{extra}]\"' "
                                "installs them\n")
 
 
 def test_scenes_are_copied_and_never_over_others(site, tmp_path):
     done = outside(site, tmp_path, "-m", "guidewire", "scenes", "--copy", ".")
     assert (done.returncode, done.stdout) == (0, "scenes: params\n"), done.stderr
-    copied = {path.relative_to(tmp_path): path.read_bytes() for path in (tmp_path / "params").rglob("*") if path.is_file()}
-    assert copied == {path.relative_to(ROOT): path.read_bytes() for path in (ROOT / "params").rglob("*") if path.is_file()}
+    copied = {path.relative_to(tmp_path): path.read_bytes() for path in (tmp_path / "params").rglob("*")
+              if path.is_file()}
+    assert copied == {path.relative_to(ROOT): path.read_bytes() for path in (ROOT / "params").rglob("*")
+                      if path.is_file()}
     done = outside(site, tmp_path, "-m", "guidewire", "scenes", "--copy", ".")
-    assert done.returncode == 2 and re.fullmatch(r"guidewire: params/\S+ is there already: give another folder\n", done.stderr)
+    assert done.returncode == 2 and re.fullmatch(r"guidewire: params/\S+ is there already: give another folder\n",
+                                                 done.stderr)
 
 
 def test_an_older_processor_gets_the_older_library(monkeypatch):
@@ -200,7 +208,8 @@ def test_the_wheel_is_built_and_installed(tmp_path):
     assert re.fullmatch(rf"guidewire-{re.escape(version())}-py3-none-manylinux_2_\d+_x86_64\.whl", file.name)
     with zipfile.ZipFile(file) as archive:
         metadata = archive.read(f"guidewire-{version()}.dist-info/METADATA").decode()
-        assert {f"guidewire-{version()}.dist-info/{name}" for name in ("LICENSE", "THIRD-PARTY-NOTICES.md")} <= set(archive.namelist())
+        notices = {f"guidewire-{version()}.dist-info/{name}" for name in ("LICENSE", "THIRD-PARTY-NOTICES.md")}
+        assert notices <= set(archive.namelist())
     assert set(re.findall(r"^Provides-Extra: (.*)$", metadata, re.M)) == set(EXTRAS)
     subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv"], check=True)
     python = tmp_path / "venv" / "bin" / "python"
@@ -214,7 +223,8 @@ def test_the_wheel_is_built_and_installed(tmp_path):
         code = (f"from guidewire import installed\ninstalled.has_avx2 = lambda: {newer}\n"
                 "from guidewire import Session\nwith Session(native=True, numberRodElements=8) as session:\n"
                 "    print(session.step(push=5.0, steps=50).positions.tobytes().hex())\n")
-        ends.append(subprocess.run([python, "-c", code], cwd=tmp_path, capture_output=True, text=True, check=True).stdout)
+        ends.append(subprocess.run([python, "-c", code], cwd=tmp_path, capture_output=True, text=True,
+                                   check=True).stdout)
     assert ends[0] == ends[1]
 
 
@@ -223,7 +233,8 @@ def test_an_editable_installation_has_the_same_commands(tmp_path):
     pytest.importorskip("setuptools")
     subprocess.run([sys.executable, "-m", "venv", "--system-site-packages", tmp_path / "venv"], check=True)
     programs = tmp_path / "venv" / "bin"
-    subprocess.run([programs / "python", "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation", "-e", ROOT], check=True)
+    subprocess.run([programs / "python", "-m", "pip", "install", "-q", "--no-deps", "--no-build-isolation", "-e",
+                    ROOT], check=True)
     helps = [subprocess.run([*command, "--help"], cwd=cwd, capture_output=True, text=True, check=True).stdout
              for command, cwd in (([programs / "guidewire"], tmp_path), ([sys.executable, "-m", "guidewire"], ROOT),
                                   ([sys.executable, ROOT / "guidewire.py"], tmp_path))]
@@ -258,7 +269,8 @@ def test_a_console_program_is_built_against_the_nuget_packages(tmp_path):
     (project / "Program.cs").write_text(CONSOLE, encoding="utf-8")
     (project / "console.csproj").write_text(
         '<Project Sdk="Microsoft.NET.Sdk"><PropertyGroup><OutputType>Exe</OutputType><TargetFramework>net10.0'
-        f'</TargetFramework></PropertyGroup><ItemGroup><PackageReference Include="Guidewire.Io" Version="{version()}" />'
+        '</TargetFramework></PropertyGroup><ItemGroup><PackageReference Include="Guidewire.Io" '
+        f'Version="{version()}" />'
         "</ItemGroup></Project>\n", encoding="utf-8")
     packages = tmp_path / "packages"  # of its own: that of the user would keep an older file of this version
     known = Path(os.environ.get("NUGET_PACKAGES", Path.home() / ".nuget" / "packages"))
@@ -268,7 +280,8 @@ def test_a_console_program_is_built_against_the_nuget_packages(tmp_path):
         encoding="utf-8")
     done = subprocess.run([dotnet, "run", "--project", project], env={**os.environ, "NUGET_PACKAGES": str(packages)},
                           capture_output=True, text=True)
-    assert done.returncode == 0 and re.fullmatch(r"running: tip at \S+ \S+ \S+\n", done.stdout.lower()), done.stdout + done.stderr
+    assert done.returncode == 0 and re.fullmatch(r"running: tip at \S+ \S+ \S+\n",
+                                                 done.stdout.lower()), done.stdout + done.stderr
     with Session(native=False, hand=True, solver="direct", proximalEnd="clamped") as session:
         for _ in range(100):
             state = session.step(push=0.5, turn=0.01)

@@ -84,8 +84,10 @@ def all_tests(monkeypatch, file, build, dotnet):
 def test_the_last_line_is_the_sum(monkeypatch, tmp_path, file, capsys, passed, last, code):
     file.write_text(f"def test_one(): assert {passed}\n")
     dotnet = tmp_path / "dotnet"
-    dotnet.write_text('#!/bin/sh\n[ "$1" = test ] || exit 0\nfor word; do case $word in trx*) name=${word#*=};; esac; done\n'
-                      f"echo '<T xmlns=\"x\"><Counters total=\"1\" executed=\"1\" passed=\"1\"/></T>' > {testing.RESULTS}/$name\n")
+    dotnet.write_text('#!/bin/sh\n[ "$1" = test ] || exit 0\nfor word; do case $word in trx*) name=${word#*=};; '
+                      'esac; done\n'
+                      "echo '<T xmlns=\"x\"><Counters total=\"1\" executed=\"1\" passed=\"1\"/></T>' > "
+                      f"{testing.RESULTS}/$name\n")
     dotnet.chmod(0o755)
     assert all_tests(monkeypatch, file, lambda part, tell: None, str(dotnet)) == code
     assert capsys.readouterr().out.splitlines()[-1] == last
@@ -102,6 +104,7 @@ def test_a_build_that_fails_ends_everything(monkeypatch, file, capsys):
 
 
 def test_every_folder_with_tests_in_python_is_tested():
-    listed = subprocess.run(["git", "ls-files", "*/test_*.py"], cwd=testing.ROOT, capture_output=True, text=True, check=True)
+    listed = subprocess.run(["git", "ls-files", "*/test_*.py"], cwd=testing.ROOT, capture_output=True, text=True,
+                            check=True)
     assert {path.split("/")[0] for path in listed.stdout.split()} <= set(testing.PYTHON)
     assert sys.executable in PYTEST

@@ -26,7 +26,8 @@ from tools.testing import FULL_CAMPAIGNS
 
 CANTILEVER = {
     "solver": "direct", "guidewireLength": 300.0, "numberRodElements": 16, "wireRadius": 0.0005,
-    "proximalEnd": "clamped", "gravity": [0, -9.81, 0], "timeStep": 0.002, "deltaThreshold": 0, "maxSimulationSteps": 48,
+    "proximalEnd": "clamped", "gravity": [0, -9.81, 0], "timeStep": 0.002, "deltaThreshold": 0,
+    "maxSimulationSteps": 48,
 }
 ON_PLANE = {
     **CANTILEVER, "integrator": "implicitEuler", "wireRadius": 0.0003, "massDamping": 35, "timeStep": 0.004,
@@ -131,7 +132,8 @@ def test_the_choice_is_the_cheapest_that_meets_the_error_or_the_best_within_the_
         met = [one for one in searched if one.error <= 0.4]
         assert choose(searched, AdviceRequest(0.4)) is (min(met, key=lambda one: one.total) if met else None)
         within = [one for one in searched[:-1] if one.step <= 0.3]
-        assert choose(searched, AdviceRequest(budget=0.3)) is (min(within, key=lambda one: one.error) if within else None)
+        assert choose(searched, AdviceRequest(budget=0.3)) is (min(within, key=lambda one: one.error) if within
+                                                               else None)
 
 
 def test_longer_steps_make_the_same_motion_of_the_drive() -> None:

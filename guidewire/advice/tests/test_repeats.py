@@ -11,7 +11,8 @@ from guidewire.advice import repeats
 from guidewire.logs.runs import read_run
 from guidewire.prepare import ROOT
 
-WIRE = {"solver": "direct", "guidewireLength": 100.0, "numberRodElements": 8, "proximalEnd": "clamped", "timeStep": 0.002,
+WIRE = {"solver": "direct", "guidewireLength": 100.0, "numberRodElements": 8, "proximalEnd": "clamped",
+        "timeStep": 0.002,
         "maxSimulationSteps": 40, "deltaThreshold": 0.0, "massDamping": 400.0, "tipForce": [0.0, 0.1, 0.0]}
 
 
@@ -31,7 +32,8 @@ def run(folder, tip=(0.0, 0.0, 100.0), outcome="finished", reliable=True, force=
 
 @pytest.mark.parametrize("other, said", [
     ({}, None), ({"tip": (0.0, 0.9, 100.0)}, None), ({"force": 0.59}, None), ({"largest": 3.0}, None),
-    ({"tip": (0.0, 1.1, 100.0)}, "with half the time step the tip ends 1.10 units elsewhere, 1.1 % of the wire's length"),
+    ({"tip": (0.0, 1.1, 100.0)}, "with half the time step the tip ends 1.10 units elsewhere, 1.1 % of the "
+                                 "wire's length"),
     ({"tip": (0.0, float("nan"), 100.0)}, "the tip ends not finite units elsewhere"),
     ({"force": 0.7}, "the force of the hub at the end differs by 0.200 N, 20 % of its largest"),
     ({"outcome": "failed"}, "with half the time step it ends failed, not finished"),
@@ -49,12 +51,14 @@ def test_a_result_holds_as_long_as_nothing_of_it_moves_far(tmp_path, other, said
 
 @pytest.mark.parametrize("changes, code, said", [
     ({}, 0, "the result holds with half the time step and with twice the elements"),
-    ({"timeStep": 0.01, "maxSimulationSteps": 5, "massDamping": 0.0, "tipForce": [0.0, 0.5, 0.0]}, 6, "the result does not hold: "),
+    ({"timeStep": 0.01, "maxSimulationSteps": 5, "massDamping": 0.0, "tipForce": [0.0, 0.5, 0.0]}, 6,
+     "the result does not hold: "),
 ])
 @pytest.mark.few(1)
 def test_a_run_is_checked_beside_itself(runner_command, tmp_path, changes, code, said):
     (tmp_path / "wire.json").write_text(json.dumps({**WIRE, **changes}))
-    done = subprocess.run([sys.executable, ROOT / "guidewire.py", "run", tmp_path / "wire.json", "--out", tmp_path / "out",
+    done = subprocess.run([sys.executable, ROOT / "guidewire.py", "run", tmp_path / "wire.json", "--out",
+                           tmp_path / "out",
                            "--check", "--elements"], capture_output=True, text=True, timeout=300, check=False)
     assert done.returncode == code and said in done.stdout, done.stdout + done.stderr
     assert "warning" not in done.stderr

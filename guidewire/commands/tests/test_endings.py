@@ -204,7 +204,8 @@ def test_a_long_run_tells_a_terminal_and_no_pipe_how_far_it_is_and_takes_the_lin
         process.kill()
         process.wait()
         os.close(screen)
-    line = re.search(r"step (\d+) of 1000000, \d+ (?:s|min|h) left, (\d+) steps/s, t = ([\d.]+) s, ([\d.]+) x real time",
+    line = re.search(r"step (\d+) of 1000000, \d+ (?:s|min|h) left, (\d+) steps/s, t = ([\d.]+) s, ([\d.]+) x "
+                     r"real time",
                      seen)
     assert line, seen
     step, rate, time_in_game, factor = map(float, line.groups())

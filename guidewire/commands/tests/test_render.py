@@ -106,7 +106,8 @@ def test_x_ray_pictures_and_films_come_from_the_core(make_run, tmp_path):
     (["--fluoroscopy", "--times", "0", "0.02"], "one moment"), (["--fluoroscopy", "--cranial", "91"], "cranial = 91"),
     (["--out", "a.jpg"], "a.jpg: a picture's name ends with .png"), (["--out", "picture"], ".png"),
     (["--out", "a.gif", "--times", "1"], "--times is for a picture"),
-    (["--times", "99"], "--times 99 is beyond the run, whose log goes from 0 s to 0.02 s"), (["--times", "-1"], "beyond"),
+    (["--times", "99"], "--times 99 is beyond the run, whose log goes from 0 s to 0.02 s"),
+    (["--times", "-1"], "beyond"),
     (["--follow", "tip", "--times", "0", "0.02"], "the tip is followed in a film or at one moment"),
     (["--out", "/proc/no/a.png"], "/proc/no"),
 ])

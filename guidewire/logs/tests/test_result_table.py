@@ -19,7 +19,8 @@ HEAD = ("key,variant,vessel.frictionCoefficient,vessel.radius,bendingStiffness,r
 
 @pytest.fixture
 def table(tmp_path: Path) -> Path:
-    """Two frictions, two radii, two stiffnesses, in no order; force = 10 friction radius + 1e5 stiffness; one diverged."""
+    """Two frictions, two radii, two stiffnesses, in no order; force = 10 friction radius + 1e5 stiffness; one
+    diverged."""
     lines, runs = [HEAD], []
     for friction in (0.2, 0.1):
         for radius in ("narrow", "wide"):

@@ -1,8 +1,8 @@
 """A stand-in for the dotnet program: it compiles nothing, and ends as the files in its folder wish.
 
-A build joins the texts of all sources into the program's file; a line of `journal` has the arguments of each that began.
-Where `fail` is there, a build ends with that text and exit code 1; where `die` is, killed with half of the file written;
-where `meanwhile` is, a source that it names is edited after it was read.
+A build joins the texts of all sources into the program's file; a line of `journal` has the arguments of each that
+began. Where `fail` is there, a build ends with that text and exit code 1; where `die` is, killed with half of the file
+written; where `meanwhile` is, a source that it names is edited after it was read.
 """
 
 import os

@@ -68,7 +68,8 @@ def main(journal):
                 if log:
                     (out / log).write_text("{}")
                 (out / "summary.json").write_text(json.dumps(
-                    {"outcome": answer["outcome"], "reason": "done", "steps": len(wish), "computationTime": 0.001, "log": log,
+                    {"outcome": answer["outcome"], "reason": "done", "steps": len(wish), "computationTime": 0.001,
+                     "log": log,
                      "complete": True}))
         except Interrupted:
             answer.update(exitCode=130, outcome="interrupted", message="interrupted")

@@ -2,7 +2,8 @@
 """A stand-in for a Unity editor or player: it takes Unity's arguments and writes what a run would leave.
 
 The run's `-displacement` says what it does: 0 finishes, 4 diverges, 2 refuses, 5 ends with 0 and leaves nothing, 6 ends
-with 0 and an unfinished summary, 7 hangs, 8 ends with 1 although its summary says finished, 9 says that the run is already there.
+with 0 and an unfinished summary, 7 hangs, 8 ends with 1 although its summary says finished, 9 says that the run is
+already there.
 """
 
 import json

@@ -1,4 +1,5 @@
-"""A cluster whose checks of parameters are interrupted while they wait, as by Ctrl-C; argument: the folder to work in."""
+"""A cluster whose checks of parameters are interrupted while they wait, as by Ctrl-C; argument: the folder to work
+in."""
 
 import json
 import os

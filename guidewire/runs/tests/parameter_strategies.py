@@ -208,7 +208,8 @@ FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     "loadTables": load_tables, "startFile": start_files, "start": lambda scene: st.just(None),
     "duration": lambda scene: st.just(None),  # takes the place of maxSimulationSteps
     "pointLoads": point_loads, "catheters": lambda scene: st.just(None),  # go with few other keys
-    "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),  # needs a vessel that the wire starts in
+    # needs a vessel that the wire starts in
+    "vessel": vessels, "obstacles": obstacles, "sheath": lambda scene: st.just(None),
     "inlet": lambda scene: st.just(None), "target": lambda scene: st.just(None),  # need the file of an anatomy
 }
 # An explicit step is stable below some 1e-7 s.
@@ -290,11 +291,13 @@ def coaxial_scenes(draw, integrators: Sequence[str]) -> dict:
     speed = draw(st.floats(-0.05, 0.05))
     scene = {
         "solver": "direct", "guidewireLength": length, "guidewireOffset": -start,
-        "numberRodElements": draw(whole(2, 20)), "wireRadius": radius, **draw(round_wires(length)), "proximalEnd": "clamped", "drive": "displace",
+        "numberRodElements": draw(whole(2, 20)), "wireRadius": radius, **draw(round_wires(length)),
+        "proximalEnd": "clamped", "drive": "displace",
         "insertionSpeed": min(draw(st.floats(-0.05, 0.05)), speed + 0.9e-3 * start / (step * steps)),
         "rotationSpeed": draw(st.floats(-5.0, 5.0)), "massDamping": draw(st.floats(0.0, 50.0)), "timeStep": step,
         "maxSimulationSteps": steps, "deltaThreshold": 0.0, "gravity": draw(around(20.0)),
-        "logHub": draw(st.booleans()), "logOrientations": draw(st.booleans()), "integrator": draw(st.sampled_from(integrators)),
+        "logHub": draw(st.booleans()), "logOrientations": draw(st.booleans()),
+        "integrator": draw(st.sampled_from(integrators)),
         "catheters": [{"start": start, "length": outer, "elements": elements, "lumenRadius": lumen,
                        "wireRadius": lumen * draw(st.floats(1.05, 2.0)), **draw(round_wires(outer)),
                        "insertionSpeed": speed, "rotationSpeed": draw(st.floats(-5.0, 5.0)),

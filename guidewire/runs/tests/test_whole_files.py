@@ -54,7 +54,8 @@ def run(runner_command, tmp_path_factory):
     """Folder of a run with a log."""
     folder = tmp_path_factory.mktemp("small")
     (folder / "scene.json").write_text(json.dumps(SMALL))
-    subprocess.run([*runner_command, "-parameters", str(folder / "scene.json"), "-out", str(folder / "run")], check=True,
+    subprocess.run([*runner_command, "-parameters", str(folder / "scene.json"), "-out", str(folder / "run")],
+                   check=True,
                    capture_output=True)
     return folder / "run"
 

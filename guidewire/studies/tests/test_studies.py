@@ -130,7 +130,8 @@ def test_every_thesis_sweep_holds_the_default_value():
         assert all(table_4_1[axis.key] in axis.values for axis in study.grid.axes)
 
 
-@pytest.mark.parametrize("study", (*GRIDS.values(), *MAPS, *(study for study in WIRE_MAPS if isinstance(study.grid, Grid))),
+@pytest.mark.parametrize("study", (*GRIDS.values(), *MAPS, *(study for study in WIRE_MAPS
+                                                             if isinstance(study.grid, Grid))),
                          ids=lambda study: study.name)
 def test_no_two_runs_share_a_name(study):
     keys = [case.key for case in study.grid.cases()]

@@ -1,4 +1,5 @@
-"""Studies that users write: what a file may hold, what it is made into, and that whatever is wrong in it is one line."""
+"""Studies that users write: what a file may hold, what it is made into, and that whatever is wrong in it is one
+line."""
 
 import json
 import math
