@@ -124,7 +124,7 @@ def _read_rows(source: Path) -> np.ndarray:
 
 
 def _catheter(columns: Mapping[str, np.ndarray], prefix: str, k: int) -> dict[str, Any]:
-    names = {"Positions": "sphere", "Orientations": "orientation"}
+    names = {"Positions": "sphere", "Orientations": "orientation", "ContactForces": "contactForces"}
     whole = [name.removeprefix(prefix) for name in columns if re.fullmatch(prefix + r"[A-Z]\w*", name)]
     return {names.get(name, name.lower()): columns[prefix + name][k].tolist() for name in whole}
 

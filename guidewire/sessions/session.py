@@ -14,6 +14,7 @@ import base64
 import json
 import math
 import os
+import re
 import sys
 import threading
 import warnings
@@ -53,6 +54,7 @@ class Session:
     state : the wire as it is now.
     parameters : every effective value by key.
     hand : whether a hand moves the first sphere.
+    hubs : how many there are, the wire's and those of the catheters.
 
     Raises
     ------
@@ -85,6 +87,7 @@ class Session:
             raise
         self.parameters: Mapping[str, Any] = answer["effective"]
         self.hand: bool = answer["hand"]
+        self.hubs = 1 + sum(re.fullmatch(r"catheter\d+", name) is not None for name in answer)
         self._take(answer)
         for line in answer["warnings"]:
             warnings.warn(line, stacklevel=2)
@@ -103,7 +106,8 @@ class Session:
                 state = self._state or self._newest() or self._unread()
         return state
 
-    def step(self, push: float = 0.0, turn: float = 0.0, steps: int = 1, hub: int = 0) -> State:
+    def step(self, push: float | Sequence[float] = 0.0, turn: float | Sequence[float] = 0.0, steps: int = 1, hub: int = 0
+             ) -> State:
         """Go on by some steps of `timeStep`, fewer where the run ends before.
 
         Parameters
@@ -111,22 +115,30 @@ class Session:
         push : displacement of the first sphere in all of them, units; negative values pull. Along the first element,
             or along displacementDirection where the drive of a wire with a material is "displace".
         turn : turn of the first element about its axis in all of them, rad.
+            A list of either has a number for each hub, the wire's first: so all move at once.
         steps : number of steps, from 1; push and turn are made in equal parts.
         hub : whose hub push and turn move, along and about its axis: 0 the wire's, k that of catheter k; the others
-            rest. Without a hand it says nothing.
+            rest. Without a hand it says nothing; with lists it is 0.
 
         Raises
         ------
         SessionError : a value is not allowed, or the run has ended before (`state.outcome`). What a hand steers is not
             ended by `maxSimulationSteps`.
         """
-        push, turn = _number("push", push), _number("turn", turn)
         steps, hub = _whole("steps", steps, "1"), _whole("hub", hub, "0, the wire's")
-        if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < _MOST):
-            return self._move("step", push=push, turn=turn, steps=steps, hub=hub)
+        if not isinstance(push, (list, tuple, np.ndarray)) and not isinstance(turn, (list, tuple, np.ndarray)):
+            push, turn = _number("push", push), _number("turn", turn)
+            if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < self.hubs):
+                return self._move("step", push=push, turn=turn, steps=steps, hub=hub)
+            motion = [0.0] * (2 * hub) + [push, turn]
+        else:
+            pushes, turns = _numbers("push", push, hub, self.hubs), _numbers("turn", turn, hub, self.hubs)
+            if not isinstance(self._host, Library) or not 1 <= steps < _MOST:
+                return self._move("step", push=pushes, turn=turns, steps=steps)
+            motion = [one for pair in zip(pushes, turns) for one in pair]
         with self._lock:
             self._leave(keeps=steps > STEPS_AT_ONCE)
-            made = self._guarded(lambda host: host.step(push, turn, hub, steps))
+            made = self._guarded(lambda host: host.step(motion, steps))
             if isinstance(made, dict):
                 return self._take(_accepted(made))
             self._state, self._head = None, made
@@ -403,6 +415,18 @@ def _whole(name: str, value: Any, least: str) -> int:
     if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
         raise SessionError(f"{name} = {value!r} is not allowed: needs a whole number from {least}")
     return int(value)
+
+
+def _numbers(name: str, value: Any, hub: int, hubs: int) -> list[float]:
+    """A number for each hub, or for none where all of them have 0."""
+    try:
+        one_each = [0.0] * hubs if not isinstance(value, (list, tuple, np.ndarray)) and value == 0.0 else list(value)
+    except TypeError:
+        one_each = []
+    if hub != 0 or len(one_each) != hubs:
+        raise SessionError(f"{name} = {value!r} is not allowed: needs a number, or a list of one for each of the {hubs} "
+                           "hubs, with hub = 0")
+    return [_number(name, one) for one in one_each]
 
 
 def _number(name: str, value: Any) -> float:

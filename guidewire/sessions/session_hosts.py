@@ -105,24 +105,24 @@ class Library:
         """The answer to a request for the state, also of a session that was ended."""
         return self._answer(_STATE.encode("ascii"))
 
-    def step(self, push: float, turn: float, hub: int, steps: int) -> tuple[int, float, float] | dict[str, Any]:
+    def step(self, motion: Sequence[float], steps: int) -> tuple[int, float, float] | dict[str, Any]:
         """Make steps.
 
         Parameters
         ----------
-        push, turn : in all of them together, units and rad.
-        hub : whose they move: 0 the wire's, k that of catheter k.
+        motion : push, units, and turn, rad, of each hub in all of them together, the wire's first; others rest.
 
         Returns
         -------
         Steps done since the start, the time (s) and the prediction error (units); or the answer of a session that
         refused, or whose run has ended, with its state.
         """
-        step, head = self._functions.guidewire_step, self._head
+        step, head, count = self._functions.guidewire_step, self._head, len(motion)
+        of_each = (ctypes.c_double * count)(*(one / steps for one in motion))
         for done in range(0, steps, STEPS_AT_ONCE):
             if self._is_killed.is_set():
                 raise Ended("this session was ended while it made steps")
-            if not step(self._number, push / steps, turn / steps, hub, min(STEPS_AT_ONCE, steps - done), head):
+            if not step(self._number, of_each, count // 2, min(STEPS_AT_ONCE, steps - done), head):
                 return self._answer(b"")
             if head[2]:
                 return self.ask(_STATE)
@@ -218,10 +218,10 @@ def _load(path: str) -> ctypes.CDLL:
     except OSError as error:
         raise PreparationError(f"{path}: {error}") from error
     _loaded_by = os.getpid()
-    number, count, real, data = ctypes.c_longlong, ctypes.c_int, ctypes.c_double, ctypes.c_void_p
+    number, count, data = ctypes.c_longlong, ctypes.c_int, ctypes.c_void_p
     for name, result, arguments in (
         ("new", number, []), ("ask", data, [number, ctypes.c_char_p, count, data]), ("free", None, [data]),
-        ("step", count, [number, real, real, count, count, data]), ("state", count, [number, count, data, count]),
+        ("step", count, [number, data, count, count, data]), ("state", count, [number, count, data, count]),
         ("close", None, [number]), ("lanes", count, []),
         ("picture", count, [number, ctypes.c_char_p, count, data, count, data, count]),
         ("folder", None, [ctypes.c_char_p]),

@@ -105,6 +105,7 @@ class CatheterState:
     extension : how far the tip of what is inside is beyond its own, m; negative inside.
     overlap : length over which that is inside, m.
     place : in the vessel; None where the scene has no inlet.
+    contact_forces : (m+1, 3), as of `State`.
     """
 
     positions: np.ndarray
@@ -118,6 +119,7 @@ class CatheterState:
     extension: float
     overlap: float
     place: LumenPlace | None
+    contact_forces: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -150,8 +152,8 @@ class State:
     positions, velocities : (n+1, 3), units and units/s.
     orientations : (n, 4), quaternions x, y, z, w of the rod elements.
     angular_velocities : (n, 3), rad/s, in each element's own frame.
-    contact_forces : (n+1, 3), force of the walls on each sphere in the last step, mass unit * unit/s^2; 0 where there
-        are no walls.
+    contact_forces : (n+1, 3), force of the walls on each sphere in the last step, mass unit * unit/s^2, with a material
+        N; 0 where there are no walls. Of instruments in one another the outermost one has it.
     reaction : (3,), force of the held first sphere on the wire in the last step; with a material of its support, N.
         None where the method does not state it (xpbd, and gains without walls).
     curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
@@ -306,8 +308,10 @@ def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
     while (positions := arrays.get(f"positions{len(catheters) + 1}")) is not None:
         number = len(catheters) + 1
         numbers = arrays[f"catheter{number}"][0]
+        forces = arrays.get(f"contactForces{number}")
         catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
-                                       numbers[7:10], *numbers[10:].tolist(), _place(arrays, str(number))))
+                                       numbers[7:10], *numbers[10:].tolist(), _place(arrays, str(number)),
+                                       np.zeros_like(positions) if forces is None else forces))
     return tuple(catheters)
 
 

@@ -334,6 +334,7 @@ class LiveRun:
             "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
             "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
             **{f"positions{k + 1}": one.positions[None] for k, one in enumerate(state.catheters)},
+            **{f"contact_forces{k + 1}": one.contact_forces[None] for k, one in enumerate(state.catheters) if walls},
             "step_time": np.array([1e3 * self._cost]), "real_time": np.array([real_time]),
             **{name: None if values is None else values[None]
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),

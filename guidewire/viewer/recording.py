@@ -190,9 +190,10 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
     units : of the run.
     numbers : "step", "time" (k,), s; "positions" (k, n+1, 3), units; and where they are known "orientations" (k, n, 4),
         x, y, z, w; "positions1" (k, m+1, 3) of the first catheter, and so on, and what was read off at its hub with
-        "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3); "reaction"
-        (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log
-        has of the hub, (k,), with "hub." before its key; "lumen" (k, 2), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
+        "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3), and of
+        the first catheter "contact_forces1"; "reaction" (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy",
+        "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key;
+        "lumen" (k, 2), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
         "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
@@ -221,11 +222,13 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         channels.append(Channel("axialForce", "axial force", "N", "element", axial, True))
     if "contact_forces" in known:
         forces = known["contact_forces"]
+        of_catheters = {name[14:]: known[name] for name in known if re.fullmatch(r"contact_forces\d+", name)}
         channels += [
             Channel("contactForces", "", units.force, "vector", _flat(forces)),
             Channel("contactForce", "contact force", units.force, "sphere", np.linalg.norm(forces, axis=2)),
+            *(Channel(f"contactForces{k}", "", units.force, "vector", _flat(own)) for k, own in of_catheters.items()),
             Channel("wallForce", "force of all walls", units.force, "frame",
-                    np.linalg.norm(forces.sum(axis=1), axis=1)),
+                    np.linalg.norm(sum(own.sum(axis=1) for own in (forces, *of_catheters.values())), axis=1)),
         ]
     if "lumen" in known:
         channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
@@ -436,6 +439,8 @@ def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
         for name in (name for name in HUB if name in entry.get("hub", {})):
             rows.setdefault(f"hub.{name}", []).append(entry["hub"][name])
         for number, catheter in enumerate(entry.get("catheters", []), 1):
+            if "contactForces" in catheter:
+                rows.setdefault(f"contact_forces{number}", []).append(catheter["contactForces"])
             for name in (name for name in HUB if name in catheter):
                 rows.setdefault(f"hub{number}.{name}", []).append(catheter[name])
         if "inBody" in entry:

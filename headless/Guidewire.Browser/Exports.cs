@@ -38,7 +38,10 @@ namespace Guidewire.Browser
         [JSExport]
         internal static bool Step(double push, double turn, int hub, int steps)
         {
-            if (!Session.Step(push, turn, hub, steps, _numbers.AsSpan(0, Head)))
+            Span<double> motion = stackalloc double[2 * (hub + 1)];
+            motion[^2] = push;
+            motion[^1] = turn;
+            if (!Session.Step(motion, steps, _numbers.AsSpan(0, Head)))
             {
                 return false;
             }

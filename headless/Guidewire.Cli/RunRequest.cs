@@ -22,8 +22,10 @@ namespace Guidewire.Cli
             Session = (string?)json["session"];
             Hand = (bool?)json["hand"];
             Steps = (int?)json["steps"] ?? 1;
-            Push = (double?)json["push"] ?? 0.0;
-            Turn = (double?)json["turn"] ?? 0.0;
+            Pushes = (json["push"] as JArray)?.Values<double>().ToArray();
+            Turns = (json["turn"] as JArray)?.Values<double>().ToArray();
+            Push = Pushes != null ? 0.0 : (double?)json["push"] ?? 0.0;
+            Turn = Turns != null ? 0.0 : (double?)json["turn"] ?? 0.0;
             Hub = (int?)json["hub"] ?? 0;
             Snapshot = (string?)json["snapshot"] ?? "";
             View = (JObject?)json["view"] ?? new JObject();
@@ -70,6 +72,12 @@ namespace Guidewire.Cli
         /// <summary>Turn of the first element about its axis in all of them, rad.</summary>
         public double Turn { get; }
 
+        /// <summary>Displacement of each hub in all of them, the wire's first, units; null where one is moved.</summary>
+        public double[]? Pushes { get; }
+
+        /// <summary>Turn of each hub in all of them, rad; null where one is moved.</summary>
+        public double[]? Turns { get; }
+
         /// <summary>Whose hub they move: 0 the wire's, k that of catheter k.</summary>
         public int Hub { get; }
 
@@ -112,8 +120,8 @@ namespace Guidewire.Cli
             CheckNumber(json, "repeat", 0.0, int.MaxValue, "a whole number from 0");
             CheckNumber(json, "steps", 1.0, int.MaxValue, "a whole number from 1");
             CheckNumber(json, "hub", 0.0, int.MaxValue, HubNeeds);
-            CheckNumber(json, "push", double.MinValue, double.MaxValue, "a number (units)");
-            CheckNumber(json, "turn", double.MinValue, double.MaxValue, "a number (rad)");
+            CheckNumbers(json, "push", "a number (units), or a list of one for each hub");
+            CheckNumbers(json, "turn", "a number (rad), or a list of one for each hub");
             CheckNumber(json, "reach", double.Epsilon, double.MaxValue, "a number above 0 (units)");
             return new RunRequest(json);
         }
@@ -142,6 +150,23 @@ namespace Guidewire.Cli
             var point = isPoint ? new Vector3d((double)value[0]!, (double)value[1]!, (double)value[2]!) : default;
             return isPoint && point.IsFinite ? point : throw new ParameterException("request", "middle",
                 value.ToString(Newtonsoft.Json.Formatting.None), "three numbers (units)");
+        }
+
+        private static void CheckNumbers(JObject json, string key, string allowed)
+        {
+            if (!(json[key] is JArray values))
+            {
+                CheckNumber(json, key, double.MinValue, double.MaxValue, allowed);
+                return;
+            }
+            foreach (JToken value in values)
+            {
+                CheckNumber(new JObject { [key] = value.DeepClone() }, key, double.MinValue, double.MaxValue, allowed);
+                if (value.Type == JTokenType.Null)
+                {
+                    throw new ParameterException("request", key, "null", allowed);
+                }
+            }
         }
 
         private static void CheckNumber(JObject json, string key, double low, double high, string allowed)

@@ -39,8 +39,7 @@ namespace Guidewire.Cli
                     answer["effective"] = _session.EffectiveParameters;
                     break;
                 case "step":
-                    Step(request.Push / request.Steps, request.Turn / request.Steps, request.Hub,
-                        request.Steps);
+                    Step(Motion(request), request.Steps);
                     break;
                 case "picture":
                     TakePicture(request, answer);
@@ -101,20 +100,19 @@ namespace Guidewire.Cli
         }
 
         /// <summary>Makes steps, as many as the run still has.</summary>
-        /// <param name="push">In each step, of a session that is steered, units.</param>
-        /// <param name="turn">In each step, rad.</param>
-        /// <param name="hub">Whose hub they move: 0 the wire's, k that of catheter k.</param>
+        /// <param name="motion">Push (units) and turn (rad) of each hub in each step, the wire's first, of a session that
+        /// is steered; the last ones may be left out and rest.</param>
         /// <param name="steps">How many.</param>
         /// <exception cref="ParameterException">The session cannot be stepped so; nothing has changed.</exception>
-        public Simulation Step(double push, double turn, int hub, int steps)
+        public Simulation Step(ReadOnlySpan<double> motion, int steps)
         {
             SimulationSession session = Opened();
-            if (!session.IsSteered && (push != 0.0 || turn != 0.0))
+            if (!session.IsSteered && motion.Trim(0.0).Length > 0)
             {
                 throw new ParameterException("request: push and turn need a steered session; here the parameters'"
                     + " drive moves the wire (open it with \"hand\": true to steer it)");
             }
-            session.CheckHub(hub);
+            session.CheckHub((motion.Length - 1) / 2);
             if (session.Simulation.Outcome != Outcome.Running)
             {
                 throw new ParameterException("request: the run has ended after step " + session.Simulation.StepCount
@@ -123,9 +121,42 @@ namespace Guidewire.Cli
             }
             for (int k = 0; k < steps && session.Simulation.Outcome == Outcome.Running && !_stopRequested(); k++)
             {
-                session.Step(push, turn, hub);
+                session.Step(motion);
             }
             return session.Simulation;
+        }
+
+        // In each step, of as many hubs as the request moves.
+        private double[] Motion(RunRequest request)
+        {
+            bool isOfAll = request.Pushes != null || request.Turns != null;
+            Opened().CheckHub(isOfAll ? 0 : request.Hub);
+            int hubs = isOfAll ? Opened().InstrumentCount : request.Hub + 1;
+            var motion = new double[2 * hubs];
+            if (isOfAll)
+            {
+                Put(request.Pushes, "push", 0, request.Steps, motion);
+                Put(request.Turns, "turn", 1, request.Steps, motion);
+            }
+            else
+            {
+                motion[^2] = request.Push / request.Steps;
+                motion[^1] = request.Turn / request.Steps;
+            }
+            return motion;
+        }
+
+        private static void Put(double[]? values, string key, int place, int steps, double[] motion)
+        {
+            if (values != null && 2 * values.Length != motion.Length)
+            {
+                throw new ParameterException("request", key, values.Length + " numbers", "one for each of the "
+                    + motion.Length / 2 + " hubs");
+            }
+            for (int hub = 0; values != null && hub < values.Length; hub++)
+            {
+                motion[2 * hub + place] = values[hub] / steps;
+            }
         }
 
         /// <summary>Takes a fluoroscopic picture.</summary>

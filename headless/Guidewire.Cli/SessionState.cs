@@ -118,6 +118,10 @@ namespace Guidewire.Cli
                 Put("orientations" + number, catheters[k].Orientations);
                 Put("catheter" + number, catheters[k]);
                 Put("lumen" + number, session.PlaceOf(catheters[k].Positions));
+                if (simulation.Contacts != null)
+                {
+                    Put("contactForces" + number, catheters[k].ContactForces);
+                }
             }
         }
 

@@ -45,16 +45,17 @@ namespace Guidewire.Native
             return copy;
         }
 
-        /// <summary>Makes steps, with so much push (units) and turn (rad) in each.</summary>
-        /// <param name="hub">Whose hub they move: 0 the wire's, k that of catheter k.</param>
+        /// <summary>Makes steps.</summary>
+        /// <param name="motion">Push (units) and turn (rad) of each hub in each of them, the wire's first.</param>
+        /// <param name="hubs">How many hubs these are; others rest.</param>
         /// <param name="head">Takes four numbers: steps done since the start, time (s), 0 or 1 where the run has ended,
         /// prediction error (units).</param>
         /// <returns>1, or 0 where the steps were refused or failed.</returns>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_step")]
-        public static int Step(long number, double push, double turn, int hub, int steps, double* head)
+        public static int Step(long number, double* motion, int hubs, int steps, double* head)
         {
             return Sessions.TryGetValue(number, out NativeSession? session)
-                && session.Step(push, turn, hub, steps, new Span<double>(head, 4)) ? 1 : 0;
+                && session.Step(new ReadOnlySpan<double>(motion, 2 * hubs), steps, new Span<double>(head, 4)) ? 1 : 0;
         }
 
         /// <summary>Reads a part of the state off.</summary>

@@ -38,11 +38,11 @@ namespace Guidewire.Native
         }
 
         /// <summary>As <see cref="Exports.Step"/> says.</summary>
-        public bool Step(double push, double turn, int hub, int steps, Span<double> head)
+        public bool Step(ReadOnlySpan<double> motion, int steps, Span<double> head)
         {
             try
             {
-                Simulation simulation = _host.Step(push, turn, hub, steps);
+                Simulation simulation = _host.Step(motion, steps);
                 head[0] = simulation.StepCount;
                 head[1] = simulation.Time;
                 head[2] = simulation.Outcome == Outcome.Running ? 0.0 : 1.0;

@@ -1,6 +1,7 @@
 """Sessions against runs and against each other, what they refuse, and scripts that the door starts."""
 
 import json
+import math
 import os
 import pickle
 import re
@@ -187,7 +188,7 @@ def test_what_a_hand_steers_goes_on_beyond_maxSimulationSteps(scene):
 
 @pytest.mark.parametrize("asked, said", [
     ({"steps": 1.5}, "steps = 1.5 is not allowed"), ({"steps": True}, "steps = True"), ({"steps": "2"}, "steps = '2'"),
-    ({"push": "a"}, "push = 'a' is not allowed"), ({"turn": None}, "turn = None"), ({"push": [1.0]}, "push = [1.0]"),
+    ({"push": "a"}, "push = 'a' is not allowed"), ({"turn": None}, "turn = None"), ({"push": [1.0, 2.0]}, "push = [1.0, 2.0]"),
     ({"push": True}, "push = True"),
 ])
 def test_a_step_of_something_else_than_numbers_is_refused_in_one_line(asked, said):
@@ -408,3 +409,31 @@ def test_a_picture_shows_the_catheter_and_takes_the_nodes_of_all_instruments():
     darker = (wire_alone > seen).sum(axis=1)    # in each row of a picture of a catheter that goes upwards
     assert np.all(np.abs(darker[5:-5] - 2 * (5.0 / 6.0) / 60.0 * 96) <= 2), "as wide as the catheter is"
     assert np.array_equal(seen[:, :30], wire_alone[:, :30])
+
+
+def test_the_largest_wall_force_of_a_run_is_that_of_one_of_its_instruments(runner_command, tmp_path):
+    """The run's summary takes it from the chain of all, a session from the instruments."""
+    file = ROOT / "params" / "catheter-sheath.json"
+    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run"), "-maxSimulationSteps",
+                    "60"], check=True, capture_output=True)
+    largest = 0.0
+    with Session(file, hand=False, maxSimulationSteps=60) as session:
+        assert session.hubs == 2
+        while session.state.outcome is None:
+            state = session.step()
+            for one in (state, *state.catheters):
+                assert one.contact_forces.shape == one.positions.shape
+                largest = max(largest, np.linalg.norm(one.contact_forces, axis=1).max())
+    assert largest > 0.1
+    assert largest == json.loads((tmp_path / "run" / "summary.json").read_text())["largestContactForce"]
+
+
+@pytest.mark.parametrize("push, turn", [([1.0], 0.0), ([1.0, 2.0, 3.0], 0.0), (1.0, [0.1, 0.2]), ("far", [0.0, 0.0]),
+                                        ([1.0, None], 0.0), ([1.0, math.nan], 0.0), (0.0, np.zeros((2, 1))), (0.0, [])])
+def test_lists_of_another_length_or_of_no_numbers_are_refused_and_nothing_moves(push, turn):
+    with Session(CATHETER, hand=True) as session:
+        with pytest.raises(SessionError, match="is not allowed: needs a") as refused:
+            session.step(push, turn)
+        assert "\n" not in str(refused.value) and session.state.step == 0
+        with pytest.raises(SessionError, match="needs a number, or a list of one for each of the 2 hubs"):
+            session.step([1.0, 1.0], hub=1)

@@ -36,7 +36,7 @@ class StandIn(session_hosts.Library):
         return {"exitCode": 0, "step": self.done, "time": 0.5 * self.done, "outcome": None, "message": "",
                 "predictionError": 0.0, "effective": {}, "hand": True, "warnings": [], **texts}
 
-    def step(self, push, turn, hub, steps):
+    def step(self, motion, steps):
         if self.refuses:
             return {"exitCode": 2, "message": "request: not so"}
         self.done += steps
@@ -155,7 +155,7 @@ def test_the_state_before_long_steps_is_there_for_other_threads_while_they_last(
     session.step(steps=3)
     seen = []
 
-    def step(push, turn, hub, steps):
+    def step(motion, steps):
         other = threading.Thread(target=lambda: seen.append((session.state.step, session.state.positions[0, 0])))
         other.start()
         other.join(timeout=20.0)

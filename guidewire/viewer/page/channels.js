@@ -77,10 +77,12 @@ export function makeChannels(rules, parameters, state, hasWalls, measured) {
   }
   if (hasWalls) {
     const forces = state.contactForces ?? new Float64Array(x.length);
+    const ofCatheters = catheters.map((k) => state[`contactForces${k}`] ?? new Float64Array(0));
     const sum = [0, 0, 0];
-    forces.forEach((value, i) => { sum[i % 3] += value; });
+    for (const own of [forces, ...ofCatheters]) own.forEach((value, i) => { sum[i % 3] += value; });
     add("contactForces", "", force, "vector", forces);
     add("contactForce", "contact force", force, "sphere", rows(forces).map((i) => Math.sqrt(dot(forces, i, i))));
+    catheters.forEach((k, i) => add(`contactForces${k}`, "", force, "vector", ofCatheters[i]));
     add("wallForce", "force of all walls", force, "frame", [Math.sqrt(sum[0] ** 2 + sum[1] ** 2 + sum[2] ** 2)]);
   }
   if (state.lumen && !Number.isNaN(state.lumen[5])) add("lumen", "", "", "frame", [state.lumen[5], state.lumen[1]]);

@@ -64,11 +64,16 @@ export class Score {
 }
 
 /**
- * The largest force of a wall on a node; NaN where it is not known.
+ * The largest force of a wall on a node of any instrument; NaN where it is not known.
  * @param {import("./recording.js").Recording} recording @param {number} frame
  */
 export function largestForce(recording, frame) {
-  const channel = recording.channels.get("contactForce");
-  if (!channel) return NaN;
-  return recording.at("contactForce", frame).reduce((most, value) => Math.max(most, value), 0);
+  if (!recording.channels.has("contactForce")) return NaN;
+  let most = recording.at("contactForce", frame).reduce((largest, value) => Math.max(largest, value), 0);
+  for (const name of recording.channels.keys()) {
+    if (!/^contactForces\d+$/.test(name)) continue;
+    const forces = recording.at(name, frame);
+    for (let i = 0; i < forces.length; i += 3) most = Math.max(most, Math.hypot(...forces.subarray(i, i + 3)));
+  }
+  return most;
 }

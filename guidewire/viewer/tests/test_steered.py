@@ -10,6 +10,7 @@ import pytest
 
 from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT
+from guidewire.runs import building
 from guidewire.sessions.session import Session
 from guidewire.viewer.held import HeldInstruments
 from guidewire.sessions.steered import Steered, exact_push, exact_turn
@@ -60,16 +61,39 @@ def test_saved_tables_of_wire_and_catheter_give_the_bits_that_were_steered(runne
             shown.append((state.positions, state.catheters[0].positions))
         with pytest.raises(ValueError):
             instruments.hold(2)
-    log = run_of_tables(runner_command, tmp_path, file, instruments, 25)
+    log = run_of_tables(runner_command, tmp_path, file, [instruments.to_csv(k) for k in (0, 1)], 25)
     for end, (wire, catheter) in zip(np.cumsum([0, 4, 8, 8, 1, 4]), shown, strict=True):
         np.testing.assert_array_equal(log.positions[end], wire, err_msg=f"step {end}")
         np.testing.assert_array_equal(log.catheters[0][end], catheter, err_msg=f"step {end}")
 
 
-def run_of_tables(runner_command, folder, file, instruments, steps):
+@pytest.mark.parametrize("native", [False, pytest.param(True, marks=pytest.mark.skipif(
+    not building.native_library(), reason="the native library is not built"))])
+def test_tables_of_hubs_that_moved_at_once_give_the_bits_of_one_step_of_all(runner_command, tmp_path, native):
+    file = ROOT / "params" / "catheter.json"
+    dice = random.Random(9)
+    with Session(file, hand=True, native=native, maxSimulationSteps=10**9, deltaThreshold=0) as session:
+        assert session.hubs == 2
+        tables = [Steered(session.parameters) for _ in range(session.hubs)]
+        metres = session.parameters["metresPerUnit"]
+        shown = [(session.state.positions, session.state.catheters[0].positions)]
+        for steps in (4, 1, 8, 70, 2):    # 70: a library makes 64 at once
+            pushes = [exact_push(0.8 * dice.uniform(-0.2, 0.5), metres) for _ in tables]
+            turns = [exact_turn(0.06 * dice.uniform(-1.0, 1.0)) for _ in tables]
+            state = session.step(np.array(pushes) * steps, [turn * steps for turn in turns], steps)
+            for table, push, turn in zip(tables, pushes, turns):
+                table.add(push, turn, steps, state)
+            shown.append((state.positions, state.catheters[0].positions))
+    log = run_of_tables(runner_command, tmp_path, file, [table.to_csv() for table in tables], 85)
+    for end, (wire, catheter) in zip(np.cumsum([0, 4, 1, 8, 70, 2]), shown, strict=True):
+        np.testing.assert_array_equal(log.positions[end], wire, err_msg=f"step {end}")
+        np.testing.assert_array_equal(log.catheters[0][end], catheter, err_msg=f"step {end}")
+
+
+def run_of_tables(runner_command, folder, file, tables, steps):
     """The log of a run driven by the saved tables of a wire and its catheter."""
-    for number in (0, 1):
-        (folder / f"steered-{number}.csv").write_text(instruments.to_csv(number))
+    for number, table in enumerate(tables):
+        (folder / f"steered-{number}.csv").write_text(table)
     subprocess.run([*runner_command, "-parameters", str(file), "-out", str(folder / "run"), "-driveFile",
                     str(folder / "steered-0.csv"), "-catheters[0].driveFile", str(folder / "steered-1.csv"),
                     "-maxSimulationSteps", str(steps), "-deltaThreshold", "0", "-logEvery", "1"], check=True,
@@ -98,7 +122,7 @@ def test_saved_tables_of_a_hub_that_was_stopped_are_taken_and_repeat_it(runner_c
             shown.append((state.positions, state.catheters[0].positions))
     hub = state.catheters[0] if held else state.hub
     assert hub.insertion == pytest.approx(1e-3 * (gone - 2.0 * push), abs=1e-12)
-    log = run_of_tables(runner_command, tmp_path, file, instruments, 14)
+    log = run_of_tables(runner_command, tmp_path, file, [instruments.to_csv(k) for k in (0, 1)], 14)
     for end, (wire, catheter) in zip(np.cumsum([0, 4, 4, 4, 2]), shown, strict=True):
         np.testing.assert_allclose(log.positions[end], wire, rtol=0.0, atol=1e-6, err_msg=f"step {end}")
         np.testing.assert_allclose(log.catheters[0][end], catheter, rtol=0.0, atol=1e-6, err_msg=f"step {end}")

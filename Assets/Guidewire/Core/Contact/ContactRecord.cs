@@ -98,16 +98,25 @@ namespace Guidewire.Core
             MeanTotal = other.MeanTotal;
             WallForces = other.WallForces;
             Pressure = other.Pressure;
-            for (int i = 0; i < Forces.Length; i++)
-            {
-                int from = i - offset;
-                Forces[i] = from >= 0 && from < other.Forces.Length ? other.Forces[from] : Vector3d.Zero;
-            }
+            other.CopyForces(Forces, offset, 0);
             for (int j = 0; j < ElementForces.Length; j++)
             {
                 int from = j - offset;
                 ElementForces[j] = from >= 0 && from < other.ElementForces.Length ? other.ElementForces[from]
                     : Vector3d.Zero;
+            }
+        }
+
+        /// <summary>Copies the forces on spheres to those of another numbering.</summary>
+        /// <param name="forces">Receives them; zero where there are none.</param>
+        /// <param name="offset">Of the other numbers.</param>
+        /// <param name="first">The first sphere here that counts.</param>
+        internal void CopyForces(Vector3d[] forces, int offset, int first)
+        {
+            for (int i = 0; i < forces.Length; i++)
+            {
+                int from = i - offset;
+                forces[i] = from >= first && from < Forces.Length ? Forces[from] : Vector3d.Zero;
             }
         }
 

@@ -48,6 +48,7 @@ namespace Guidewire.Core
             _units = 1.0 / metres;
             Positions = new Vector3d[elements + 1];
             Orientations = new Quaterniond[elements];
+            ContactForces = new Vector3d[elements + 1];
             _lumen = lumenRadius;
         }
 
@@ -59,6 +60,10 @@ namespace Guidewire.Core
 
         /// <summary>Its n elements.</summary>
         public Quaterniond[] Orientations { get; }
+
+        /// <summary>Force of the walls on each node in the last step, N, where it is the outermost instrument.
+        /// </summary>
+        public Vector3d[] ContactForces { get; }
 
         /// <summary>Insertion of the catheter's hub since the start, m.</summary>
         public double Insertion { get; private set; }

@@ -209,9 +209,9 @@ namespace Guidewire.Io
         private void ReadCatheters()
         {
             CatheterReader.Read(Values, _given.SourceOf, _warnings);
-            if (Values.Simulation.Scene.Catheters.Count > 0 && (Values.LogStrains || Values.LogContacts))
+            if (Values.Simulation.Scene.Catheters.Count > 0 && Values.LogStrains)
             {
-                throw Refused(Values.LogStrains ? "logStrains" : "logContacts", "false with catheters");
+                throw Refused("logStrains", "false with catheters");
             }
             foreach (Catheter catheter in Values.Simulation.Scene.Catheters)
             {

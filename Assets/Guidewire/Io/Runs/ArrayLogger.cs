@@ -56,7 +56,8 @@ namespace Guidewire.Io
                 AddHub(hub);
                 for (int k = 0; k < catheters.Count; k++)
                 {
-                    AddCatheter(catheters[k], "catheter" + (k == 0 ? "" : (k + 1).ToString()));
+                    AddCatheter(catheters[k], "catheter" + (k == 0 ? "" : (k + 1).ToString()),
+                        contacts != null);
                 }
                 AddContacts(state, contacts);
                 WriteHeader();
@@ -90,7 +91,7 @@ namespace Guidewire.Io
             Put(hub);
             foreach (CoaxialRecord catheter in catheters)
             {
-                Put(catheter);
+                Put(catheter, contacts != null);
             }
             if (contacts != null)
             {
@@ -201,7 +202,7 @@ namespace Guidewire.Io
             }
         }
 
-        private void AddCatheter(CoaxialRecord catheter, string name)
+        private void AddCatheter(CoaxialRecord catheter, string name, bool hasContacts)
         {
             Add(name + "Positions", _realType, catheter.Positions.Length, 3);
             if (_parameters.LogOrientations)
@@ -215,6 +216,10 @@ namespace Guidewire.Io
                 Add(name + "Turn", _realType);
                 Add(name + "Force", _realType);
                 Add(name + "Torque", _realType);
+            }
+            if (hasContacts)
+            {
+                Add(name + "ContactForces", _realType, catheter.ContactForces.Length, 3);
             }
         }
 
@@ -358,7 +363,7 @@ namespace Guidewire.Io
             }
         }
 
-        private void Put(CoaxialRecord catheter)
+        private void Put(CoaxialRecord catheter, bool hasContacts)
         {
             Put(catheter.Positions, 0);
             if (_parameters.LogOrientations)
@@ -372,6 +377,10 @@ namespace Guidewire.Io
                 Put(catheter.Turn);
                 Put(catheter.Force);
                 Put(catheter.Torque);
+            }
+            if (hasContacts)
+            {
+                Put(catheter.ContactForces, 0);
             }
         }
 

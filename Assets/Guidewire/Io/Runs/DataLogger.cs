@@ -83,7 +83,7 @@ namespace Guidewire.Io
             }
             if (simulation.Coaxial() is CoaxialRecord catheter)
             {
-                AppendCatheters(catheter);
+                AppendCatheters(catheter, _parameters.LogContacts && simulation.Contacts != null);
             }
             if (_parameters.LogContacts && simulation.Contacts != null)
             {
@@ -166,17 +166,17 @@ namespace Guidewire.Io
             Append("}");
         }
 
-        private void AppendCatheters(CoaxialRecord outermost)
+        private void AppendCatheters(CoaxialRecord outermost, bool hasContacts)
         {
             Append(", \"catheters\": [{");
             for (CoaxialRecord? one = outermost; one != null; one = one.Inside)
             {
-                AppendCatheter(one);
+                AppendCatheter(one, hasContacts);
                 Append(one.Inside == null ? "}]" : "}, {");
             }
         }
 
-        private void AppendCatheter(CoaxialRecord catheter)
+        private void AppendCatheter(CoaxialRecord catheter, bool hasContacts)
         {
             Append("\"sphere\": ", catheter.Positions);
             if (_parameters.LogOrientations)
@@ -200,6 +200,10 @@ namespace Guidewire.Io
                 Append(", \"turn\": ", catheter.Turn);
                 Append(", \"force\": ", catheter.Force);
                 Append(", \"torque\": ", catheter.Torque);
+            }
+            if (hasContacts)
+            {
+                Append(", \"contactForces\": ", catheter.ContactForces);
             }
         }
 

@@ -30,6 +30,7 @@ namespace Guidewire.Io
         private readonly byte[] _start;
         private readonly CancellationToken _cancellation;
         private readonly bool _limitsHubs;
+        private readonly double[] _motion;     // of the hubs, where one moves
 
         private SimulationSession(ParameterSource from, List<KeyValuePair<string, JToken>> overrides,
             ParameterHandler handler, bool isSteered, bool limitsHubs = false,
@@ -50,6 +51,7 @@ namespace Guidewire.Io
                 throw new ParameterException((from.Name ?? from.OverridesFrom) + ": " + conflict.Key + " needs "
                     + conflict.Needed);
             }
+            _motion = new double[2 * InstrumentCount];
             Simulation = Simulation.Create(handler.Values.Simulation);
             _start = Simulation.Save();
         }
@@ -206,15 +208,26 @@ namespace Guidewire.Io
         public void Step(double push, double turn, int hub = 0)
         {
             CheckHub(hub);
+            Array.Clear(_motion, 0, _motion.Length);
+            _motion[2 * hub] = push;
+            _motion[2 * hub + 1] = turn;
+            Step(_motion);
+        }
+
+        /// <summary>One step of all hubs. A run that is not steered takes no notice of their motion.</summary>
+        /// <param name="motion">Push (units) and turn (rad) of each hub in it, the wire's first; the last ones may be
+        /// left out and rest.</param>
+        /// <exception cref="ParameterException">There are fewer hubs; nothing has changed.</exception>
+        public void Step(ReadOnlySpan<double> motion)
+        {
+            CheckHub((motion.Length - 1) / 2);
             if (_steering != null)
             {
-                _steering.Push = hub == 0 ? push : 0.0;
-                _steering.Turn = hub == 0 ? turn : 0.0;
-                IReadOnlyList<Catheter> catheters = Parameters.Scene.Catheters;
-                for (int k = 0; k < catheters.Count; k++)
+                for (int hub = 0; hub < InstrumentCount; hub++)
                 {
-                    catheters[k].Drive.Steering!.Push = hub == k + 1 ? push : 0.0;
-                    catheters[k].Drive.Steering!.Turn = hub == k + 1 ? turn : 0.0;
+                    Steering steering = hub == 0 ? _steering : Parameters.Scene.Catheters[hub - 1].Drive.Steering!;
+                    steering.Push = 2 * hub < motion.Length ? motion[2 * hub] : 0.0;
+                    steering.Turn = 2 * hub < motion.Length ? motion[2 * hub + 1] : 0.0;
                 }
             }
             long before = Stopwatch.GetTimestamp();

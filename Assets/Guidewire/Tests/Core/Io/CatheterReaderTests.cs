@@ -131,6 +131,23 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void SessionOfThree_MovesAllHubsInOneStep_OrTheFirstOnes()
+        {
+            using SimulationSession session = SimulationSession.Open(null, Given(Outer + ", " + Good), true);
+            session.Step(new[] { 1.0, 0.1, 0.5, 0.2, 0.25, 0.3 });
+            session.Step(new[] { 0.5, 0.2 });
+            CoaxialRecord outer = session.Simulation.Coaxial()!;
+            Assert.That(session.Simulation.StepCount, Is.EqualTo(2));
+            Assert.That(session.Simulation.Hub()!.Insertion, Is.EqualTo(1.5e-3).Within(1e-15));
+            Assert.That(session.Simulation.Hub()!.Turn, Is.EqualTo(0.3).Within(1e-12));
+            Assert.That(outer.Insertion, Is.EqualTo(0.5e-3).Within(1e-15));
+            Assert.That(outer.Turn, Is.EqualTo(0.2).Within(1e-12));
+            Assert.That(outer.Inside!.Insertion, Is.EqualTo(0.25e-3).Within(1e-15));
+            Assert.That(outer.Inside.Turn, Is.EqualTo(0.3).Within(1e-12));
+            Assert.That(() => session.Step(new double[8]), Throws.TypeOf<ParameterException>());
+        }
+
+        [Test]
         public void Session_HoldsOneHubAtATime()
         {
             using SimulationSession session = SimulationSession.Open(null, Given(Good), true);

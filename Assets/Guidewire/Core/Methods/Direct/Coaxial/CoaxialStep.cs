@@ -85,7 +85,8 @@ namespace Guidewire.Core
             TakeInner();
         }
 
-        /// <summary>Sums over the run and the walls' forces; that on each sphere is not distinguished.</summary>
+        /// <summary>Sums over the run and the walls' forces; on spheres those of the wire, beyond the tips around it.
+        /// </summary>
         public override ContactRecord? Contacts { get; }
 
         /// <summary>Whether the start is a rest shape.</summary>
@@ -433,9 +434,21 @@ namespace Guidewire.Core
         {
             if (Contacts != null)
             {
-                // None of its spheres: they are not the chain's.
-                Contacts.Take(_whole.Contacts!, Contacts.Forces.Length + _whole.Contacts!.Forces.Length);
+                ContactRecord whole = _whole.Contacts!;
+                Contacts.Take(whole, 0);
+                TakeForces(whole, _drives.Length - 1, Contacts.Forces);
+                for (int i = 0; i < _records.Length; i++)
+                {
+                    TakeForces(whole, i, _records[i].ContactForces);
+                }
             }
+        }
+
+        // A node of the chain is one of the outermost instrument there; that at a tip is the outer one's.
+        private void TakeForces(ContactRecord whole, int instrument, Vector3d[] forces)
+        {
+            whole.CopyForces(forces, forces.Length - 1 - _rod.Joints.TipOf(instrument),
+                instrument == 0 ? 0 : _rod.Joints.TipOf(instrument - 1) + 1);
         }
 
         private void TakePlay()

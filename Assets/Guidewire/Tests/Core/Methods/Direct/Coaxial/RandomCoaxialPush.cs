@@ -79,6 +79,8 @@ namespace Guidewire.Core.Tests
 
         public Simulation Simulation { get; }
 
+        public SimulationParameters Parameters => _parameters;
+
         public ContactRecord Contacts => Simulation.Contacts!;
 
         /// <summary>Points of the outermost axes outside a wall after a step, summed over the steps.</summary>

@@ -1,0 +1,47 @@
+using System.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Forces of walls on each of several instruments in one another.</summary>
+    internal sealed class CoaxialWallForceTests
+    {
+        [TestCase(false)]
+        [TestCase(true)]
+        public void ForcesOnAllInstruments_AddUpToTheWalls_AndNoneIsOnWhatIsInside(bool hasOuter)
+        {
+            int wires = 0;
+            int catheters = 0;
+            for (int seed = 0; seed < 12; seed++)
+            {
+                var push = new RandomCoaxialPush(seed, hasOuter: hasOuter);
+                Simulation run = push.Simulation;
+                Vector3d[] wire = push.Contacts.Forces;
+                Vector3d[][] others = run.Catheters().Select(one => one.ContactForces).ToArray();
+                Vector3d sum = others.Append(wire).SelectMany(forces => forces)
+                    .Aggregate(Vector3d.Zero, (total, force) => total + force);
+                Assert.That((sum - push.Contacts.Total).Length, Is.LessThan(1e-9), push.ToString());
+                wires += wire.Any(force => force.Length > 0.0) ? 1 : 0;
+                catheters += others[0].Any(force => force.Length > 0.0) ? 1 : 0;
+
+                // Nodes before the hub of what is around, and behind its tip, are not seen by walls.
+                Vector3d tip = run.Catheters()[others.Length - 1].Positions[^1];
+                int covered = Nearest(run.State.Positions, tip) - 1;
+                if (run.Catheters()[others.Length - 1].Extension > 0.0)
+                {
+                    Assert.That(wire.Take(covered), Is.All.EqualTo(Vector3d.Zero), push.ToString());
+                }
+                Simulation again = Simulation.Restore(push.Parameters, run.Save());
+                Assert.That(again.Contacts!.Forces, Is.EqualTo(wire));
+                Assert.That(again.Catheters().Select(one => one.ContactForces), Is.EqualTo(others));
+            }
+            Assert.That(wires, Is.GreaterThan(2), "runs whose wire a wall touches at the end");
+            Assert.That(catheters, Is.GreaterThan(2), "runs whose outermost catheter a wall touches");
+        }
+
+        private static int Nearest(Vector3d[] points, Vector3d point)
+        {
+            return Enumerable.Range(0, points.Length).OrderBy(i => Vector3d.Distance(points[i], point)).First();
+        }
+    }
+}
