@@ -15,9 +15,10 @@ from guidewire.commands.making import build_runner, make, means_of
 from guidewire.commands.progress import bar_of
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import checking
+from guidewire.runs.runner import FAILED
 from guidewire.studies.builtin import STUDIES
 from guidewire.studies.table import Grid, Source
-from guidewire.sweeps.sweep import FAILED, Means
+from guidewire.sweeps.sweep import Means
 
 # Of the arch with its branch, as a C-arm sees them.
 _FILM = ["--fluoroscopy", "--frames", "24", "--pixels", "288", "--noise", "0", "--target", "0", "55", "180", "--field",

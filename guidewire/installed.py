@@ -6,7 +6,6 @@ build, check or draw what only the repository has are refused.
 
 from __future__ import annotations
 
-import importlib.metadata
 import re
 from pathlib import Path
 
@@ -22,6 +21,8 @@ _FLAGS = {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "abm"}  # x86-64-v3, f
 def version() -> str:
     """The program's version."""
     if INSTALLED:
+        import importlib.metadata  # a tenth of the start of a command
+
         return importlib.metadata.version("guidewire")
     text = (ROOT / "Assets" / "Guidewire" / "Core" / "ProgramVersion.cs").read_text(encoding="utf-8")
     return _NUMBER.search(text)[1]

@@ -12,7 +12,6 @@ from guidewire.commands.arguments import (
 )
 from guidewire.installed import version
 from guidewire.prepare import ANATOMY, DRAWING, INSTALLED, PACKAGING, SWEEPING, TESTING, VIEWING
-from guidewire.studies.builtin import STUDIES
 
 # Commands by task, as --help lists them.
 GROUPS = {
@@ -60,7 +59,7 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.set_defaults(packages=())
 
     sweep = commands.add_parser("sweep", help="the runs of a study; completed runs are not repeated")
-    sweep.add_argument("study", metavar="STUDY", help=f"{', '.join(STUDIES)}; or a study of your own, a JSON file")
+    sweep.add_argument("study", metavar="STUDY", help=f"{_studies() if 'sweep' in argv else ''}; or a study of your own, a JSON file")
     sweep.add_argument("--out", type=path, default=Path("results"), help="parent of the study's folder (results)")
     sweep.add_argument("--logs", action="store_true", help="write the log of every run, whatever the study's file says")
     sweep.add_argument("--yes", action="store_true", help="make the runs even if there are more than 100,000")
@@ -278,6 +277,12 @@ def parse(argv: list[str]) -> argparse.Namespace:
     if arguments.command == "view" and is_anatomy(arguments.what[0]):
         arguments.packages = (*arguments.packages, *ANATOMY)
     return arguments
+
+
+def _studies() -> str:
+    from guidewire.studies.builtin import STUDIES
+
+    return ", ".join(STUDIES)
 
 
 def _with_all_ends(argv: list[str]) -> list[str]:

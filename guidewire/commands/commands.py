@@ -13,7 +13,7 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from guidewire import installed, library
+from guidewire import installed
 from guidewire.commands import command_line, ending
 from guidewire.commands.arguments import value_of
 from guidewire.commands.making import build_runner, make, means_of, runner_of, tell_failures
@@ -21,10 +21,8 @@ from guidewire.commands.progress import tell_frames
 from guidewire.prepare import INSTALLED, ROOT, PreparationError
 from guidewire.runs import building, checking
 from guidewire.runs.process import hand_to
+from guidewire.runs.runner import FAILED
 from guidewire.runs.whole_files import whole_file, write_whole
-from guidewire.studies.keys import RESULTS
-from guidewire.studies.study_file import LIMIT
-from guidewire.sweeps.sweep import FAILED
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -81,6 +79,10 @@ def _run(arguments: argparse.Namespace) -> int:
 
 
 def _sweep(arguments: argparse.Namespace) -> int:
+    from guidewire import library
+    from guidewire.studies.keys import RESULTS
+    from guidewire.studies.study_file import LIMIT
+
     checking.check_out(arguments.out)
     study = library.find_study(arguments.study, None if arguments.yes else LIMIT)
     study = replace(study, logs=study.logs or arguments.logs)
@@ -92,6 +94,7 @@ def _sweep(arguments: argparse.Namespace) -> int:
 
 
 def _advise(arguments: argparse.Namespace) -> int:
+    from guidewire import library
     from guidewire.advice import chart, plan, report
     from guidewire.advice.quantity import Quantity
 

@@ -12,9 +12,8 @@ from collections.abc import Callable
 from pathlib import Path
 
 from guidewire.prepare import PreparationError
-from guidewire.runs.runner import INTERNAL_ERROR, INTERRUPTED
+from guidewire.runs.runner import FAILED, INTERNAL_ERROR, INTERRUPTED
 from guidewire.runs.whole_files import FULL
-from guidewire.sweeps.sweep import FAILED
 
 NO_READER = 141    # as a shell counts a program that a closed pipe has ended
 

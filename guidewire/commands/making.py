@@ -6,12 +6,15 @@ import argparse
 import sys
 from collections.abc import Sequence
 from pathlib import Path
+from typing import TYPE_CHECKING
 
-from guidewire import installed, library
+from guidewire import installed
 from guidewire.commands.progress import bar_of, seconds_counted
 from guidewire.runs import building
-from guidewire.studies.table import Source
-from guidewire.sweeps.sweep import Means, SweepResult
+
+if TYPE_CHECKING:
+    from guidewire.studies.table import Source
+    from guidewire.sweeps.sweep import Means, SweepResult
 
 
 def runner_of(arguments: argparse.Namespace) -> list[str]:
@@ -41,11 +44,15 @@ def build_runner() -> list[str]:
 
 def means_of(arguments: argparse.Namespace, command: list[str], name: str, folder: Path | None = None) -> Means:
     """What makes runs, as the command line says."""
+    from guidewire.sweeps.sweep import Means
+
     return Means(command, arguments.jobs, arguments.cluster, folder, build_benchmarks, bar_of(name))
 
 
 def make(asked: Sequence[tuple[Source, Path]], out: Path, means: Means) -> SweepResult:
     """Make the runs that studies or checks ask for and say what failed."""
+    from guidewire import library
+
     result = library.make(asked, out, means)
     tell_failures(result)
     return result

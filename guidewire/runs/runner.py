@@ -19,6 +19,7 @@ from pathlib import Path
 from typing import Any
 
 BAD_INPUT = 2
+FAILED = 5  # something that was asked for is not there
 INTERNAL_ERROR = 70
 INTERRUPTED = 130
 _SECONDS_TO_END = 20.0

@@ -19,7 +19,7 @@ from typing import TYPE_CHECKING, Any, Optional, Protocol
 
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
-from guidewire.runs.runner import BAD_INPUT, INTERRUPTED, Answer, Request
+from guidewire.runs.runner import BAD_INPUT, FAILED, INTERRUPTED, Answer, Request
 from guidewire.runs.whole_files import write_whole
 from guidewire.studies.keys import RESULTS, TABLE, told_values
 from guidewire.studies.table import Case, Findings, Rounds, Source
@@ -29,7 +29,6 @@ if TYPE_CHECKING:
     from guidewire.sweeps.cluster import Cluster
     from guidewire.sweeps.worker import Job
 
-FAILED = 5  # as of a run: something that was asked for is not there
 _STARTS = "starts"
 _TIMED = {"logSpheres": "last", "logOrientations": False}  # a timed run's log is read for its times only
 WALL_TIMES = (  # what differs from one time to the next; all other columns are independent of the machine
