@@ -14,18 +14,14 @@ namespace Guidewire.UnityCheck
         {
             var reply = new Reply();
             Dictionary<string, CSharpCompilation> compilations = _sources.Compile(request);
-            var usage = new Usage(compilations.Values, request.Events);
-            HashSet<string>? only = request.Only == null ? null : new HashSet<string>(request.Only);
+            var usage = new Usage(compilations.Values);
             foreach (AssemblyForm form in request.Assemblies)
             {
-                if (!compilations.TryGetValue(form.Name, out CSharpCompilation? compilation))
-                {
-                    continue;
-                }
-                bool isTold = !form.IsTest && form.HasEngine;
+                CSharpCompilation compilation = compilations[form.Name];
                 foreach (SyntaxTree tree in compilation.SyntaxTrees)
                 {
-                    bool isJudged = only == null || only.Contains(tree.FilePath);
+                    bool isJudged = request.Only == null || request.Only.Contains(tree.FilePath);
+                    bool isTold = form.HasEngine && !form.IsTest;
                     if (!isJudged && !isTold)
                     {
                         continue;
@@ -37,17 +33,11 @@ namespace Guidewire.UnityCheck
                     }
                     if (isTold)
                     {
-                        SourceTable.Add(source, reply);
+                        SourceTable.Add(source, request.Words, reply);
                     }
-                    CallTable.Add(source, request.Words, reply);
                 }
             }
             return reply;
-        }
-
-        private static bool IsFriendly(string attribute)
-        {
-            return attribute.StartsWith("InternalsVisibleTo", StringComparison.Ordinal);
         }
 
         private static void CheckSource(Source source, Reply reply)
@@ -58,16 +48,10 @@ namespace Guidewire.UnityCheck
                 reply.Violations.Add(new Violation(source.Path, Source.Line(error.Location), error.Id,
                     error.GetMessage(System.Globalization.CultureInfo.InvariantCulture)));
             }
-            reply.Friends.AddRange(source.Root.DescendantNodes().OfType<AttributeSyntax>()
-                .Where(attribute => IsFriendly(attribute.Name.ToString()))
-                .SelectMany(attribute => attribute.DescendantNodes().OfType<LiteralExpressionSyntax>())
-                .Select(text => new Word(source.Path, Source.Line(text.GetLocation()), text.Token.ValueText)));
             LibraryRules.Check(source);
             ScriptRules.Check(source);
             FieldRules.Check(source);
             MessageRules.Check(source);
-            EditorRules.Check(source);
-            FixtureRules.Check(source);
         }
     }
 }

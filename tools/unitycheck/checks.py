@@ -2,15 +2,11 @@
 
 from __future__ import annotations
 
-from tools.unitycheck import (
-    asmdefs, compileroptions, components, editorentries, materials, metas, names, packages, references,
-    sceneparameters, scenes, settings, sources, textfiles,
-)
+from tools.unitycheck import asmdefs, metas, packages, references, scenes, settings, sources, textfiles
 from tools.unitycheck.project import Project
 from tools.unitycheck.violation import Violation
 
-MODULES = (metas, textfiles, packages, settings, asmdefs, compileroptions, sources, references, scenes, components,
-           sceneparameters, names, materials, editorentries)
+MODULES = (metas, textfiles, packages, settings, asmdefs, sources, references, scenes)
 
 
 def run(project: Project) -> list[Violation]:

@@ -1,4 +1,4 @@
-"""Writes the scenes of the project, the package's prefab and materials, and the build's list of scenes, the same bytes every time.
+"""Writes the scenes, the package's prefab and materials, and the build's list of scenes: the same bytes every time.
 
 Everything that a scene can leave to the scripts is left to them: a scene holds a camera, a light and the components
 with their fields. Meshes and everything that depends on the number of elements are made when it is played.
@@ -172,8 +172,8 @@ def scene_text(scene: Scene) -> str:
         _transform(301, 300, upright, _ZERO),
         _script(302, 300, "Loop/SimulationLoop", {
             "_parameterFile": scene.parameters, "_overrides": list(scene.overrides),
-            "_alternativeFile": scene.alternative, "_alternativeOverrides": list(scene.alternative_overrides), "_pace": scene.pace,
-            "_isSteered": scene.is_steered}),
+            "_alternativeFile": scene.alternative, "_alternativeOverrides": list(scene.alternative_overrides),
+            "_pace": scene.pace, "_isSteered": scene.is_steered}),
         _script(303, 300, "Loop/KeyboardControl", {
             "_loop": loop, "_wire": wire, "_contacts": contacts, "_hud": hud, "_camera": camera}),
         _script(304, 300, "Views/Hud", {"_loop": loop, "_wire": wire}),

@@ -12,22 +12,18 @@ from tools.unitycheck.violation import Violation
 HEADER = "%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n"
 WIDEST = 120  # columns of a line of code
 _CONFLICT = re.compile(r"^(<<<<<<< |=======$|>>>>>>> )", re.MULTILINE)
-ATTRIBUTES = ("*.cs", "*.meta", "*.unity", "*.asset", "*.asmdef", "*.mat")
 
 
 def _files(project: Project) -> Iterator[str]:
     yield from project.assets(*TEXT_SUFFIXES)
     yield from project.settings()
-    for path in ("Packages/manifest.json", "Packages/packages-lock.json"):
-        if project.exists(path):
-            yield path
+    yield from (path for path in ("Packages/manifest.json",) if project.exists(path))
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules text-utf8, -bom, -crlf, -tab, -wide, -end, -conflict, yaml-header, gitattributes."""
+    """Rules text-utf8, -bom, -crlf, -tab, -wide, -conflict, yaml-header."""
     for path in _files(project):
         yield from _one(path, project.data(path))
-    yield from _attributes(project)
 
 
 @functools.lru_cache(maxsize=8192)
@@ -49,9 +45,6 @@ def _rules(path: str, data: bytes) -> Iterator[Violation]:
         text = data.decode("utf-8", "replace")
     if b"\r" in data:
         yield Violation(path, _line(data, data.index(b"\r")), "text-crlf", "line ends must be LF")
-    # What Unity itself writes may end without one: scripts' metas, assembly definitions, settings in JSON.
-    if path.endswith(".cs") and data and not data.endswith(b"\n"):
-        yield Violation(path, data.count(b"\n") + 1, "text-end", "the last line has no line end")
     if path.endswith(YAML_SUFFIXES + (".meta", ".cs")) and b"\t" in data:
         yield Violation(path, _line(data, data.index(b"\t")), "text-tab", "tab; indent by blanks")
     conflict = _CONFLICT.search(text)
@@ -65,11 +58,3 @@ def _rules(path: str, data: bytes) -> Iterator[Violation]:
     is_json = path.startswith("ProjectSettings/") and text.startswith("{")
     if path.endswith(YAML_SUFFIXES) and not text.startswith(HEADER) and not is_json:
         yield Violation(path, 1, "yaml-header", "must start with '%YAML 1.1' and '%TAG !u! tag:unity3d.com,2011:'")
-
-
-def _attributes(project: Project) -> Iterator[Violation]:
-    path = ".gitattributes"
-    rules = [line.split() for line in project.text(path).splitlines()] if project.exists(path) else []
-    for pattern in ATTRIBUTES:
-        if not any(rule[:1] == [pattern] and "eol=lf" in rule[1:] for rule in rules):
-            yield Violation(path, 0, "gitattributes", f"needs a line '{pattern} text eol=lf'")

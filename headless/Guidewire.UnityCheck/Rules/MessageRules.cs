@@ -1,7 +1,6 @@
 namespace Guidewire.UnityCheck.Rules
 {
-    /// <summary>Unity's messages, coroutines and calls by name: methods that nobody would miss before the scene stands
-    /// still.</summary>
+    /// <summary>Unity's messages: methods that nobody would miss before the scene stands still.</summary>
     internal static class MessageRules
     {
         private static readonly Dictionary<string, string[]> Messages = Table();
@@ -14,11 +13,6 @@ namespace Guidewire.UnityCheck.Rules
 
         private static readonly string[] Tasks = { "Task", "Awaitable", "UniTask", "UniTaskVoid", "ValueTask" };
 
-        private static readonly string[] OwnCalls =
-            { "Invoke", "InvokeRepeating", "CancelInvoke", "IsInvoking", "StartCoroutine", "StopCoroutine" };
-
-        private static readonly string[] SentCalls = { "SendMessage", "SendMessageUpwards", "BroadcastMessage" };
-
         public static void Check(Source source)
         {
             foreach (INamedTypeSymbol type in source.Types.Where(UnityTypes.IsBehaviour))
@@ -27,21 +21,7 @@ namespace Guidewire.UnityCheck.Rules
                     .Where(method => method.MethodKind == MethodKind.Ordinary))
                 {
                     CheckMessage(source, method);
-                    if (IsCoroutine(method) && !Messages.ContainsKey(method.Name) && method.GetAttributes().IsEmpty
-                        && !IsNamed(source, method))
-                    {
-                        source.Report(method, "script-coroutine", "nobody starts the coroutine " + method.Name);
-                    }
                 }
-            }
-            if (!source.Assembly.HasEngine)
-            {
-                return;
-            }
-            foreach (InvocationExpressionSyntax call in source.Root.DescendantNodes()
-                .OfType<InvocationExpressionSyntax>())
-            {
-                CheckCall(source, call);
             }
         }
 
@@ -160,56 +140,6 @@ namespace Guidewire.UnityCheck.Rules
             }
             return a.Substring(i + 1) == b.Substring(i + 1) || (i + 1 < a.Length && a[i] == b[i + 1] && a[i + 1] == b[i]
                 && a.Substring(i + 2) == b.Substring(i + 2));
-        }
-
-        private static void CheckCall(Source source, InvocationExpressionSyntax call)
-        {
-            if (call.Parent is ExpressionStatementSyntax
-                && source.Model.GetSymbolInfo(call).Symbol is IMethodSymbol called
-                && IsCoroutine(called) && UnityTypes.IsBehaviour(called.ContainingType)
-                && called.Locations.Any(place => place.IsInSource))
-            {
-                source.Report(call, "script-coroutine", called.Name + "() alone runs nothing: StartCoroutine("
-                    + called.Name + "())");
-            }
-            string calling = CallTable.CalledName(call);
-            bool isSent = SentCalls.Contains(calling);
-            bool isOwn = OwnCalls.Contains(calling) && !(call.Expression is MemberAccessExpressionSyntax access
-                && !(access.Expression is ThisExpressionSyntax)) && !(call.Expression is MemberBindingExpressionSyntax);
-            string? name = isSent || isOwn ? FirstName(call) : null;
-            if (name == null)
-            {
-                return;
-            }
-            INamedTypeSymbol? home = source.Model.GetEnclosingSymbol(call.SpanStart)?.ContainingType;
-            IMethodSymbol? target = UnityTypes.Chain(home).SelectMany(type => type.GetMembers(name))
-                .OfType<IMethodSymbol>()
-                .FirstOrDefault();
-            string? reason = isSent ? (source.Usage.IsKnown(name) ? null : "no script has a method " + name)
-                : target == null ? "this script has no method " + name
-                : calling.EndsWith("Coroutine", StringComparison.Ordinal) && !IsCoroutine(target)
-                    ? name + " returns no IEnumerator"
-                : calling.StartsWith("Invoke", StringComparison.Ordinal) && target.Parameters.Length > 0
-                    ? name + " has parameters"
-                : null;
-            if (reason != null)
-            {
-                source.Report(call, "script-invoke", calling + ": " + reason);
-            }
-        }
-
-        /// <summary>The method that a call's first argument names, as a text or by nameof; null for anything else.
-        /// </summary>
-        private static string? FirstName(InvocationExpressionSyntax call)
-        {
-            return call.ArgumentList.Arguments.FirstOrDefault()?.Expression switch
-            {
-                LiteralExpressionSyntax text when text.IsKind(SyntaxKind.StringLiteralExpression)
-                    => text.Token.ValueText,
-                InvocationExpressionSyntax inner when CallTable.CalledName(inner) == "nameof" =>
-                    inner.ArgumentList.Arguments.FirstOrDefault()?.Expression.ToString(),
-                _ => null,
-            };
         }
     }
 }

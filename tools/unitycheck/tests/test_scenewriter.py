@@ -13,7 +13,7 @@ ROOT = Path(__file__).resolve().parents[3]
 
 def test_repository_holds_what_is_written() -> None:
     for path, text in scenewriter.files().items():
-        assert (ROOT / path).read_bytes() == text.encode("utf-8"), f"{path}: run python3 -m tools.unitycheck --write-scenes"
+        assert (ROOT / path).read_bytes() == text.encode("utf-8"), f"{path}: run tools.unitycheck --write-scenes"
 
 
 def test_parameter_files_exist() -> None:
