@@ -115,8 +115,8 @@ namespace Guidewire.Core
                 box.HasValue ? ", " + what + " " + box.Value : "");
         }
 
-        // How far the drive is to push the tip, units. Where nobody knows, the lumen is looked at for a wire's length: to
-        // its end a walk through a long vessel takes a second, and fourteen in a browser.
+        // How far the drive is to push the tip, units. Where nobody knows, the lumen is looked at for a wire's length:
+        // to its end a walk through a long vessel takes a second, and fourteen in a browser.
         private static double DistanceAhead(SimulationParameters parameters, Vector3d[] x)
         {
             DriveParameters drive = parameters.Drive;
