@@ -37,7 +37,3 @@ SCENES = (
     Scene("CollisionWall", "params/collision-wall.json", target=(0.0, 0.0, -90.0), distance=380.0, pace=0.5,
           colouring=2),
 )
-
-# What every scene holds once, switched on; and what one of these needs on its own object.
-NEEDED = ("SimulationLoop", "KeyboardControl", "Hud", "WireView", "ContactView", "VesselView", "OrbitCamera")
-BESIDE = {"OrbitCamera": "Camera"}
