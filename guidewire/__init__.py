@@ -5,7 +5,7 @@
 need numpy. Any Python from 3.6 on can read this file.
 """
 
-import importlib
+import importlib.util
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # the same names for type checkers
@@ -13,7 +13,7 @@ if TYPE_CHECKING:  # the same names for type checkers
     from guidewire import anatomy as anatomy, env as env
     from guidewire.advice.plan import Advice as Advice
     from guidewire.env import Drive as Drive, Environment as Environment, Observation as Observation
-    from guidewire.env import RecordedDrive as RecordedDrive, Reward as Reward, Task as Task
+    from guidewire.env import Picture as Picture, RecordedDrive as RecordedDrive, Reward as Reward, Task as Task
     from guidewire.env import VectorEnvironment as VectorEnvironment, all_tasks as all_tasks, find_task as find_task
     from guidewire.identification import Identified as Identified, identify as identify
     from guidewire.library import advise as advise, sweep as sweep
@@ -26,8 +26,8 @@ if TYPE_CHECKING:  # the same names for type checkers
 
 _HOMES = {
     "guidewire.advice.plan": ("Advice",),
-    "guidewire.env": ("Drive", "Environment", "Observation", "RecordedDrive", "Reward", "Task", "VectorEnvironment",
-                      "all_tasks", "find_task"),
+    "guidewire.env": ("Drive", "Environment", "Observation", "Picture", "RecordedDrive", "Reward", "Task",
+                      "VectorEnvironment", "all_tasks", "find_task"),
     "guidewire.identification": ("Identified", "identify"),
     "guidewire.library": ("advise", "sweep"),
     "guidewire.logs.logs": ("LogError", "PositionLog", "read_entries", "read_log"),
@@ -54,3 +54,12 @@ def __getattr__(name):
     if name not in _LENT:
         raise AttributeError("module 'guidewire' has no attribute '{}'".format(name))
     return getattr(importlib.import_module(_LENT[name]), name)
+
+
+def _register():
+    """Names of the tasks for gymnasium.make, where gymnasium is installed."""
+    if importlib.util.find_spec("gymnasium") is not None:
+        importlib.import_module("guidewire.env.registration").register()
+
+
+_register()

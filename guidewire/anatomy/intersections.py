@@ -10,6 +10,14 @@ _CHUNK = 2_000_000  # pairs of boxes compared at once
 
 
 def self_intersections(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """As `_crossings`; once for each mesh, since check, repair and remeshing ask for that of the same one."""
+    known = vars(mesh)
+    if "crossings" not in known:
+        known["crossings"] = _crossings(mesh)
+    return known["crossings"]
+
+
+def _crossings(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     """Points (k, 3) where an edge pierces a triangle, and (k, 2) the edge's triangle and the pierced one.
 
     Pairs come from a lattice of cells a little larger than the median edge: two triangles that meet share a cell.
@@ -17,13 +25,17 @@ def self_intersections(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     """
     corners = mesh.corners
     low, high = corners.min(axis=1), corners.max(axis=1)
+    normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
     hits, pairs = [np.empty((0, 3))], [np.empty((0, 2), dtype=int)]
     for first, second in _candidates(low, high, float(np.median(high - low)) * 2.0 + 1e-300):
         near = ((low[first] <= high[second]) & (low[second] <= high[first])).all(axis=1)
         first, second = first[near], second[near]
         shared = (mesh.triangles[first][:, :, None] == mesh.triangles[second][:, None, :]).any(axis=(1, 2))
-        first, second = first[~shared], second[~shared]
-        for a, b in ((first, second), (second, first)):
+        for a, b in ((first[~shared], second[~shared]), (second[~shared], first[~shared])):
+            # An edge can only pierce what has not all of its triangle on one side.
+            sides = np.einsum("kij,kj->ki", corners[a] - corners[b, :1], normals[b])
+            both = (sides.min(axis=1) < 0.0) & (sides.max(axis=1) > 0.0)
+            a, b = a[both], b[both]
             for k in range(3):
                 point, pierced = _pierce(corners[a, k], corners[a, (k + 1) % 3], corners[b])
                 hits.append(point[pierced])

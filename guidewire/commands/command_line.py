@@ -232,7 +232,9 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     tasks = commands.add_parser("tasks", help="tasks to train on: list them, score a policy, steer one by hand")
     tasks.add_argument("task", metavar="TASK", nargs="?", help="name, or a scene.json with anatomy and target")
-    tasks.add_argument("--policy", choices=("retry", "random"), default="retry", help="policy that steers (retry)")
+    tasks.add_argument("--policy", default="retry", metavar="NAME",
+                       help="policy that steers: retry, random, or MODULE:NAME, a callable of the environment (retry)")
+    tasks.add_argument("--benchmark", action="store_true", help="the table of all tasks with seeds that stay the same")
     tasks.add_argument("--episodes", type=positive, default=50, metavar="N", help="number of episodes (50)")
     tasks.add_argument("--seed", type=positive, default=1, metavar="S", help="seed of the first episode; the next "
                                                                              "has S + 1 (1)")

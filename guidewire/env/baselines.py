@@ -1,4 +1,4 @@
-"""Baseline policies: turn and retry, and random actions."""
+"""Baseline policies: turn and retry, the same with catheters that follow, and random actions."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 
 from guidewire.env.environment import Environment
+from guidewire.env.instruments import of_each
 
 
 class TurnAndRetry:
@@ -28,19 +29,20 @@ class TurnAndRetry:
                  turn: float = np.pi * (3.0 - 5.0**0.5)) -> None:
         self._environment, self._wrong, self._patience = environment, wrong, patience
         self._back, self._turn = back, turn
-        rate = environment.drive.rotation or environment.task.rotation
+        rate = of_each(environment.drive.rotation or environment.task.rotation, environment.hubs)[0]
         self._turn_of_step = rate * environment.drive.step_time
 
     def reset(self, observation: Any) -> None:
         """Another episode."""
-        self._best, self._waited = float(observation["distance"][0]), 0
+        self._best, self._waited = float(np.ravel(observation["distance"])[0]), 0
         self._limit = self._wrong + 1.5 * self._environment.widest
         self._mouth: float | None = None    # least distance on the way back
         self._to_turn = 0.0
 
     def act(self, observation: Any) -> np.ndarray:
         """The next action."""
-        distance, insertion = float(observation["distance"][0]), float(observation["hub"][0])
+        distance = float(np.ravel(observation["distance"])[0])
+        insertion = float(np.ravel(observation["hub"])[0])
         if self._mouth is not None:
             self._mouth = min(self._mouth, distance)
             if insertion > 0.5 and distance < self._mouth + self._back:
@@ -59,6 +61,35 @@ class TurnAndRetry:
             self._mouth = distance
             return np.array([-1.0, 0.0], dtype=np.float32)
         return np.array([1.0, 0.0], dtype=np.float32)
+
+
+class Follow(TurnAndRetry):
+    """The wire turns and retries, and waits at the target; catheters follow it: each goes on as long as what is inside
+    is ahead of it by more than `ahead`, and back as long as that is nearer than `least`.
+
+    Parameters
+    ----------
+    environment : with "overlap" in its observation besides.
+    ahead, least : units, by which the tip inside is beyond the catheter's; None: half of what the task allows it to
+        stay behind, at most 15, and a third of that.
+    options : of TurnAndRetry.
+    """
+
+    def __init__(self, environment: Environment, ahead: float | None = None, least: float | None = None,
+                 **options: Any) -> None:
+        super().__init__(environment, **options)
+        within = [one for one in of_each(environment.task.follow, environment.hubs - 1) if one is not None]
+        self._ahead = min([15.0, *(0.5 * one for one in within)]) if ahead is None else ahead
+        self._least = self._ahead / 3.0 if least is None else least
+
+    def act(self, observation: Any) -> np.ndarray:
+        """The next action."""
+        is_there = observation["distance"][0] <= self._environment.task.tolerance
+        actions = [np.zeros(2, dtype=np.float32) if is_there else super().act(observation)]
+        for extension, _ in observation["overlap"]:
+            push = 1.0 if extension > self._ahead else -1.0 if extension < self._least else 0.0
+            actions.append(np.array([push, 0.0], dtype=np.float32))
+        return np.concatenate(actions)
 
 
 class Chance:
@@ -87,6 +118,7 @@ class Chance:
             if hasattr(self._space, "n"):
                 self._action = int(self._random.integers(self._space.n))
             else:
-                self._action = self._random.uniform([-0.6, -1.0], [1.0, 1.0]).astype(np.float32)
+                hubs = self._space.shape[0] // 2
+                self._action = self._random.uniform([-0.6, -1.0] * hubs, [1.0] * 2 * hubs).astype(np.float32)
         self._held -= 1
         return self._action

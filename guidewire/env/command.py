@@ -3,7 +3,9 @@
 from __future__ import annotations
 
 import argparse
+import importlib
 import json
+import sys
 import tempfile
 import time
 from collections.abc import Callable
@@ -12,15 +14,17 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.env import score
-from guidewire.env.baselines import Chance, TurnAndRetry
+from guidewire.env.baselines import Chance, Follow, TurnAndRetry
 from guidewire.env.environment import Environment
+from guidewire.env.observation import DEFAULT, Observation
 from guidewire.env.recorded import RecordedDrive, digest_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import all_tasks, find_task
+from guidewire.installed import version
 from guidewire.prepare import DOOR, PreparationError
 from guidewire.sessions.session import SessionError
 
-POLICIES = {"retry": TurnAndRetry, "random": Chance}
+BENCHMARK_SEED = 1_000_000  # of the first episode of each task
 _BY_HAND = {"nominal": True, "insertion": 0.0}
 
 
@@ -32,6 +36,8 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) ->
     PreparationError : one line, for a task or a file that cannot be used.
     """
     try:
+        if arguments.benchmark:
+            return _benchmark(arguments.policy, arguments.task, arguments.episodes, arguments.jobs)
         if arguments.task is None:
             for name, task in all_tasks().items():
                 print(f"{name}: {task.summary} ({len(task.targets)} targets, {task.time:g} s)")
@@ -45,21 +51,57 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) ->
         raise PreparationError(str(error)) from error
 
 
-def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
-    began = time.monotonic()
-    seeds = range(seed, seed + episodes)
-    find_task(task)
+def _benchmark(policy: str, task: str | None, episodes: int, jobs: int) -> int:
+    rows, faults = [], 0
+    for name in [task] if task else all_tasks():
+        played = _played(name, policy, range(BENCHMARK_SEED, BENCHMARK_SEED + episodes), jobs)
+        rows.append((name, policy, played))
+        faults += sum(len(one.faults) for one in played)
+    print(score.benchmark_table(rows))
+    bits = score.digest([one for _, _, played in rows for one in played])
+    print(f"guidewire {version()}, seeds {BENCHMARK_SEED} to {BENCHMARK_SEED + episodes - 1}, {faults} faults, "
+          f"bits {bits}")
+    return 1 if faults else 0
+
+
+def _policy_of(policy: str) -> Callable[[Environment, int], Any]:
+    """From an environment and a seed to what acts: a baseline by name, or MODULE:NAME, a callable that takes the
+    environment; its attribute `options`, a dict, are options of the environment."""
+    if policy == "random":
+        return Chance
+    if policy == "retry":
+        return lambda environment, _: (Follow if environment.hubs > 1 else TurnAndRetry)(environment)
+    module, _, name = policy.partition(":")
+    sys.path.insert(0, "")    # a module of the folder where the command runs
+    try:
+        make = getattr(importlib.import_module(module), name)
+    except (ImportError, AttributeError, ValueError) as error:
+        raise Error(f"policy '{policy}' is not allowed: needs retry, random, or MODULE:NAME ({error})") from error
+
+    def made(environment: Environment, _: int) -> Any:
+        return make(environment)
+
+    made.options = getattr(make, "options", {})    # type: ignore[attr-defined]
+    return made
+
+
+def _played(task: str, policy: str, seeds: range, jobs: int) -> list[score.Played]:
+    make = _policy_of(policy)
+    options = getattr(make, "options", {})
+    if not options and find_task(task).hubs > 1:
+        options = {"observation": Observation(parts=(*DEFAULT, "overlap"))}
 
     def part(k: int) -> list[score.Played]:
-        with Environment(task) as environment:
-            played = []
-            for one in seeds[k::jobs]:
-                actor = POLICIES[policy](environment) if policy != "random" else Chance(environment, one)
-                played.append(score.play(environment, actor, one))
-            return played
+        with Environment(task, **options) as environment:
+            return [score.play(environment, make(environment, one), one) for one in seeds[k::jobs]]
 
     with ThreadPoolExecutor(jobs) as pool:
-        played = sorted((one for own in pool.map(part, range(jobs)) for one in own), key=lambda one: one.seed)
+        return sorted((one for own in pool.map(part, range(jobs)) for one in own), key=lambda one: one.seed)
+
+
+def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
+    began = time.monotonic()
+    played = _played(task, policy, range(seed, seed + episodes), jobs)
     print(score.table([policy], [played]))
     faults = [f"seed {one.seed}: {fault}" for one in played for fault in one.faults]
     for line in faults[:20]:
@@ -101,7 +143,11 @@ def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[s
     if steered.problem or steered.state is None:
         print("nothing recorded: " + (steered.problem or "no step was made"))
         return 0
-    RecordedDrive(task.name, _BY_HAND, steered.calls, digest_of(steered.state), "by keys, through the page").save(file)
-    print(f"recorded: {file}, {len(steered.calls)} calls; "
+    calls = steered.calls
+    if len(instruments.steered) > 1:    # each has the same calls, of its own hub
+        calls = [([push for push, _, _ in of_all], [turn for _, turn, _ in of_all], of_all[0][2])
+                 for of_all in zip(*(one.calls for one in instruments.steered))]
+    RecordedDrive(task.name, _BY_HAND, calls, digest_of(steered.state), "by keys, through the page").save(file)
+    print(f"recorded: {file}, {len(calls)} calls; "
           f"'{DOOR} tasks {name} --replay {file}' does them again")
     return 0

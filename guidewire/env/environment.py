@@ -1,26 +1,31 @@
-"""A wire to be steered to a target: Gymnasium's environment over a Session."""
+"""Instruments to be steered to a target: Gymnasium's environment over a Session."""
 
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping
-from dataclasses import asdict, dataclass, replace
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from guidewire.env.draws import Draw, draw_of, with_options
 from guidewire.env.drive import Drive, DriveState
-from guidewire.env.episode import SAFE_FORCE, Report
-from guidewire.env.loaded import Draw, LoadedScene, LoadedScenes
-from guidewire.env.observation import Observation
+from guidewire.env.episode import SAFE_FORCE, Part, Report
+from guidewire.env.instruments import instruments_of, of_each
+from guidewire.env.loaded import LoadedScene, LoadedScenes
+from guidewire.env.observation import Observation, Observer
 from guidewire.env.options import need_number
+from guidewire.env.picture import Picture
 from guidewire.env.recorded import RecordedDrive, digest_of
+from guidewire.env.rendering import Scenery, Window
+from guidewire.env.route import Route
 from guidewire.env.spaces import ClosedEnvironmentError, Env, Error, ResetNeeded
 from guidewire.env.task import Task, find_task
-from guidewire.sessions.session import Session
+from guidewire.sessions.session import Session, SessionError
 
-_OPTIONS = ("nominal", "anatomy", "target", "instrument", "friction", "tip_turn", "insertion", "snapshot")
+LEFT = "left the vessel"
 
 
 @dataclass(frozen=True)
@@ -29,7 +34,8 @@ class Reward:
 
     Attributes
     ----------
-    progress : for the whole distance along the centreline that an episode begins with.
+    progress : for the whole distance along the centreline that an episode begins with, of the wire's tip and of those
+        catheters that are to follow.
     target : once, where it is reached.
     time : a second of simulated time.
     force : each N s of the largest force of a wall.
@@ -50,7 +56,7 @@ class Reward:
 
 
 class Environment(Env):
-    """One wire and one target; Gymnasium 1.x's reset and step, whether or not it is installed.
+    """Instruments and one target; Gymnasium 1.x's reset and step, whether or not it is installed.
 
     Parameters
     ----------
@@ -59,7 +65,8 @@ class Environment(Env):
     safe_force : limit of a safe success, N.
     ends_unsafe : whether a larger force ends the episode.
     native : as of Session.
-    render_mode : None; there are no others.
+    render_mode : None; "rgb_array": `render` gives an X-ray picture with vessel and instruments in three dimensions
+        beside it, (360, 720, 3) of uint8; "human": each reset and step shows it in a window.
 
     Raises
     ------
@@ -67,29 +74,34 @@ class Environment(Env):
 
     Notes
     -----
-    terminated: the target is reached, or with `ends_unsafe` a force was too large. truncated: the task's time is over,
-    or the simulation has ended the run. `info` of every step holds "force", N, and "left", units; that of the last one
-    also "report", see Report. Episodes are drawn by `np_random` alone, so the same seeds give the same bits.
+    terminated: the target is reached, an instrument has left the vessel by an open end, or with `ends_unsafe` a force
+    was too large. truncated: the task's time is over, or the simulation has ended the run. `info` of every step holds
+    "force", N, and "left", units; that of the last one also "report", see Report. Episodes are drawn by `np_random`
+    alone, so the same seeds give the same bits.
     """
 
-    metadata = {"render_modes": [], "render_fps": 7}
+    metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 7}
 
     def __init__(self, task: str | Path | Task = "artery", drive: Drive = Drive(),
                  observation: Observation = Observation(), reward: Reward = Reward(),
                  safe_force: float = SAFE_FORCE, ends_unsafe: bool = False, native: bool | None = None,
                  render_mode: str | None = None) -> None:
-        if render_mode is not None:
-            raise Error(f"render_mode {render_mode!r} is not allowed: there is none")
+        if render_mode not in (None, *self.metadata["render_modes"]):
+            raise Error(f"render_mode = {render_mode!r} is not allowed: needs None, \"human\" or \"rgb_array\"")
         need_number("safe_force", safe_force, 0.0, above=True)
         self.task = find_task(task)
-        self.render_mode = None
+        self.render_mode = render_mode
+        self._scenery: tuple[Route, Scenery] | None = None
+        self._window: Window | None = None
         self.drive, self.observation, self.reward = drive, observation, reward
         self.safe_force, self.ends_unsafe = safe_force, ends_unsafe
-        self.action_space, self.observation_space = drive.space(), observation.space()
+        self.hubs = self.task.hubs
+        drive.check(self.hubs)
+        self.action_space, self.observation_space = drive.space(self.hubs), observation.space(self.hubs)
         self._scenes = LoadedScenes(self.task, native)
         self._is_closed = self._is_running = False
         self._scene: LoadedScene | None = None
-        self._calls: list[tuple[float, float, int]] = []
+        self._calls: list[tuple[Any, Any, int]] = []
 
     @property
     def session(self) -> Session:
@@ -124,7 +136,8 @@ class Environment(Env):
         ----------
         seed : of this and all later episodes.
         options : in place of what is drawn: "anatomy", "target" (their numbers), "instrument", "friction", "tip_turn"
-            (rad), "insertion" (m); "nominal": the first of each and no turn; "snapshot": what `save` gave.
+            (rad), "insertion" (m), and what the task's `random` names; "nominal": the first of each, no turn and the
+            middle of what is random; "snapshot": what `save` gave.
 
         Returns
         -------
@@ -136,42 +149,42 @@ class Environment(Env):
         """
         self._check_open()
         super().reset(seed=seed)
-        options = dict(options or {})
-        for key in options:
-            if key not in _OPTIONS:
-                raise Error(f"option \"{key}\" is not allowed: there are {', '.join(_OPTIONS)}")
-        drawn = self._drawn()    # always, so that options do not change what later episodes draw
-        saved = options.pop("snapshot", None)
+        drawn = draw_of(self.task, self.np_random)    # always, so that options do not change what later episodes draw
+        is_noisy = isinstance(self.observation.image, Picture) and self.observation.image.noise > 0.0
+        noise = int(self.np_random.integers(2**32)) if is_noisy else 0
+        draw = with_options(self.task, drawn, options or {})
+        saved = (options or {}).get("snapshot")
         self._is_running = False
         if saved is not None:
-            if options:
-                raise Error("option \"snapshot\" stands alone")
             draw, bits = _unpacked(saved, self.task.name)
             self._scene, loaded = self._scenes.find(draw)
             self._state = self.session.restore(bits)
         else:
-            draw = self._with_options(drawn, options)
             self._scene, loaded = self._scenes.find(draw)
             self._state = self._scene.start(draw.tip_turn, draw.insertion)
         self._draw = draw
         self._route = self._scene.route(self.task.targets[draw.target])
-        self._place = self._route.place(self._front())
-        self._first = self._place[1]
+        self._places = self._found()
+        self._first = self._remaining()
         steps = self.drive.step_time / self._scene.time_step
         self._steps = round(steps)
         if self._steps < 1 or abs(steps - self._steps) > 1e-6:
             raise Error(f"step_time = {self.drive.step_time:g} is not allowed: needs a multiple of the scene's time "
                         f"step of {self._scene.time_step:g} s")
-        self._hub = DriveState(self.drive, self.drive.speed or self.task.speed,
-                               self.drive.rotation or self.task.rotation)
-        self._report = Report(self.safe_force, left=self._place[1])
+        self._drive = DriveState(self.drive, of_each(self.drive.speed or self.task.speed, self.hubs),
+                                 of_each(self.drive.rotation or self.task.rotation, self.hubs),
+                                 draw.random.get("noise"))
+        self._report = Report(self.safe_force, way=self._places[0][1], parts=[Part(left) for _, left in self._places])
+        self._observer = Observer(self.observation, self._route, self._scene.unit, self.hubs, noise)
         self._calls = []
-        self._origin = None if saved is not None else asdict(draw)
+        self._origin = None if saved is not None else draw.as_options()
         self._is_running = True
-        return self._seen(), {"draw": asdict(draw), "loaded": loaded}
+        if self.render_mode == "human":
+            self.render()
+        return self._seen(), {"draw": draw.as_options(), "loaded": loaded}
 
     def step(self, action: Any) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """Move the hub for a step of time.
+        """Move the hubs for a step of time.
 
         Raises
         ------
@@ -180,13 +193,18 @@ class Environment(Env):
         self._check_open()
         if not self._is_running:
             raise ResetNeeded("no episode goes on: call reset() first")
-        command = self.drive.command(action)
-        insertion, turn = self._hub.motion(command, self.np_random)
-        return self._move(insertion, turn, self._steps)
+        command = self.drive.command(action, self.hubs)
+        self._observer.action[:] = [number for pair in command for number in pair]
+        return self._move(self._drive.motion(command, self.np_random), self._steps)
+
+    def check_action(self, action: Any) -> None:
+        """Raises InvalidAction where a step would refuse it."""
+        self.drive.command(action, self.hubs)
 
     def save(self) -> bytes:
-        """This episode's wire, for reset(options={"snapshot": ...}) here or in another environment of the task."""
-        head = {"task": self.task.name, "draw": asdict(self._draw)}
+        """This episode's instruments, for reset(options={"snapshot": ...}) here or in another environment of the
+        task."""
+        head = {"task": self.task.name, "draw": vars(self._draw)}
         return json.dumps(head).encode() + b"\n" + self.session.save()
 
     def recorded(self, source: str = "") -> RecordedDrive:
@@ -201,7 +219,7 @@ class Environment(Env):
 
         Raises
         ------
-        Error : it is of another task, or the wire at the end has other bits.
+        Error : it is of another task, or the instruments at the end have other bits.
         """
         if drive.task != self.task.name:
             raise Error(f"this drive is of task '{drive.task}', not of '{self.task.name}'")
@@ -210,36 +228,80 @@ class Environment(Env):
             if self._report.end:    # what came after it only decides the bits
                 self._state = self.session.step(push, turn, steps)
             else:
-                self._move(push * self._scene.unit, turn, steps, push)
+                pushes, turns = of_each(push, 1), of_each(turn, 1)
+                if len(pushes) != self.hubs or len(turns) != self.hubs:
+                    raise Error(f"this drive is of {len(pushes)} hubs, not of {self.hubs}")
+                self._move([(one * self._scene.unit, other) for one, other in zip(pushes, turns)], steps, pushes)
         if digest_of(self._state) != drive.digest:
             raise Error("the wire at the end is not bit for bit the recorded one")
         return self._report
 
+    def render(self) -> np.ndarray | None:
+        """What `render_mode` says; None for a window, or without one.
+
+        Raises
+        ------
+        ClosedEnvironmentError, ResetNeeded : it is closed; there was no episode yet.
+        """
+        self._check_open()
+        if self._scene is None:
+            raise ResetNeeded("there is nothing to be shown yet: call reset() first")
+        if self.render_mode is None:
+            return None
+        if self._scenery is None or self._scenery[0] is not self._route:
+            self._scenery = self._route, Scenery(self.session, self.target_position)
+        picture = self._scenery[1].picture(self._state)
+        if self.render_mode == "rgb_array":
+            return picture
+        self._window = self._window or Window(f"guidewire: {self.task.name}")
+        self._window.show(picture)
+        return None
+
     def close(self) -> None:
         """End its sessions; may be called again."""
+        if self._window is not None:
+            self._window.close()
+            self._window = None
         self._is_closed, self._is_running = True, False
         self._scenes.close()
 
-    def _move(self, insertion: float, turn: float, steps: int, push: float | None = None
+    def _move(self, motions: Sequence[tuple[float, float]], steps: int, pushes: Sequence[float] | None = None
               ) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """push : units, where the motion is given so and not to be limited."""
-        now = self._state.hub.insertion
-        if push is None:
-            insertion = min(max(insertion, -max(now, 0.0)), max(self._scene.longest - now, 0.0))
-            push = insertion / self._scene.unit
-        report, before, force = self._report, self._place[1], 0.0
+        """motions : insertion, m, and turn, rad, of each hub; pushes : units, where these are not to be limited."""
+        if pushes is None:
+            hubs = [one.hub.insertion for one in instruments_of(self._state)]
+            insertions = [min(max(motion[0], -max(now, 0.0)), max(self._scene.longest - now, 0.0))
+                          for motion, now in zip(motions, hubs)]
+            motions = [(insertion, turn) for insertion, (_, turn) in zip(insertions, motions)]
+            pushes = [insertion / self._scene.unit for insertion in insertions]
+        turns = [turn for _, turn in motions]
+        push, turn = (pushes[0], turns[0]) if self.hubs == 1 else (list(pushes), turns)
+        report, before, force = self._report, self._remaining(), 0.0
         self._calls.append((push, turn, steps))
-        for _ in range(steps):
-            if self._state.outcome is not None:
-                break
-            last = self._state
-            self._state = self.session.step(push / steps, turn / steps)
-            force = max(force, report.add(last, self._state, insertion / steps, turn / steps))
-        self._place = self._route.place(self._front())
-        report.left = self._place[1]
-        end = self._end(force)
+        in_a_step = [(insertion / steps, own / steps) for insertion, own in motions]
+        own_push, own_turn = (push / steps, turn / steps) if self.hubs == 1 else (
+            [one / steps for one in pushes], [one / steps for one in turns])
+        try:
+            for _ in range(steps):
+                if self._state.outcome is not None:
+                    break
+                last = self._state
+                self._state = self.session.step(own_push, own_turn)
+                force = max(force, report.add(last, self._state, in_a_step))
+        except SessionError as error:
+            self._is_running = False
+            if self.session.is_open:
+                raise
+            raise ClosedEnvironmentError(f"{error}: reset() starts it anew") from error
+        self._places = self._found()
+        has_left = self._has_left()
+        if not has_left:
+            for part, (_, left) in zip(report.parts, self._places):
+                part.left = left
+        end = self._end(force, has_left)
         reward = self.reward
-        earned = (reward.progress * (before - report.left) / max(self._first, 1e-9)
+        progress = 0.0 if has_left else before - self._remaining()
+        earned = (reward.progress * progress / max(self._first, 1e-9)
                   + self.drive.step_time * (reward.time + reward.force * force))
         info: dict[str, Any] = {"force": force, "left": report.left}
         if end:
@@ -247,60 +309,47 @@ class Environment(Env):
             earned += reward.target * report.success
             info["report"] = report.as_info()
             self._is_running = False
-        terminated = end in ("target", "force")
+        if self.render_mode == "human":
+            self.render()
+        terminated = end in ("target", "force", LEFT)
         return self._seen(), float(earned), terminated, bool(end) and not terminated, info
 
-    def _end(self, force: float) -> str:
+    def _end(self, force: float, has_left: bool) -> str:
         if self._state.outcome is not None:
             return "simulation"
         if self.ends_unsafe and force > self.safe_force:
             return "force"
-        if self._report.left <= self.task.tolerance:
+        if has_left:
+            return LEFT
+        if self._places[0][1] <= self.task.tolerance and all(left <= 0.0 for left in self._behind()):
             return "target"
         return "time" if self._report.time > self.task.time - 1e-9 else ""
 
-    def _front(self) -> np.ndarray:
-        """The last point of the wire up to which it has not left the vessel, (3,), units: the tip, as long as it is
-        inside."""
-        place = self._state.place
-        return self._state.positions[-1] if place is None else place.point
+    def _found(self) -> list[tuple[int, float]]:
+        """Of each instrument, the centreline's point that it has come to within the vessel, and the distance left."""
+        return [self._route.place(one.positions[-1] if one.place is None else one.place.point)
+                for one in instruments_of(self._state)]
+
+    def _has_left(self) -> bool:
+        """Whether a tip is out of the vessel beyond an end that is not its inlet."""
+        # What is behind the inlet, in a sheath, has no way behind it.
+        return any(self._route.has_left(one.positions[-1]) if one.place is None
+                   else not one.place.is_inside and one.place.distance > 0.0 for one in instruments_of(self._state))
+
+    def _behind(self) -> list[float]:
+        """By how much the catheters that are to follow have not come near enough to the target, units."""
+        follow = of_each(self.task.follow, self.hubs - 1)
+        return [max(left - within, 0.0) for within, (_, left) in zip(follow, self._places[1:]) if within is not None]
+
+    def _remaining(self) -> float:
+        return self._places[0][1] + sum(self._behind())
 
     def _seen(self) -> Any:
-        return self.observation.of(self._state, self._route, self._place, self._scene.unit)
-
-    def _drawn(self) -> Draw:
-        task, random = self.task, self.np_random
-        anatomy, target, instrument, friction, turn = (int(random.integers(max(n, 1))) for n in (
-            len(task.anatomies), len(task.targets), len(task.instruments), len(task.frictions), task.tip_turns))
-        return Draw(anatomy, target, task.instruments[instrument] if task.instruments else None,
-                    float(task.frictions[friction]), _turn(turn, task.tip_turns), task.insertion)
-
-    def _with_options(self, drawn: Draw, options: dict[str, Any]) -> Draw:
-        task = self.task
-        if options.pop("nominal", False):
-            drawn = Draw(0, 0, task.instruments[0] if task.instruments else None, float(task.frictions[0]), 0.0,
-                         task.insertion)
-        for key, count in (("anatomy", len(task.anatomies)), ("target", len(task.targets))):
-            if key in options and options[key] not in range(count):
-                raise Error(f"option \"{key}\" = {options[key]!r} is not allowed: needs a whole number below {count}")
-        for key, least, most in (("friction", 0.0, 10.0), ("tip_turn", -100.0, 100.0), ("insertion", 0.0, 10.0)):
-            if key in options:
-                value = options[key]
-                is_number = isinstance(value, (int, float, np.number)) and not isinstance(value, bool)
-                if not is_number or not least <= value <= most:
-                    raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a number from {least:g} to "
-                                f"{most:g}")
-                options[key] = float(value)
-        return replace(drawn, **options)
+        return self._observer.of(self._state, self._places)
 
     def _check_open(self) -> None:
         if self._is_closed:
             raise ClosedEnvironmentError("this environment is closed")
-
-
-def _turn(index: int, count: int) -> float:
-    """Even turns from 0, the shorter way round."""
-    return 2.0 * np.pi * (index if 2 * index <= count else index - count) / count
 
 
 def _unpacked(saved: bytes, task: str) -> tuple[Draw, bytes]:

@@ -3,20 +3,41 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from guidewire.env.instruments import instruments_of, names_of
 from guidewire.sessions.session import State
 
-# Largest force of a wall on one sphere of the wire that counts as safe, N: the "proposed 1.5 N vessel rupture
+# Largest force of a wall on one sphere of an instrument that counts as safe, N: the "proposed 1.5 N vessel rupture
 # threshold" with which two abstracts compare mean forces at the tip: 0.24 N in Robertshaw et al., "Reinforcement
 # Learning for Safe Autonomous Two Device Navigation of Cerebral Vessels in Mechanical Thrombectomy" (2025), and 0.15 N
 # in Robertshaw et al., "Toward Safe Autonomous Robotic Endovascular Interventions using World Models" (2026,
 # arXiv:2604.20151). Read as abstracts: neither says what measurement is behind it. No lower limit with a source was
 # found; another one may be chosen (`safe_force` of an environment).
 SAFE_FORCE = 1.5
+
+
+@dataclass
+class Part:
+    """What one instrument did and felt in an episode so far.
+
+    Attributes
+    ----------
+    left : distance of its tip to the target along the centreline, units.
+    largest_force, impulse, path, inserted, retracted, turned : as of Report, its own.
+    """
+
+    left: float = float("inf")
+    largest_force: float = 0.0
+    impulse: float = 0.0
+    path: float = 0.0
+    inserted: float = 0.0
+    retracted: float = 0.0
+    turned: float = 0.0
 
 
 @dataclass
@@ -27,15 +48,17 @@ class Report:
     ----------
     safe_force : limit of a safe success, N.
     success : whether the target was reached.
-    end : "target", "time", "force", "simulation", or "" while it goes on.
+    end : "target", "time", "force", "left the vessel", "simulation", or "" while it goes on.
     reason : what the simulation said where it ended the episode.
     time : simulated, s.
-    left : distance to the target along the centreline, units.
-    largest_force : of a wall on one sphere after any time step, N.
+    largest_force : of a wall on one sphere of any instrument after any time step, N.
     impulse : of all walls, the sum over spheres and time steps of |F| dt, N s.
-    path : of the tip, units.
-    inserted, retracted, turned : distances of the hub forwards and backwards, m, and its rotation in both senses, rad.
     forces : largest force of a wall on one sphere after each time step, N.
+    parts : of each instrument, the wire first.
+    way : of the wire's tip to the target along the centreline where the episode began, units.
+    left, path : of the wire: distance to the target along the centreline, and way of the tip, units.
+    inserted, retracted, turned : of the wire: distances of the hub forwards and backwards, m, and its rotation in both
+        senses, rad.
     """
 
     safe_force: float
@@ -43,41 +66,80 @@ class Report:
     end: str = ""
     reason: str = ""
     time: float = 0.0
-    left: float = float("inf")
-    largest_force: float = 0.0
-    impulse: float = 0.0
-    path: float = 0.0
-    inserted: float = 0.0
-    retracted: float = 0.0
-    turned: float = 0.0
+    way: float = 0.0
     forces: list[float] = field(default_factory=list)
+    parts: list[Part] = field(default_factory=lambda: [Part()])
+
+    @property
+    def largest_force(self) -> float:
+        """Of a wall on one sphere after any time step, N."""
+        return max(part.largest_force for part in self.parts)
+
+    @property
+    def impulse(self) -> float:
+        """Of all walls, N s."""
+        return sum(part.impulse for part in self.parts)
+
+    @property
+    def left(self) -> float:
+        """Distance of the wire's tip to the target, units."""
+        return self.parts[0].left
+
+    @property
+    def path(self) -> float:
+        """Of the wire's tip, units."""
+        return self.parts[0].path
+
+    @property
+    def inserted(self) -> float:
+        """Of the wire's hub, m."""
+        return self.parts[0].inserted
+
+    @property
+    def retracted(self) -> float:
+        """Of the wire's hub, m."""
+        return self.parts[0].retracted
+
+    @property
+    def turned(self) -> float:
+        """Of the wire's hub, rad."""
+        return self.parts[0].turned
 
     @property
     def safe_success(self) -> bool:
         """Whether the target was reached with no larger force on the way."""
         return self.success and self.largest_force <= self.safe_force
 
-    def add(self, before: State, after: State, insertion: float, turn: float) -> float:
+    def add(self, before: State, after: State, motions: Sequence[tuple[float, float]]) -> float:
         """Take in a time step; returns its largest force, N.
 
         Parameters
         ----------
-        before, after : the wire.
-        insertion, turn : of the hub in it, m and rad.
+        before, after : the instruments.
+        motions : of each hub in it, m and rad.
         """
-        forces = np.sqrt(np.einsum("ij,ij->i", after.contact_forces, after.contact_forces))
-        largest = float(forces.max())
-        dt = after.time - before.time
-        self.forces.append(largest)
+        dt, most = after.time - before.time, 0.0
+        for part, one, other, (insertion, turn) in zip(self.parts, instruments_of(before), instruments_of(after),
+                                                       motions):
+            forces = np.sqrt(np.einsum("ij,ij->i", other.contact_forces, other.contact_forces))
+            largest = float(forces.max())
+            most = max(most, largest)
+            part.largest_force = max(part.largest_force, largest)
+            part.impulse += float(forces.sum()) * dt
+            part.path += math.dist(other.positions[-1].tolist(), one.positions[-1].tolist())
+            part.inserted += max(insertion, 0.0)
+            part.retracted += max(-insertion, 0.0)
+            part.turned += abs(turn)
+        self.forces.append(most)
         self.time += dt
-        self.largest_force = max(self.largest_force, largest)
-        self.impulse += float(forces.sum()) * dt
-        self.path += math.dist(after.positions[-1].tolist(), before.positions[-1].tolist())
-        self.inserted += max(insertion, 0.0)
-        self.retracted += max(-insertion, 0.0)
-        self.turned += abs(turn)
-        return largest
+        return most
 
     def as_info(self) -> dict[str, Any]:
-        """For `info`, forces as an array."""
-        return {**vars(self), "safe_success": self.safe_success, "forces": np.array(self.forces)}
+        """For `info`: numbers, "forces" as a list, and of several instruments "instruments" by name."""
+        shown = {key: value for key, value in vars(self).items() if key not in ("parts", "forces")}
+        shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "impulse", "path",
+                                                      "inserted", "retracted", "turned")}
+        shown["forces"] = list(self.forces)
+        if len(self.parts) > 1:
+            shown["instruments"] = {name: dict(vars(part)) for name, part in zip(names_of(len(self.parts)), self.parts)}
+        return shown

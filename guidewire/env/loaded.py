@@ -5,12 +5,13 @@ from __future__ import annotations
 import json
 from collections import OrderedDict
 from collections.abc import Mapping
-from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from guidewire.env.route import Route
+from guidewire.env.draws import Draw
+from guidewire.env.instruments import of_each
+from guidewire.env.route import Placement, Route
 from guidewire.env.spaces import Error
 from guidewire.env.task import Task
 from guidewire.sessions.session import Session, State
@@ -19,18 +20,6 @@ _SESSIONS, _STARTS = 6, 64  # kept open, and snapshots kept of each
 _LARGEST_TURN = np.radians(20.0)  # a step of what turns the tip before an episode
 _LARGEST_PUSH = 2.0e-3  # m, a step of what inserts before an episode
 ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
-
-
-@dataclass(frozen=True)
-class Draw:
-    """What a seed has drawn for an episode; see Task. tip_turn : rad; insertion : m."""
-
-    anatomy: int
-    target: int
-    instrument: str | None
-    friction: float
-    tip_turn: float
-    insertion: float
 
 
 class LoadedScene:
@@ -44,8 +33,6 @@ class LoadedScene:
     """
 
     def __init__(self, scene: Mapping[str, Any], anatomy: Mapping[str, Any], native: bool | None) -> None:
-        if scene.get("catheters"):
-            raise Error("catheters: an environment has one wire and one hub; no scene of several instruments is taken")
         self.scene, self.anatomy = {**scene, **ENDLESS}, anatomy
         self.session = Session(None, hand=True, native=native, **self.scene)
         self.unit = float(self.session.parameters["metresPerUnit"])    # m
@@ -53,18 +40,21 @@ class LoadedScene:
         if self.session.state.hub is None:
             self.session.close()
             raise Error("an environment needs a wire of solver \"direct\"")
+        self.hubs = self.session.hubs
         inside = self.session.state.hub.length_in_body
         length = float(self.session.parameters["guidewireLength"]) * self.unit
-        # A sheathed wire can be fed until its proximal end is two of its elements from the sheath's exit.
+        # A sheathed wire can be fed until its proximal end is two of its elements from the sheath's exit. Hubs of
+        # several instruments are stopped by one another and by the exit.
         step = length / len(self.session.state.orientations)
-        self.longest = float("inf") if inside is None else length - inside - 2.0 * step
-        self._starts: OrderedDict[tuple[float, float], bytes] = OrderedDict()
+        self.longest = float("inf") if inside is None or self.hubs > 1 else length - inside - 2.0 * step
+        self._starts: OrderedDict[tuple[Any, ...], bytes] = OrderedDict()
         self._routes: dict[str, Route] = {}
 
-    def start(self, tip_turn: float, insertion: float) -> State:
-        """The wire at the start of an episode."""
-        key = (tip_turn, insertion)
-        if key == (0.0, 0.0):
+    def start(self, tip_turn: float, insertion: Any) -> State:
+        """The instruments at the start of an episode: each by so much in its vessel, m, and the wire turned, rad."""
+        insertions = of_each(insertion, self.hubs)
+        key = (tip_turn, *insertions)
+        if not any(key):
             return self.session.reset()
         if key in self._starts:
             self._starts.move_to_end(key)
@@ -72,8 +62,10 @@ class LoadedScene:
         state = self.session.reset()
         if tip_turn:
             state = self.session.step(turn=tip_turn, steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
-        if insertion:
-            state = self.session.step(push=insertion / self.unit, steps=int(np.ceil(insertion / _LARGEST_PUSH)))
+        if any(insertions):
+            pushes = [one / self.unit for one in insertions]
+            state = self.session.step(pushes if self.hubs > 1 else pushes[0],
+                                      steps=int(np.ceil(max(insertions) / _LARGEST_PUSH)))
         if state.outcome is not None:
             raise Error(f"the wire does not come to its start: {state.outcome}: {state.reason}")
         self._starts[key] = self.session.save()
@@ -85,7 +77,8 @@ class LoadedScene:
         """To a target of its vessel."""
         key = json.dumps(target)
         if key not in self._routes:
-            self._routes[key] = Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit)
+            self._routes[key] = Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit,
+                                      Placement.of(self.session.parameters))
         return self._routes[key]
 
 
@@ -100,16 +93,16 @@ class LoadedScenes:
 
     def __init__(self, task: Task, native: bool | None) -> None:
         self._task, self._native = task, native
-        self._scenes: OrderedDict[tuple[Any, ...], LoadedScene] = OrderedDict()
+        self._scenes: OrderedDict[str, LoadedScene] = OrderedDict()
 
     def find(self, draw: Draw) -> tuple[LoadedScene, bool]:
         """The scene of an episode, and whether it was open."""
-        key = (draw.anatomy, draw.instrument, draw.friction)
+        key = json.dumps((draw.anatomy, draw.instrument, draw.friction, draw.random), default=list)
         scene = self._scenes.get(key)
         if scene is not None and scene.session.is_open:
             self._scenes.move_to_end(key)
             return scene, True
-        self._scenes[key] = scene = LoadedScene(*self._task.scene_of(*key), self._native)
+        self._scenes[key] = scene = LoadedScene(*self._task.scene_of(draw), self._native)
         if len(self._scenes) > _SESSIONS:
             _, oldest = self._scenes.popitem(last=False)
             oldest.session.close()

@@ -3,40 +3,62 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from collections import deque
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from guidewire.env.instruments import Instrument, instruments_of
 from guidewire.env.options import need_count, need_number
+from guidewire.env.picture import Picture, PictureState
 from guidewire.env.route import Route
 from guidewire.env.spaces import Box, Dict, Error, Space
 from guidewire.sessions.session import State
 
-PARTS = ("tip", "direction", "points", "screen", "hub", "loads", "wall", "distance", "target", "ahead", "image")
+PARTS = ("tip", "direction", "points", "screen", "hub", "loads", "wall", "overlap", "distance", "target", "ahead",
+         "action", "image")
 DEFAULT = ("tip", "direction", "hub", "loads", "wall", "distance", "ahead")
+_OF_EACH = {"tip": (3,), "direction": (3,), "hub": (2,), "loads": (2,), "wall": (2,), "distance": ()}  # instrument
+_UNIT = ("direction", "ahead", "action")  # from -1 to 1 as they are
+_FROM_TARGET = ("tip", "points")  # where normalised
+# What stands for 1 where they are normalised: mm in the tasks that ship, rad, N, N mm.
+RANGES: Mapping[str, Any] = {"tip": 300.0, "points": 300.0, "screen": 300.0, "hub": (300.0, 8.0 * math.pi),
+                             "loads": (5.0, 20.0), "wall": (1.5, 5.0), "overlap": 600.0, "distance": 300.0,
+                             "target": 300.0}
 
 
 @dataclass(frozen=True)
 class Observation:
     """Parts of an observation, in this order; lengths in units of the scene (mm), in the vessel's frame.
 
+    With k instruments, k > 1, those of each instrument have a first axis of k, the wire first.
+
     Attributes
     ----------
-    parts : "tip": position (3,); "direction": of the tip, a unit vector (3,); "points": positions of the last points of
-        the wire, from the tip, (points, 3); "screen": the same projected, (points, 2); "hub": insertion, units, and
-        turn, rad, since the start of the scene; "loads": force of the hub on the wire along its axis, N, and torque
-        about it, N mm; "wall": largest force of a wall on a sphere, and sum of all, N; "distance": to the target along
-        the centreline, units (1,); "target": from the tip to it (3,); "ahead": unit vector (3,) from the tip to the
-        point of the centreline that is `lookahead` nearer to the target, in the frame d1, d2, d3 of the last element;
-        "image": what `image` gives.
+    parts : of each instrument "tip": position (3,); "direction": of the tip, a unit vector (3,); "points": positions of
+        its last points, from the tip, (points, 3); "screen": the same projected, (points, 2); "hub": insertion, units,
+        and turn, rad, since the start of the scene; "loads": force of the hub along its axis, N, and torque about it,
+        N mm; "wall": largest force of a wall on a sphere, and sum of all, N; "distance": to the target along the
+        centreline, units (1,). Of the catheters "overlap": length beyond its tip of what is inside, and over which that
+        is inside, units (k - 1, 2). Of the wire "target": from the tip to it (3,); "ahead": unit vector (3,) from the
+        tip to the point of the centreline that is `lookahead` nearer to the target, in the frame d1, d2, d3 of the last
+        element. "action": the last one, as fractions (2 k,); "image": what `image` gives.
     points : how many.
     spacing : elements between two of them.
     screen : (2, 3), directions of the picture's axes to the right and upwards; the projection is parallel.
     lookahead : units.
-    image, image_space : from the state of the session to an array of this space.
+    image, image_space : a Picture, which needs no space; or from the state of the session to an array of this space.
     flat : all parts as one array of float32 instead of a dict; not with an image.
+    history : observations, the newest last: a first axis of each part, or one behind the other where flat; a Picture
+        has frames of its own.
+    normalised : all numbers from -1 to 1: divided by `ranges`, and limited; positions are then from the target.
+    ranges : in place of RANGES, by part.
+
+    Raises
+    ------
+    Error : one of them is not allowed.
     """
 
     parts: Sequence[str] = DEFAULT
@@ -44,11 +66,20 @@ class Observation:
     spacing: int = 2
     screen: Sequence[Sequence[float]] = ((1.0, 0.0, 0.0), (0.0, 0.0, 1.0))
     lookahead: float = 15.0
-    image: Callable[[State], np.ndarray] | None = None
+    image: Picture | Callable[[State], np.ndarray] | None = None
     image_space: Space | None = None
     flat: bool = False
+    history: int = 1
+    normalised: bool = False
+    ranges: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if isinstance(self.image, Picture):
+            if self.image_space is not None:
+                raise Error("image_space is not allowed with a Picture, which has its own")
+            object.__setattr__(self, "image_space", self.image.space())
+            if "image" not in self.parts:
+                object.__setattr__(self, "parts", (*self.parts, "image"))
         unknown = [part for part in self.parts if part not in PARTS]
         if unknown or not self.parts:
             raise Error(f"observation part {unknown[:1] or ''} is not allowed: there are {', '.join(PARTS)}")
@@ -58,61 +89,129 @@ class Observation:
             raise Error("an observation with an image is not flat")
         need_count("points", self.points, 1)
         need_count("spacing", self.spacing, 1)
+        need_count("history", self.history, 1)
         need_number("lookahead", self.lookahead, 0.0, above=True)
+        for part, value in self.ranges.items():
+            if part not in RANGES or np.shape(value) not in ((), np.shape(RANGES[part])) or not np.all(
+                    np.asarray(value, dtype=float) > 0.0) or not np.isfinite(np.asarray(value, dtype=float)).all():
+                raise Error(f"ranges[{part!r}] = {value!r} is not allowed: needs numbers above 0 of "
+                            f"{', '.join(RANGES)}")
         if np.shape(self.screen) != (2, 3) or not np.isfinite(np.asarray(self.screen, dtype=float)).all():
             raise Error(f"screen = {self.screen!r} is not allowed: needs finite numbers of shape (2, 3)")
 
-    def space(self) -> Space:
-        """Of the observations."""
-        shapes = {"points": (self.points, 3), "screen": (self.points, 2), "hub": (2,), "loads": (2,), "wall": (2,),
-                  "distance": (1,)}
-        bounds = {"direction": (-1.0, 1.0), "ahead": (-1.0, 1.0), "wall": (0.0, np.inf), "distance": (0.0, np.inf)}
-        if self.flat:
-            size = sum(int(np.prod(shapes.get(part, (3,)))) for part in self.parts)
-            return Box(-np.inf, np.inf, (size,), np.float32)
-        return Dict({part: self.image_space if part == "image" else
-                     Box(*bounds.get(part, (-np.inf, np.inf)), shapes.get(part, (3,)), np.float32)
-                     for part in self.parts})
+    def shape_of(self, part: str, hubs: int) -> tuple[int, ...]:
+        """Of a part, with so many instruments, without its history."""
+        own = {**_OF_EACH, "points": (self.points, 3), "screen": (self.points, 2)}.get(part)
+        if own is not None:
+            return (hubs, *own) if hubs > 1 else own or (1,)
+        return {"overlap": (hubs - 1, 2), "action": (2 * hubs,)}.get(part, (3,))
 
-    def of(self, state: State, route: Route, place: tuple[int, float], unit: float) -> Any:
+    def space(self, hubs: int = 1) -> Space:
+        """Of the observations of so many instruments."""
+        if hubs == 1 and "overlap" in self.parts:
+            raise Error("observation part \"overlap\" needs a task with catheters")
+        bounds = {**dict.fromkeys(_UNIT, (-1.0, 1.0)), "wall": (0.0, np.inf), "distance": (0.0, np.inf)}
+        past = (self.history,) if self.history > 1 else ()
+        limit = 1.0 if self.normalised else np.inf
+        if self.flat:
+            size = sum(math.prod(self.shape_of(part, hubs)) for part in self.parts)
+            return Box(-limit, limit, (size * self.history,), np.float32)
+        spaces = {}
+        for part in self.parts:
+            if part == "image":
+                spaces[part] = self.image_space
+                continue
+            low, high = bounds.get(part, (-limit, limit))
+            spaces[part] = Box(max(low, -limit), min(high, limit), (*past, *self.shape_of(part, hubs)), np.float32)
+        return Dict(spaces)
+
+
+class Observer:
+    """The observations of an episode.
+
+    Parameters
+    ----------
+    observation : which.
+    route : to the target.
+    unit : of length, m.
+    hubs : instruments.
+    seed : of a Picture's noise.
+    """
+
+    def __init__(self, observation: Observation, route: Route, unit: float, hubs: int, seed: int) -> None:
+        self._observation, self._route, self._unit = observation, route, unit
+        self._past: deque[dict[str, np.ndarray]] = deque(maxlen=observation.history)
+        self._screen = np.array(observation.screen, dtype=float).T
+        self._ranges = {part: np.asarray(observation.ranges.get(part, value), dtype=float)
+                        for part, value in RANGES.items()}
+        self.action = np.zeros(2 * hubs)
+        self._pictures = (PictureState(observation.image, seed).of if isinstance(observation.image, Picture)
+                          else observation.image)
+
+    def of(self, state: State, places: Sequence[tuple[int, float]]) -> Any:
         """The observation of a state.
 
         Parameters
         ----------
-        place : of the tip, as Route.place gives it.
-        unit : of length, m.
+        places : of the tips, as Route.place gives them.
         """
-        seen = {part: self._part(part, state, route, place, unit) for part in self.parts}
-        if self.flat:
-            return np.concatenate([np.ravel(value) for value in seen.values()]).astype(np.float32)
-        return {part: value if part == "image" else np.asarray(value, dtype=np.float32)
-                for part, value in seen.items()}
+        instruments = instruments_of(state)
+        seen = {}
+        for part in self._observation.parts:
+            if part == "image":
+                continue
+            value = np.asarray(self._part(part, state, instruments, places), dtype=float)
+            seen[part] = self._normalised(part, value) if self._observation.normalised else value
+        self._past.extend([seen] * (1 if self._past else self._observation.history))
+        if self._observation.flat:
+            return np.concatenate([np.ravel(one) for then in self._past for one in then.values()]).astype(np.float32)
+        if self._observation.history > 1:
+            seen = {part: np.stack([then[part] for then in self._past]) for part in seen}
+        return {part: self._pictures(state) if part == "image" else seen[part].astype(np.float32)
+                for part in self._observation.parts}
 
-    def _part(self, part: str, state: State, route: Route, place: tuple[int, float], unit: float) -> Any:
-        tip, hub = state.positions[-1], state.hub
-        if part == "tip":
-            return tip
-        if part == "direction":
-            return _within_one(hub.tip_direction)
-        if part in ("points", "screen"):
-            last = len(state.positions) - 1
-            points = state.positions[np.maximum(last - self.spacing * np.arange(self.points), 0)]
-            return points if part == "points" else points @ np.array(self.screen, dtype=float).T
-        if part == "hub":
-            return (hub.insertion / unit, hub.turn)
-        if part == "loads":
-            return (hub.force, 1e3 * hub.torque)
-        if part == "wall":
-            forces = np.sqrt(np.einsum("ij,ij->i", state.contact_forces, state.contact_forces))
-            return (forces.max(), forces.sum())
-        if part == "distance":
-            return (place[1],)
+    def _normalised(self, part: str, value: np.ndarray) -> np.ndarray:
+        if part in _UNIT:
+            return value
+        if part in _FROM_TARGET:
+            value = value - self._route.points[self._route.target]
+        elif part == "screen":
+            value = value - self._route.points[self._route.target] @ self._screen
+        return np.clip(value / self._ranges[part], -1.0, 1.0)
+
+    def _part(self, part: str, state: State, instruments: Sequence[Instrument],
+              places: Sequence[tuple[int, float]]) -> Any:
+        tip = state.positions[-1]
         if part == "target":
-            return route.points[route.target] - tip
+            return self._route.points[self._route.target] - tip
         if part == "ahead":
-            heading = _in_frame(state.orientations[-1], route.ahead(place[0], self.lookahead) - tip)
+            heading = _in_frame(state.orientations[-1],
+                                self._route.ahead(places[0][0], self._observation.lookahead) - tip)
             return _within_one(heading / max(math.hypot(*heading.tolist()), 1e-12))
-        return self.image(state)
+        if part == "overlap":
+            return [(one.extension / self._unit, one.overlap / self._unit) for one in state.catheters]
+        if part == "action":
+            return self.action
+        if part == "distance":
+            return [left for _, left in places]
+        each = [self._of_one(part, one) for one in instruments]
+        return each if len(each) > 1 else each[0]
+
+    def _of_one(self, part: str, one: Instrument) -> Any:
+        if part == "tip":
+            return one.positions[-1]
+        if part == "direction":
+            return _within_one(one.hub.tip_direction)
+        if part in ("points", "screen"):
+            observation, last = self._observation, len(one.positions) - 1
+            points = one.positions[np.maximum(last - observation.spacing * np.arange(observation.points), 0)]
+            return points if part == "points" else points @ self._screen
+        if part == "hub":
+            return (one.hub.insertion / self._unit, one.hub.turn)
+        if part == "loads":
+            return (one.hub.force, 1e3 * one.hub.torque)
+        forces = np.sqrt(np.einsum("ij,ij->i", one.contact_forces, one.contact_forces))
+        return (forces.max(), forces.sum())
 
 
 def _in_frame(q: np.ndarray, vector: np.ndarray) -> np.ndarray:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from enum import Enum
 from typing import Any
 
 import numpy as np
@@ -203,6 +204,14 @@ class Env:
 
 class VectorEnv(Env):
     """What gymnasium's base class of several environments has."""
+
+
+class AutoresetMode(Enum):
+    """As gymnasium.vector.AutoresetMode: when an episode follows the one that has ended."""
+
+    NEXT_STEP = "NextStep"
+    SAME_STEP = "SameStep"
+    DISABLED = "Disabled"
 
 
 class Error(Exception):

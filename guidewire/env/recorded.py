@@ -15,7 +15,7 @@ from guidewire.env.spaces import Error
 from guidewire.runs.whole_files import write_whole
 from guidewire.sessions.session import State
 
-_FORMAT = "guidewire drive 1"
+_FORMATS = ("guidewire drive 1", "guidewire drive 2")  # the second of several hubs
 
 
 @dataclass(frozen=True)
@@ -26,21 +26,25 @@ class RecordedDrive:
     ----------
     task : name.
     options : of the reset that began it.
-    calls : push (units), turn (rad) and steps of each.
-    digest : of the wire at the end.
+    calls : push (units), turn (rad) and steps of each; of several hubs lists of push and turn, the wire's first.
+    digest : of the instruments at the end.
     source : how it was steered.
     """
 
     task: str
     options: Mapping[str, Any]
-    calls: Sequence[tuple[float, float, int]]
+    calls: Sequence[tuple[Any, Any, int]]
     digest: str
     source: str = ""
 
     def save(self, file: str | Path) -> None:
         """Write it as JSON; numbers read back to the same bits."""
-        write_whole(Path(file), json.dumps({"format": _FORMAT, "task": self.task, "options": self.options,
+        write_whole(Path(file), json.dumps({"format": self._format, "task": self.task, "options": self.options,
                                             "source": self.source, "digest": self.digest, "calls": self.calls}) + "\n")
+
+    @property
+    def _format(self) -> str:
+        return _FORMATS[any(isinstance(call[0], (list, tuple)) for call in self.calls)]
 
     @staticmethod
     def load(file: str | Path) -> RecordedDrive:
@@ -52,7 +56,7 @@ class RecordedDrive:
         """
         try:
             read = json.loads(Path(file).read_text(encoding="utf-8"))
-            if read["format"] != _FORMAT:
+            if read["format"] not in _FORMATS:
                 raise ValueError(f"format is {read['format']!r}")
             return RecordedDrive(read["task"], read["options"], [tuple(call) for call in read["calls"]],
                                  read["digest"], read["source"])
@@ -63,6 +67,8 @@ class RecordedDrive:
 
 
 def digest_of(state: State) -> str:
-    """A sum over the bits of positions, velocities, orientations and spins."""
-    parts = (state.positions, state.velocities, state.orientations, state.angular_velocities)
+    """A sum over the bits of positions, velocities, orientations and spins, and of places and frames of catheters."""
+    parts = [state.positions, state.velocities, state.orientations, state.angular_velocities]
+    for catheter in state.catheters:
+        parts += [catheter.positions, catheter.orientations]
     return hashlib.sha256(b"".join(np.ascontiguousarray(part, dtype="<f8").tobytes() for part in parts)).hexdigest()

@@ -2,12 +2,44 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from guidewire.env.spaces import Error
+
+
+class Placement(NamedTuple):
+    """How a scene places its vessel: units; degrees about z, then x, then y; a factor."""
+
+    position: np.ndarray
+    rotation: np.ndarray    # (3, 3)
+    scale: float
+
+    @staticmethod
+    def of(parameters: Mapping[str, Any]) -> Placement:
+        """Of a session's effective parameters.
+
+        Raises
+        ------
+        Error : the three axes are not scaled alike, and so no sphere in the vessel stays one.
+        """
+        position, rotation, scale = (np.array(_three(parameters.get(key, default)), dtype=float) for key, default in (
+            ("position", [0.0] * 3), ("rotation", [0.0] * 3), ("scale", [1.0] * 3)))
+        if not (scale == scale[0]).all() or scale[0] <= 0.0:
+            raise Error(f"scale = {scale.tolist()} is not allowed here: needs one factor above 0 for all three axes")
+        return Placement(position, _matrix(rotation), float(scale[0]))
+
+    @property
+    def is_none(self) -> bool:
+        """Whether all stays where it is."""
+        return self.scale == 1.0 and not self.position.any() and np.array_equal(self.rotation, np.eye(3))
+
+    def points(self, points: np.ndarray) -> np.ndarray:
+        """Points (n, 3) as they are placed."""
+        return self.scale * points @ self.rotation.T + self.position
 
 
 class Route:
@@ -18,6 +50,7 @@ class Route:
     anatomy : what `guidewire.py anatomy` writes into anatomy.json.
     target : name or number of an end; or name of a branch and the distance from its beginning.
     unit : the anatomy's numbers times this are units of the scene.
+    placement : of the vessel in the scene; None: as it is.
 
     Raises
     ------
@@ -28,7 +61,8 @@ class Route:
     A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, as in the runner's summary.
     """
 
-    def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any], unit: float = 1.0) -> None:
+    def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any], unit: float = 1.0,
+                 placement: Placement | None = None) -> None:
         try:
             line = anatomy["centreline"]
             numbers = unit * np.array(line["points"], dtype=float).reshape(-1, 4)
@@ -36,9 +70,15 @@ class Route:
         except (KeyError, TypeError, ValueError) as error:
             raise Error("an anatomy needs a centreline of points and parents, as the command anatomy writes it"
                         ) from error
+        self.target = _index_of(anatomy, target, numbers[:, :3])
+        if placement is not None and not placement.is_none:
+            numbers = np.c_[placement.points(numbers[:, :3]), placement.scale * numbers[:, 3]]
         self.points, self._radii = np.ascontiguousarray(numbers[:, :3]), numbers[:, 3]
         self.widest = float(self._radii.max())
-        self.target = _index_of(anatomy, target, self.points)
+        has_child = np.zeros(len(parents), dtype=bool)
+        has_child[parents[parents >= 0]] = True
+        self._outlets = {int(k): self.points[k] - self.points[parents[k]] for k in np.flatnonzero(~has_child)
+                         if parents[k] >= 0}
         self._power = np.einsum("ij,ij->i", self.points, self.points) - self._radii**2
         self.next = parents.copy()
         self.next[self.target] = self.target
@@ -64,6 +104,11 @@ class Route:
         along, length = float((point - self.points[index]) @ self._steps[index]), float(self._lengths[index])
         return index, float(self.left[index]) - min(max(along, -length), length)
 
+    def has_left(self, point: np.ndarray) -> bool:
+        """Whether a point (3,) is beyond one of the ends but the first, in whose sphere its place is."""
+        index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
+        return bool(index in self._outlets and (point - self.points[index]) @ self._outlets[index] > 0.0)
+
     def ahead(self, index: int, distance: float) -> np.ndarray:
         """The centreline's point (3,) that is so much nearer to the target, units, or the target."""
         goal = self.left[index] - distance
@@ -72,14 +117,30 @@ class Route:
         return self.points[index]
 
 
+def _three(value: Any) -> list[float]:
+    return [value[axis] for axis in "xyz"] if isinstance(value, Mapping) else list(value)
+
+
+def _matrix(degrees: np.ndarray) -> np.ndarray:
+    """The rotation by Euler angles about z, then x, then y."""
+    x, y, z = np.radians(degrees).tolist()
+    about_x = np.array([[1.0, 0.0, 0.0], [0.0, math.cos(x), -math.sin(x)], [0.0, math.sin(x), math.cos(x)]])
+    about_y = np.array([[math.cos(y), 0.0, math.sin(y)], [0.0, 1.0, 0.0], [-math.sin(y), 0.0, math.cos(y)]])
+    about_z = np.array([[math.cos(z), -math.sin(z), 0.0], [math.sin(z), math.cos(z), 0.0], [0.0, 0.0, 1.0]])
+    return about_y @ about_x @ about_z
+
+
 def _index_of(anatomy: Mapping[str, Any], target: str | int | Sequence[Any], points: np.ndarray) -> int:
-    if isinstance(target, (str, int)):
+    if isinstance(target, (str, int)) and not isinstance(target, bool):
         wanted = str(target).strip().lower()
         for end in anatomy["ends"]:
             if wanted in (str(end["number"]), end["name"].lower()):
                 return end["point"]
         listed = ", ".join(f"{end['number']} '{end['name']}'" for end in anatomy["ends"])
         raise Error(f"target = {target!r} is not allowed: the vessel has the ends {listed}")
+    is_depth = isinstance(target, (list, tuple)) and len(target) == 2 and isinstance(target[0], str)
+    if not is_depth or isinstance(target[1], bool) or not isinstance(target[1], (int, float)):
+        raise Error(f"target = {target!r} is not allowed: needs a name or number of an end, or a branch and a distance")
     name, depth = target
     names = anatomy["centreline"]["names"]
     if name not in names:

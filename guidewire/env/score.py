@@ -61,6 +61,25 @@ def play(environment: Environment, policy: Policy, seed: int) -> Played:
             return Played(seed, total, report, digest_of(environment.session.state), faults)
 
 
+def benchmark_table(rows: Sequence[tuple[str, str, Sequence[Played]]]) -> str:
+    """A row for each task and policy: fractions of all episodes; means of time and path ratio over successes, of forces
+    over all."""
+    head = ("task", "policy", "episodes", "success", "safe success", "time s", "path ratio", "largest force N",
+            "of any N", "impulse N s")
+    lines = [head, ("---",) * len(head)]
+    for task, policy, episodes in rows:
+        reports = [one.report for one in episodes]
+        reached = [report for report in reports if report["success"]]
+        of_reached = [f"{np.mean(values):.2f}" if values else "-" for values in (
+            [report["time"] for report in reached], [report["path"] / report["way"] for report in reached])]
+        largest = [report["largest_force"] for report in reports]
+        lines.append((task, policy, str(len(reports)), f"{len(reached) / len(reports):.1%}",
+                      f"{np.mean([report['safe_success'] for report in reports]):.1%}", *of_reached,
+                      f"{np.mean(largest):.3g}", f"{max(largest):.3g}",
+                      f"{np.mean([report['impulse'] for report in reports]):.3g}"))
+    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
+
+
 def table(names: Sequence[str], played: Sequence[Sequence[Played]]) -> str:
     """A row for each policy: fractions of episodes, means over them."""
     head = ("policy", "episodes", "success", "safe success", "time s", "return", "largest force N", "of any N",
@@ -103,6 +122,8 @@ def _faults_of(environment: Environment, report: dict[str, Any], terminated: boo
         faults.append(f"out of time after {report['time']:g} s of {scene.time:g} s")
     if not all(np.isfinite(report[key]) for key in ("time", "left", "largest_force", "impulse", "path")):
         faults.append(f"not finite: {report}")
-    if len(report["forces"]) and report["largest_force"] != np.max(report["forces"]):
+    if report["end"] == "left the vessel" and (report["success"] or not terminated):
+        faults.append("out of the vessel, and the episode has not ended so")
+    if len(report["forces"]) and report["largest_force"] != max(report["forces"]):
         faults.append("largest force is not that of the forces over time")
     return faults

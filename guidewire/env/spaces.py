@@ -9,14 +9,11 @@ try:
     from gymnasium.vector import AutoresetMode, VectorEnv
     from gymnasium.vector.utils import batch_space
 
-    NEXT_STEP = AutoresetMode.NEXT_STEP
 except ImportError:
     from guidewire.env.own_spaces import (
-        Box, ClosedEnvironmentError, Dict, Discrete, Env, Error, InvalidAction, NameNotFound, ResetNeeded, Space,
-        VectorEnv, batch_space,
+        AutoresetMode, Box, ClosedEnvironmentError, Dict, Discrete, Env, Error, InvalidAction, NameNotFound,
+        ResetNeeded, Space, VectorEnv, batch_space,
     )
 
-    NEXT_STEP = "NextStep"
-
-__all__ = ["Box", "ClosedEnvironmentError", "Dict", "Discrete", "Env", "Error", "InvalidAction", "NEXT_STEP",
+__all__ = ["AutoresetMode", "Box", "ClosedEnvironmentError", "Dict", "Discrete", "Env", "Error", "InvalidAction",
            "NameNotFound", "ResetNeeded", "Space", "VectorEnv", "batch_space"]

@@ -6,21 +6,30 @@ import difflib
 import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache
+from functools import cache, cached_property
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
+from guidewire.env.instruments import of_each
+from guidewire.env.randomisation import check_distribution
 from guidewire.env.spaces import Error, NameNotFound
 from guidewire.env.vessels import made_vessel
 from guidewire.json_text import problem_of, without_notes
 from guidewire.prepare import DOOR, ROOT
+
+if TYPE_CHECKING:
+    from guidewire.env.draws import Draw
 
 FOLDER = Path(__file__).resolve().parent / "data"
 TASKS_FILE = FOLDER / "tasks.json"
 _WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
 _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
-         "insertion", "time", "tolerance", "speed", "rotation"}
+         "insertion", "time", "tolerance", "speed", "rotation", "follow", "random"}
+# Of what `random` draws, what is no parameter of the scene by itself.
+_DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed")
+_EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
+_STIFF = ("youngsModulus", "shearModulus")
 
 
 @dataclass(frozen=True)
@@ -36,13 +45,20 @@ class Task:
         scene.json; or "make", "type", "seed", "inlet" and "target" of one that is generated when it is first needed;
         in a file, "seeds" for several of a kind.
     targets : ends by name or number, or branches with the distance from their beginning; an episode has one.
-    instruments : by name; none: the scene's own wire.
+    instruments : names of a wire that an episode may have, or lists of them, the wire first, then the catheters; none:
+        the scene's own.
     frictions : coefficients that an episode may have.
     tip_turns : number of even steps of a turn in which the tip may be turned at the start; 1: as in the scene.
-    insertion : of the hub at the start of an episode, m.
+    insertion : of each hub, or of all, at the start of an episode, m.
     time : simulated time after which an episode is truncated, s.
     tolerance : distance along the centreline at which the target is reached, units.
-    speed, rotation : fastest of the hub, m/s and rad/s.
+    speed, rotation : fastest of each hub, or of all, m/s and rad/s.
+    follow : within what distance before the target along the centreline the tip of each catheter is to come, or of all,
+        units; None: it need not.
+    random : distributions by name, drawn for each episode (`randomisation`): "friction", "tip_turn" (rad), "insertion"
+        (m) in place of the lists above; "noise" of the drive; "stiffness", a factor on the moduli of a wire without a
+        name; "seed" of a vessel that is generated; or any parameter of the scene by its path, such as "scale",
+        "rotation", "vessel.radius", "catheters[0].frictionCoefficient".
     """
 
     name: str
@@ -54,33 +70,63 @@ class Task:
     instruments: Sequence[str] = ()
     frictions: Sequence[float] = (0.0,)
     tip_turns: int = 1
-    insertion: float = 0.0
+    insertion: float | Sequence[float] = 0.0
     time: float = 20.0
     tolerance: float = 3.0
-    speed: float = 0.02
-    rotation: float = 3.141592653589793
+    speed: float | Sequence[float] = 0.02
+    rotation: float | Sequence[float] = 3.141592653589793
+    follow: float | Sequence[float | None] | None = None
+    random: Mapping[str, Any] = field(default_factory=dict)
 
-    def scene_of(self, anatomy: int, instrument: str | None, friction: float
-                 ) -> tuple[dict[str, Any], Mapping[str, Any]]:
+    @cached_property
+    def hubs(self) -> int:
+        """How many instruments it has."""
+        given = self.overrides.get("catheters")
+        if given is None:
+            which = self.anatomies[0]
+            file = self.scene or (None if isinstance(which, Mapping) else Path(which).with_name("scene.json"))
+            given = _read(Path(file)).get("catheters") if file else None
+        return 1 + len(given or ())
+
+    def scene_of(self, draw: Draw) -> tuple[dict[str, Any], Mapping[str, Any]]:
         """Parameters of an episode's scene, with absolute paths, and its anatomy.
 
         Raises
         ------
-        Error : a file is missing, or is no JSON.
+        Error : a file is missing, or is no JSON; the scene cannot have what was drawn.
         """
-        which = self.anatomies[anatomy]
+        which = self.anatomies[draw.anatomy]
+        if "seed" in draw.random:
+            if not isinstance(which, Mapping):
+                raise Error(f"random \"seed\" is not allowed: {which} is a file, not a vessel that is generated")
+            which = {**which, "seed": draw.random["seed"]}
         folder = made_vessel(which) if isinstance(which, Mapping) else None
         file = folder / "anatomy.json" if folder else Path(which)
         scene_file = Path(self.scene) if self.scene else file.with_name("scene.json")
         scene = {**_read(scene_file), **self.overrides}
-        vessel = {**scene["vessel"], "frictionCoefficient": friction}
+        vessel = {**scene["vessel"], "frictionCoefficient": draw.friction}
         for key in ("file", "anatomy"):
             if key in vessel:
                 vessel[key] = str((scene_file.parent / vessel[key]).resolve())
         scene["vessel"] = vessel
-        if instrument is not None:
-            scene = {key: value for key, value in scene.items() if key not in _WIRE} | {"instrument": instrument}
-        return scene, _read(file)
+        scene.pop("driveFile", None)    # the drives of a file are not those of an episode
+        if scene.get("catheters"):
+            scene["catheters"] = [{key: value for key, value in one.items() if key != "driveFile"}
+                                  for one in scene["catheters"]]
+        names = [draw.instrument] if draw.instrument is None or isinstance(draw.instrument, str) else draw.instrument
+        if len(names) > self.hubs:
+            raise Error(f"instruments {list(names)} are not allowed: the scene has {self.hubs}")
+        if names[0] is not None:
+            scene = {key: value for key, value in scene.items() if key not in _WIRE} | {"instrument": names[0]}
+        if names[1:]:
+            scene["catheters"] = [{**{key: value for key, value in one.items() if key not in _WIRE},
+                                   "instrument": name} for one, name in zip(scene["catheters"], names[1:])]
+        if "stiffness" in draw.random:
+            scene = _stiffer(scene, draw.random["stiffness"])
+        drawn = {key: value for key, value in draw.random.items() if key not in _DRAWN}
+        if isinstance(drawn.get("scale"), (int, float)):
+            drawn["scale"] = [drawn["scale"]] * 3
+        return scene | drawn, _read(file)
 
 
 @cache
@@ -129,13 +175,24 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         raise Error(f"{file}: task {name} has no key \"{sorted(unknown)[0]}\": there are {', '.join(sorted(_KEYS))}")
     if not isinstance(entry.get("overrides", {}), dict) or not isinstance(entry.get("scene", ""), str):
         raise Error(f"{file}: task {name}: overrides is an object and scene a text")
+    if not isinstance(entry.get("random", {}), dict):
+        raise Error(f"{file}: task {name}: random = {json.dumps(entry['random'])} is not allowed: needs an object")
+    for key, distribution in entry.get("random", {}).items():
+        try:
+            check_distribution(key, distribution)
+        except Error as error:
+            raise Error(f"{file}: task {name}: {error}") from error
     for key in ("anatomies", "targets", "instruments", "frictions"):
         if not isinstance(entry.get(key, []), list):
             raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
     for key, least in (("time", 1e-6), ("tolerance", 1e-9), ("speed", 1e-9), ("rotation", 1e-9), ("insertion", 0.0),
                        ("tipTurns", 1)):
-        if key in entry:
-            _number(entry, key, least, 1e9, file)
+        given = [entry[key]] if key in entry else []
+        for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
+            _number({key: one}, key, least, 1e9, file)
+    for one in of_each(entry.get("follow"), 1):
+        if one is not None:
+            _number({"follow": one}, "follow", 0.0, 1e9, file)
     given = {{"tipTurns": "tip_turns"}.get(key, key): value for key, value in entry.items()}
     if "anatomies" in given:
         given["anatomies"] = [each for one in given["anatomies"] for each in _vessels(one, name, file)]
@@ -144,7 +201,23 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     task = Task(name, **given)
     if not task.anatomies or not task.targets:
         raise Error(f"{file}: task {name} needs anatomies and targets")
+    for key in (*_EACH, "follow"):
+        value, count = getattr(task, key), task.hubs - (key == "follow")
+        if isinstance(value, list) and len(value) != count:
+            raise Error(f"{file}: task {name}: {key} = {json.dumps(value)} is not allowed: needs a number, or {count}")
     return task
+
+
+def _stiffer(scene: Mapping[str, Any], factor: float) -> dict[str, Any]:
+    """The wire of other moduli."""
+    if "instrument" in scene or "youngsModulus" not in scene:
+        raise Error("random \"stiffness\" is not allowed: it needs a wire whose scene states youngsModulus")
+
+    def scaled(table: Mapping[str, Any]) -> dict[str, Any]:
+        return {**table, **{key: factor * table[key] for key in _STIFF if key in table}}
+
+    sections = [scaled(one) for one in scene.get("wireSections") or ()]
+    return {**scaled(scene), **({"wireSections": sections} if sections else {})}
 
 
 def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:

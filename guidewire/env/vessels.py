@@ -7,15 +7,18 @@ import importlib.util
 import json
 import os
 import shutil
+import sys
 import tempfile
+import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
 from guidewire.env.spaces import Error
 
-_MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "sampling", "loops", "output", "mesh",
-            "intersections")
+_MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "sampling", "loops", "output",
+            "mesh", "intersections")
+_ABANDONED = 3 * 3600.0  # s since something was written there
 
 
 def made_vessel(which: Mapping[str, Any]) -> Path:
@@ -28,7 +31,8 @@ def made_vessel(which: Mapping[str, Any]) -> Path:
     Notes
     -----
     Made in the user's cache folder, under a name that holds a sum over the generator's sources: other sources, another
-    vessel. Needs vtk, and a minute, when it is made.
+    vessel. Needs vtk, and a minute, when it is made; then lines on stderr say what is being done. A folder is written
+    whole or not at all.
     """
     generator = Path(__file__).parents[1] / "anatomy"
     sources = b"".join((generator / f"{name}.py").read_bytes() for name in _MADE_BY)
@@ -37,6 +41,9 @@ def made_vessel(which: Mapping[str, Any]) -> Path:
     folder = _cache() / name
     if not (folder / "scene.json").is_file():
         folder.parent.mkdir(parents=True, exist_ok=True)
+        for left in folder.parent.glob(f"{name}.*"):    # by a process that was killed
+            if time.time() - left.stat().st_mtime > _ABANDONED:
+                shutil.rmtree(left, ignore_errors=True)
         partial = Path(tempfile.mkdtemp(prefix=f"{name}.", dir=folder.parent))
         try:
             _make(which, partial)
@@ -60,15 +67,25 @@ def _make(which: Mapping[str, Any], folder: Path) -> None:
     from guidewire.anatomy.reading import Source
     from guidewire.anatomy.repair import repair
 
+    began = time.monotonic()
+
+    def tell(what: str) -> None:
+        print(f"{which['make']}, type {which.get('type', 1)}, seed {which['seed']}, made once for all episodes: {what} "
+              f"({time.monotonic() - began:.0f} s)", file=sys.stderr, flush=True)
+
+    tell("surface")
     mesh, unit, notes = shapes.make(which["make"], which.get("type", 1), which["seed"], None, None)
     source = Source(mesh, unit, "as made", Axes(), notes, str(which))
+    tell("check and repair")
     found = inspect(mesh, unit)
     repaired = repair(mesh)
+    tell("centreline")
     line = find_centreline(repaired.mesh, repaired.rims)
     inlet, target = (output.find_end(line, str(which[key])) for key in ("inlet", "target"))
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
     scene = output.scene(line, found.unit, inlet, target, which.get("diameter", 0.36), source.axes)
     (folder / output.SCENE).write_text(json.dumps(scene, indent=2) + "\n", encoding="utf-8")
+    tell("done")
 
 
 def _cache() -> Path:

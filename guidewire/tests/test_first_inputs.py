@@ -123,7 +123,7 @@ def test_sessions(runner_command, asked, said):
     (lambda folder: Environment("artery").step(np.zeros(2)), "reset"),
     (lambda folder: VectorEnvironment("artery", 0), "num_envs"),
     (lambda folder: VectorEnvironment("artery", 2, backend="process"), "needs \"threads\" or \"processes\""),
-    (lambda folder: Environment("artery", render_mode="human"), "render_mode"),
+    (lambda folder: Environment("artery", render_mode="ansi"), "render_mode"),
 ])
 def test_environments(tmp_path, asked, said):
     with pytest.raises(Error) as caught:

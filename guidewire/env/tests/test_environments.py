@@ -1,6 +1,7 @@
 """One environment against Gymnasium's protocol, against itself and against a session; and how it refuses."""
 
 import importlib.util
+import json
 from dataclasses import replace
 
 import numpy as np
@@ -10,12 +11,14 @@ from guidewire.env import Drive, Environment, Observation, RecordedDrive, Reward
 from guidewire.env import own_spaces
 from guidewire.env.observation import _in_frame
 from guidewire.env.own_spaces import Box, Dict, Discrete, MultiDiscrete
-from guidewire.env.route import Route
+from guidewire.env.route import Placement, Route
 from guidewire.env.spaces import ClosedEnvironmentError, Error, InvalidAction, NameNotFound, ResetNeeded
 from guidewire.env.task import find_task
 from guidewire.env.tests.environment_cases import anatomy_of, environment, same, tube  # noqa: F401
+from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 
+ANATOMY = ROOT / "guidewire" / "env" / "data" / "artery.json"
 NOMINAL = {"nominal": True}
 
 
@@ -32,7 +35,7 @@ def test_reset_and_step_give_what_gymnasium_says_and_end_once(environment):
         assert ("report" in info) == ended
     report = info["report"]
     assert truncated and report["end"] == "time" and not report["success"] and report["time"] == pytest.approx(2.8)
-    assert len(report["forces"]) == 40 and report["largest_force"] == report["forces"].max()    # 20 steps of 2 each
+    assert len(report["forces"]) == 40 and report["largest_force"] == max(report["forces"])    # 20 steps of 2 each
     with pytest.raises(ResetNeeded):
         environment.step(np.zeros(2))
 
@@ -96,6 +99,40 @@ def test_a_route_turns_round_at_a_fork():
             Route(anatomy_of(points, 1.0, [1, 1, 2, 3, 3], [-1, 0, 1, 1, 3], [0, 2, 4]), wrong)
 
 
+def test_a_route_lies_where_the_scene_places_its_vessel():
+    """Against the centreline that the core has placed: scaled, turned about three axes and moved."""
+    mesh = {"shape": "mesh", "file": str(ROOT / "params" / "meshes" / "artery.obj"), "anatomy": str(ANATOMY)}
+    scene = json.loads((ROOT / "params" / "sheath.json").read_text()) | {"vessel": mesh, "sheath": {}, "inlet": 1}
+    scene.pop("guidewireOffset")
+    placed = {"scale": [1.2] * 3, "rotation": [20.0, -35.0, 70.0], "position": [5.0, -6.0, 7.0]}
+    anatomy = json.loads(ANATOMY.read_text())
+    with Session(None, hand=True, **scene, **placed, target=2) as session:
+        target = session.describe()["target"]
+        route = Route(anatomy, 2, 1.0, Placement.of(session.parameters))
+        np.testing.assert_allclose(route.points[target["indices"]], target["points"], atol=1e-9)
+        # The core counts along the chain from the inlet, a route from the tip's place.
+        assert route.place(session.state.positions[-1])[1] == pytest.approx(session.state.place.left, abs=1e-6)
+    with pytest.raises(Error, match="one factor"):
+        Placement.of({"scale": [1.0, 1.0, 1.1]})
+
+
+def test_a_tip_that_leaves_by_an_open_end_ends_the_episode_without_success(tube):
+    task = replace(tube, targets=(("branch 1", 126.0),), tolerance=0.01, time=28.0)
+    with Environment(task) as own:
+        own.reset(options=NOMINAL)
+        lefts = [own.report.left]
+        while True:
+            _, reward, terminated, truncated, info = own.step([1.0, 0.0])
+            if terminated or truncated:
+                break
+            lefts.append(info["left"])
+        report = info["report"]
+        assert terminated and not truncated and report["end"] == "left the vessel" and not report["success"]
+        # The tube is 90 + sqrt(2000) long from z = -70, and the wire begins at z = -2.
+        assert 1e3 * report["inserted"] == pytest.approx(22.0 + 2000.0**0.5, abs=3.5)
+        assert reward == pytest.approx(-0.02 * 0.14) and report["left"] == lefts[-1]
+
+
 def test_a_start_in_the_vessel_is_the_bits_of_the_insertion_there_and_a_snapshot_goes_on_from_them(tube):
     options = {"target": 1, "friction": 0.1, "tip_turn": 0.5, "insertion": 0.01}
     with Environment(tube) as one, Environment(tube) as other:
@@ -139,7 +176,8 @@ def test_what_is_asked_wrongly_is_refused_as_gymnasium_refuses(environment, tube
             environment.step(action)
     before = environment.session.state.step
     assert before == 0    # refused before anything moved
-    for options in ({"nonsense": 1}, {"target": 2}, {"friction": -0.1}, {"friction": np.nan}, {"tip_turn": "half"},
+    for options in ({"nonsense": 1}, {"target": 2}, {"target": 1.0}, {"target": True}, {"anatomy": 0.0},
+                    {"friction": -0.1}, {"friction": np.nan}, {"tip_turn": "half"},
                     {"snapshot": b"nothing"}, {"insertion": -1e-3}):
         with pytest.raises(Error) as refused:
             environment.reset(options=options)
@@ -147,8 +185,6 @@ def test_what_is_asked_wrongly_is_refused_as_gymnasium_refuses(environment, tube
     with pytest.raises((Error, ValueError)):
         environment.reset(seed=-1)
     with pytest.raises(Error, match="multiple"), Environment(tube, drive=Drive(step_time=0.1)) as wrong:
-        wrong.reset()
-    with pytest.raises(Error, match="one hub"), Environment(replace(tube, overrides={"catheters": [{}]})) as wrong:
         wrong.reset()
     with pytest.raises(Error, match="observation part"):
         Observation(parts=("tips",))

@@ -62,7 +62,10 @@ def test_environment_i_of_several_has_the_seed_plus_i(tube):
         one, info = vector.reset(seed=7)
         other, listed = vector.reset(seed=[7, 8])
         same(one, other)
-        assert info["draw"].tolist() == listed["draw"].tolist() and info["draw"][0] != info["draw"][1]
+        for key, values in info["draw"].items():
+            assert values.tolist() == listed["draw"][key].tolist()
+        assert len({(one, other) for one, other in zip(info["draw"]["target"].tolist(),
+                                                       info["draw"]["tip_turn"].tolist())}) == 2
 
 
 def test_after_an_end_the_next_step_begins_anew_without_looking_at_its_action(tube):
@@ -70,7 +73,8 @@ def test_after_an_end_the_next_step_begins_anew_without_looking_at_its_action(tu
         vector.reset(seed=1)
         for _ in range(20):
             _, _, _, truncated, info = vector.step(np.zeros((1, 2), np.float32))
-        assert truncated[0] and info["report"][0]["end"] == "time" and info["_report"].tolist() == [True]
+        assert truncated[0] and info["report"]["end"].tolist() == ["time"] and info["_report"].tolist() == [True]
+        assert info["report"]["left"].dtype == float and info["report"]["_left"].tolist() == [True]
         _, rewards, terminated, truncated, info = vector.step(np.full((1, 2), np.nan))
         assert (rewards[0], terminated[0], truncated[0]) == (0.0, False, False) and "draw" in info
 

@@ -1,0 +1,114 @@
+"""What a seed draws for an episode, and what options put in its place."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from numbers import Integral, Real
+from typing import Any
+
+import numpy as np
+
+from guidewire.env.randomisation import drawn_from, middle_of
+from guidewire.env.spaces import Error
+from guidewire.env.task import Task
+
+_OPTIONS = ("nominal", "anatomy", "target", "instrument", "friction", "tip_turn", "insertion", "snapshot")
+_LEAST_AND_MOST = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.0, 10.0)}
+
+
+@dataclass(frozen=True)
+class Draw:
+    """What a seed has drawn for an episode; see Task.
+
+    Attributes
+    ----------
+    instrument : a name, or of the wire and the catheters, or None: the scene's.
+    tip_turn : of the wire, rad.
+    insertion : of each hub, or of all, m.
+    random : by name, of the task's `random`.
+    """
+
+    anatomy: int
+    target: int
+    instrument: Any
+    friction: float
+    tip_turn: float
+    insertion: Any
+    random: dict[str, Any] = field(default_factory=dict)
+
+    def as_options(self) -> dict[str, Any]:
+        """Of a reset that draws the same."""
+        return {key: value for key, value in vars(self).items() if key != "random"} | self.random
+
+
+def draw_of(task: Task, random: np.random.Generator) -> Draw:
+    """An episode of a task by chance."""
+    anatomy, target, instrument, friction, turn = (int(random.integers(max(n, 1))) for n in (
+        len(task.anatomies), len(task.targets), len(task.instruments), len(task.frictions), task.tip_turns))
+    values = {name: drawn_from(given, random) for name, given in task.random.items()}
+    return _with_values(Draw(anatomy, target, task.instruments[instrument] if task.instruments else None,
+                             float(task.frictions[friction]), _turn(turn, task.tip_turns), task.insertion), values)
+
+
+def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:
+    """What was drawn with the options of a reset in its place.
+
+    Raises
+    ------
+    Error : there is no such option, or its value is not allowed.
+    """
+    options = dict(options)
+    allowed = dict.fromkeys((*_OPTIONS, *task.random))
+    for key in options:
+        if key not in allowed:
+            raise Error(f"option \"{key}\" is not allowed: there are {', '.join(allowed)}")
+    if options.get("snapshot") is not None and len(options) > 1:
+        raise Error("option \"snapshot\" stands alone")
+    options.pop("snapshot", None)
+    if options.pop("nominal", False):
+        first = Draw(0, 0, task.instruments[0] if task.instruments else None, float(task.frictions[0]), 0.0,
+                     task.insertion)
+        drawn = _with_values(first, {name: middle_of(given) for name, given in task.random.items()})
+    for key, count in (("anatomy", len(task.anatomies)), ("target", len(task.targets))):
+        if key in options:
+            value = options[key]
+            if not isinstance(value, Integral) or isinstance(value, bool) or not 0 <= value < count:
+                raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a whole number below {count}")
+            options[key] = int(value)
+    for key in options:
+        if key in _LEAST_AND_MOST:
+            options[key] = _numbers(key, options[key], *_LEAST_AND_MOST[key], task.hubs if key == "insertion" else 0)
+        elif key in task.random:
+            options[key] = _finite(key, options[key])
+    return _with_values(drawn, options)
+
+
+def _with_values(draw: Draw, values: Mapping[str, Any]) -> Draw:
+    own = {key: value for key, value in values.items() if key in _OPTIONS}
+    rest = {key: value for key, value in values.items() if key not in _OPTIONS}
+    return replace(draw, **own, random={**draw.random, **rest})
+
+
+def _numbers(key: str, value: Any, least: float, most: float, hubs: int) -> Any:
+    if hubs > 1 and isinstance(value, (list, tuple)) and len(value) == hubs:
+        return [_numbers(key, one, least, most, 0) for one in value]
+    is_number = isinstance(value, Real) and not isinstance(value, bool)
+    if not is_number or not least <= value <= most:
+        of_all = f", or {hubs} of them" if hubs > 1 else ""
+        raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a number from {least:g} to {most:g}{of_all}")
+    return float(value)
+
+
+def _finite(key: str, value: Any) -> Any:
+    if isinstance(value, (list, tuple, np.ndarray)):
+        return [_finite(key, one) for one in value]
+    if isinstance(value, bool) or not isinstance(value, Real) or not math.isfinite(value):
+        raise Error(f"option \"{key}\" = {value!r} is not allowed: needs finite numbers")
+    return int(value) if isinstance(value, Integral) else float(value)
+
+
+def _turn(index: int, count: int) -> float:
+    """Even turns from 0, the shorter way round."""
+    return 2.0 * np.pi * (index if 2 * index <= count else index - count) / count

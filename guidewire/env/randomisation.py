@@ -1,0 +1,83 @@
+"""Distributions that a task's values are drawn from."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping
+from typing import Any
+
+import numpy as np
+
+from guidewire.env.spaces import Error
+
+_ALLOWED = ("[from, to], {\"uniform\": [from, to]}, {\"logUniform\": [from, to]}, {\"normal\": [mean, deviation], "
+            "\"within\": [from, to]}, {\"integers\": [from, to]}, {\"choice\": [...]}, or {\"vector\": [one for each "
+            "axis]}")
+
+
+def check_distribution(name: str, given: Any) -> None:
+    """Raises Error, one line, where it is no distribution."""
+    kind, numbers, within = _parts(given)
+    is_pair = isinstance(numbers, (list, tuple)) and len(numbers) == 2 and all(map(_is_number, numbers))
+    is_whole = is_pair and all(type(one) is int for one in numbers)
+    good = {
+        "uniform": is_pair and numbers[0] <= numbers[1], "logUniform": is_pair and 0.0 < numbers[0] <= numbers[1],
+        "normal": is_pair and numbers[1] >= 0.0, "integers": is_whole and numbers[0] <= numbers[1],
+        "choice": isinstance(numbers, (list, tuple)) and len(numbers) > 0,
+        "vector": isinstance(numbers, (list, tuple)) and len(numbers) > 0,
+    }.get(kind, False)
+    if within is not None:
+        good = good and isinstance(within, (list, tuple)) and len(within) == 2 and all(map(_is_number, within))
+        good = good and within[0] < within[1] and within[0] <= numbers[0] <= within[1]
+        good = good and numbers[1] <= 100.0 * (within[1] - within[0])    # drawn until it is within
+    if not good:
+        raise Error(f"random \"{name}\" = {json.dumps(given)} is not allowed: needs {_ALLOWED}")
+    if kind == "vector":
+        for one in numbers:
+            check_distribution(name, one)
+
+
+def drawn_from(given: Any, random: np.random.Generator) -> Any:
+    """A value of a distribution."""
+    kind, numbers, within = _parts(given)
+    if kind == "vector":
+        return [drawn_from(one, random) for one in numbers]
+    if kind == "choice":
+        return numbers[int(random.integers(len(numbers)))]
+    if kind == "integers":
+        return int(random.integers(numbers[0], numbers[1] + 1))
+    if kind == "uniform":
+        return float(random.uniform(*numbers))
+    if kind == "logUniform":
+        return float(np.exp(random.uniform(math.log(numbers[0]), math.log(numbers[1]))))
+    value = float(random.normal(*numbers))
+    while within is not None and not within[0] <= value <= within[1]:
+        value = float(random.normal(*numbers))
+    return value
+
+
+def middle_of(given: Any) -> Any:
+    """What an episode without chance has: the middle, or the first."""
+    kind, numbers, _ = _parts(given)
+    if kind == "vector":
+        return [middle_of(one) for one in numbers]
+    if kind == "uniform":
+        return 0.5 * (numbers[0] + numbers[1])
+    return math.sqrt(numbers[0] * numbers[1]) if kind == "logUniform" else numbers[0]
+
+
+def _parts(given: Any) -> tuple[str, Any, Any]:
+    if isinstance(given, (list, tuple)):
+        return "uniform", given, None
+    if not isinstance(given, Mapping):
+        return "", None, None
+    within = given.get("within")
+    kinds = [key for key in given if key != "within"]
+    if len(kinds) != 1 or within is not None and kinds != ["normal"]:
+        return "", None, None
+    return kinds[0], given[kinds[0]], within
+
+
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool) and math.isfinite(value)
