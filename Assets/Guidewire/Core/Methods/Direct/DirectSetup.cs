@@ -8,10 +8,12 @@ namespace Guidewire.Core
     internal static class DirectSetup
     {
         /// <summary>The motion of a scene's rod by the direct solver.</summary>
-        public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms)
+        /// <param name="work">What the run may take; null where all of the run is this motion.</param>
+        public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
+            WorkLimit? work = null)
         {
             var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
-                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations)
+                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations, work)
             {
                 Cancellation = parameters.Method.Cancellation,
             };

@@ -101,6 +101,7 @@ namespace Guidewire.Core
             {
                 _start.Save();
             }
+            _dynamics.Work.BeginStep();
             (double insertion, double turn) = (Drive.Insertion, Drive.Turn);
             Drive.Prepare(Shape, Time);
             bool isDone = Step(TimeStep, insertion, turn);
@@ -120,9 +121,6 @@ namespace Guidewire.Core
         {
             return Step(length, Drive.Insertion, Drive.Turn);
         }
-
-        /// <summary>Newton iterations so far.</summary>
-        public long Iterations => _dynamics.Newton.Iterations;
 
         // From where the hub was at the step's start, m and radians.
         private bool Step(double length, double insertion, double turn)
@@ -404,6 +402,7 @@ namespace Guidewire.Core
             Energy.Serialize(snapshot);
             Drive.Serialize(snapshot);
             _dynamics.Clock.Serialize(snapshot);
+            _dynamics.Work.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             SerializeRecord(snapshot);
             Ends.SerializeWork(snapshot);

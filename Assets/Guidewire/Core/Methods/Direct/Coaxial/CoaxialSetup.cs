@@ -26,6 +26,7 @@ namespace Guidewire.Core
         public CoaxialSetup(SimulationParameters parameters)
         {
             _parameters = parameters;
+            Work = new WorkLimit(parameters.Method.MaxNewtonIterations);
             IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
             int count = catheters.Count + 1;
             Scenes = new MaterialScene[count];
@@ -186,10 +187,13 @@ namespace Guidewire.Core
             return terms;
         }
 
+        /// <summary>What the run may take.</summary>
+        public WorkLimit Work { get; }
+
         /// <summary>The motion of all.</summary>
         public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
         {
-            return DirectSetup.DynamicsOf(_parameters, scene, terms);
+            return DirectSetup.DynamicsOf(_parameters, scene, terms, Work);
         }
 
         /// <summary>Finds the rest shape of all. Along the axis loads have the directions of a shape: so it is found

@@ -9,7 +9,6 @@ namespace Guidewire.Core
     /// changes, and where a tip inside comes into another element.</remarks>
     internal sealed class CoaxialStep : TimeStepper
     {
-        private const int MostSolutions = 400;     // of a step's trials with other displacements of the hubs
         private readonly MethodParameters _method;
         private readonly SolverReport _report;
         private readonly CoaxialSetup _setup;
@@ -139,6 +138,7 @@ namespace Guidewire.Core
         /// <returns>False where it has no solution or has lost an instrument.</returns>
         public bool Step()
         {
+            _setup.Work.BeginStep();
             return _isLimited ? StepWithSlip() : StepAsRequested();
         }
 
@@ -148,7 +148,6 @@ namespace Guidewire.Core
             int wire = _drives.Length - 1;
             (HubSlip catheterSlip, HubSlip wireSlip) = (_slips[0], _slips[wire]);
             _start.Save();
-            long most = _whole.Iterations + (long)MostSolutions * _method.MaxNewtonIterations;
             catheterSlip.Begin();
             bool isDone;
             double outer = _drives[0].Insertion;
@@ -162,16 +161,17 @@ namespace Guidewire.Core
                     if (wireSlip.Displacement != null || catheterSlip.Displacement != null)
                     {
                         _start.Restore();
+                        _setup.Work.Count();
                     }
                     inner = _drives[wire].Insertion;
                     _drives[wire].Give(wireSlip.Displacement);
                     isDone = StepAsRequested();
                 }
                 while (wireSlip.NeedsAnother(_drives[wire].Insertion - inner,
-                    isDone ? Coaxial()!.WireForce : double.NaN, _whole.Iterations > most));
+                    isDone ? Coaxial()!.WireForce : double.NaN, _setup.Work.IsScarce));
             }
             while (catheterSlip.NeedsAnother(_drives[0].Insertion - outer,
-                isDone ? Coaxial()!.Force : double.NaN, _whole.Iterations > most));
+                isDone ? Coaxial()!.Force : double.NaN, _setup.Work.IsScarce));
             _drives[0].Give(null);
             _drives[wire].Give(null);
             catheterSlip.EndStep(isDone ? Coaxial()!.Force : 0.0);

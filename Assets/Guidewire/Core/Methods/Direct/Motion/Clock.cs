@@ -17,18 +17,17 @@ namespace Guidewire.Core
     /// descends far, energy falling in every iteration. So there the shortest piece may take
     /// <see cref="IterationFactor"/> times as many iterations.
     ///
-    /// The work is bounded: after its first halving a step, with all of its parts, may take <see cref="MostSolutions"/>
-    /// times the iterations that one solution may take.</remarks>
+    /// The work is bounded: what a step takes after its first halving counts for the <see cref="WorkLimit"/>.</remarks>
     internal sealed class Clock
     {
         private const int Whole = 1 << 12;        // ticks of a part
         private const int MostPatience = 256;
         private const int MoreIterations = 10;    // as a rest shape has
-        private const int MostSolutions = 200;
         private const double SameTime = 1e-9;     // of a piece
 
         private readonly ImplicitStepper _stepper;
         private readonly RodSchedule _schedule;
+        private readonly WorkLimit _work;
         private double _stepLength;   // s
         private double _length;       // of a part, s
         private int _parts;           // with the present one
@@ -37,8 +36,7 @@ namespace Guidewire.Core
         private int _ticks;           // of that piece
         private double _done;         // of it, s
         private double _until;        // where the interval that was proposed has to end, s after the piece's start
-        private long _mostIterations; // of the run, in this step
-        private string _halvedFor = "";   // why an interval of this part was halved last
+        private string? _halvedFor;   // why an interval of this step was halved last
         private int _size = Whole;    // of a piece, ticks
         private int _patience = 1;    // pieces of one length before a longer one is tried
         private int _solved;          // of this length
@@ -48,10 +46,11 @@ namespace Guidewire.Core
         public Interval Shorter { get; private set; }
 
         /// <summary>For steps of this scheme under this schedule.</summary>
-        public Clock(ImplicitStepper stepper, RodSchedule schedule)
+        public Clock(ImplicitStepper stepper, RodSchedule schedule, WorkLimit work)
         {
             _stepper = stepper;
             _schedule = schedule;
+            _work = work;
         }
 
         /// <summary>Pieces that were halved so far.</summary>
@@ -74,7 +73,7 @@ namespace Guidewire.Core
             _length = length / parts;
             _parts = parts;
             Failure = null;
-            _mostIterations = long.MaxValue;
+            _halvedFor = null;
             BeginPart();
         }
 
@@ -92,9 +91,7 @@ namespace Guidewire.Core
         /// <summary>Whether an interval is kept. If not, <see cref="Failure"/> says why there is no other try, or
         /// <see cref="Shorter"/> is the next one.</summary>
         /// <param name="failure">Why it has no solution, or null.</param>
-        /// <param name="iterations">Newton iterations of the run so far.</param>
-        /// <param name="mostIterations">That one solution may take.</param>
-        public bool Accepts(in Interval tried, string? failure, long iterations, int mostIterations)
+        public bool Accepts(in Interval tried, string? failure)
         {
             bool isSolved = failure == null;
             bool isKept = _stepper.Control.Accepts(isSolved ? _stepper.Error : 0.0, tried.Length, LengthOf(_ticks),
@@ -102,7 +99,7 @@ namespace Guidewire.Core
             if (isKept && isSolved)
             {
                 Advance(tried);
-                BoundWork(iterations);
+                BoundWork();
                 return Failure == null;
             }
             if (isKept && _stepper.MayRestart)
@@ -119,9 +116,9 @@ namespace Guidewire.Core
             else if (isKept)
             {
                 Halve(tried);
-                _halvedFor = failure!;
-                _mostIterations = Math.Min(_mostIterations, iterations + (long)MostSolutions * mostIterations);
-                BoundWork(iterations);
+                _halvedFor = failure;
+                _work.Count();
+                BoundWork();
             }
             Shorter = Propose();
             return false;
@@ -226,13 +223,12 @@ namespace Guidewire.Core
             }
         }
 
-        private void BoundWork(long iterations)
+        private void BoundWork()
         {
-            if (iterations > _mostIterations && _tick < Whole)
+            if (_work.IsOver && _halvedFor != null && _tick < Whole)
             {
-                Failure = _halvedFor + string.Format(CultureInfo.InvariantCulture,
-                    "; halved to pieces of {0:G3} s the step took more than {1} times maxNewtonIterations",
-                    LengthOf(_size), MostSolutions);
+                Failure = string.Format(CultureInfo.InvariantCulture, "{0}; halved to pieces of {1:G3} s; {2}",
+                    _halvedFor, LengthOf(_size), WorkLimit.Text);
             }
         }
     }

@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private readonly ImplicitStepper _stepper;
         private readonly ImplicitStage _stage;
         private readonly StepStart _start;   // of an interval
+        private readonly WorkLimit _work;
 
         /// <summary>A rod at rest in this shape.</summary>
         /// <param name="terms">The rod's energies and loads.</param>
@@ -26,8 +27,9 @@ namespace Guidewire.Core
         /// <param name="tolerance">On each stage's error: radians, or displacement over L; and on what a step may leave
         /// of the balance of forces, over the largest force in the rod.</param>
         /// <param name="mostIterations">Newton iterations of a stage.</param>
+        /// <param name="work">Of the run; null: of this motion alone.</param>
         public RodDynamics(RodTerms terms, RodSchedule schedule, RodShape shape, RungeKuttaScheme? scheme,
-            double tolerance, int mostIterations)
+            double tolerance, int mostIterations, WorkLimit? work = null)
         {
             _terms = terms;
             _schedule = schedule;
@@ -39,7 +41,8 @@ namespace Guidewire.Core
             Newton.Tolerance = tolerance;
             Newton.Balance = tolerance / (2.0 * _stepper.WeightSum);
             _start = new StepStart(SerializeInterval);
-            Clock = new Clock(_stepper, schedule);
+            _work = work ?? new WorkLimit(mostIterations);
+            Clock = new Clock(_stepper, schedule, _work);
         }
 
         /// <summary>Takes over the velocities of the start.</summary>
@@ -100,6 +103,9 @@ namespace Guidewire.Core
         /// <summary>Divides steps into intervals.</summary>
         public Clock Clock { get; }
 
+        /// <summary>How many iterations the steps may take.</summary>
+        public WorkLimit Work => _work;
+
         /// <summary>How intervals follow from error estimates.</summary>
         public StepControl Control => _stepper.Control;
 
@@ -138,7 +144,7 @@ namespace Guidewire.Core
             {
                 _start.Save();
                 string? failure = Step(interval);
-                while (!Clock.Accepts(interval, failure, Newton.Iterations, MostIterations))
+                while (!Clock.Accepts(interval, failure))
                 {
                     if (Clock.Failure != null)
                     {
@@ -211,7 +217,9 @@ namespace Guidewire.Core
             long factor = _terms.Walls() == null ? 1 : Clock.IterationFactor;
             Newton.MostIterations = (int)Math.Min(factor * MostIterations, int.MaxValue);
             Cancellation.ThrowIfCancellationRequested();
+            long before = Newton.Iterations;
             string? failure = _stepper.Step(interval);
+            _work.Take(Newton.Iterations - before);
             Time = interval.End;
             return failure;
         }

@@ -11,6 +11,7 @@ namespace Guidewire.Core
         private readonly JointPieces _pieces;
         private readonly Barrier _barrier;
         private readonly SupportSpring _support;
+        private readonly WorkLimit _work;
 
         /// <summary>For the wire of this scene.</summary>
         /// <exception cref="ArgumentException">A sheath from which the wire cannot be fed into the vessel.</exception>
@@ -33,6 +34,7 @@ namespace Guidewire.Core
             _barrier = BarrierDefaults.Of(whole.Rod, parameters.Contact, whole.Walls, whole.Metres,
                 parameters.Drive.LargestMove(parameters.Method.TimeStep, whole.Metres));
             _support = new SupportSpring(whole.Rod, parameters.Drive.HubForceLimit);
+            _work = new WorkLimit(parameters.Method.MaxNewtonIterations);
         }
 
         /// <summary>Where the sheath leads, a unit vector.</summary>
@@ -106,7 +108,7 @@ namespace Guidewire.Core
                 walls.Barrier.TakeNeighbours(before, entered);
             }
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
-            return DirectSetup.DynamicsOf(_parameters, scene, terms);
+            return DirectSetup.DynamicsOf(_parameters, scene, terms, _work);
         }
 
         private static Vector3d[] Tail(Vector3d[] all, int first)

@@ -1,0 +1,69 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>How many Newton iterations the steps of a run may take beyond those that solve them as asked: many at
+    /// once, and a few a step in the long run.</summary>
+    /// <remarks>Counted is what a step takes after its first halving or its first trial of another displacement of a
+    /// hub; the others are not, however many intervals they have. A snap takes a thousand iterations once. A wire that
+    /// coils up and jams under a steady push takes hundreds in every step: what is left then falls to nothing, and the
+    /// run ends. Where half is left hubs look no further for the displacement that their limit allows, so that the
+    /// step can still be solved with the best that was found. Iterations are counted, no times: a run ends at the same
+    /// step on every machine.</remarks>
+    internal sealed class WorkLimit
+    {
+        private const int AtOnce = 200;   // times the iterations that one solution may take
+        private const int AStep = 4;      // the same
+
+        private readonly int _mostIterations;
+        private long _left;               // iterations
+        private bool _isCounted;
+
+        /// <summary>All of it.</summary>
+        /// <param name="mostIterations">That one solution may take.</param>
+        public WorkLimit(int mostIterations)
+        {
+            _mostIterations = mostIterations;
+            _left = Most;
+        }
+
+        /// <summary>Whether nothing is left.</summary>
+        public bool IsOver => _left < 0;
+
+        /// <summary>Whether less than half of the most is left.</summary>
+        public bool IsScarce => _left < Most / 2;
+
+        /// <summary>That nothing is left, in one phrase.</summary>
+        public static string Text => string.Format(CultureInfo.InvariantCulture,
+            "steps that were halved took more Newton iterations than a run may ({0} times maxNewtonIterations at once, "
+            + "{1} times a step), as where a wire coils up or jams", AtOnce, AStep);
+
+        /// <summary>A step begins.</summary>
+        public void BeginStep()
+        {
+            _isCounted = false;
+            _left = Math.Min(_left + (long)AStep * _mostIterations, Most);
+        }
+
+        /// <summary>What the step takes from now on is counted.</summary>
+        public void Count()
+        {
+            _isCounted = true;
+        }
+
+        /// <summary>Iterations were made.</summary>
+        public void Take(long iterations)
+        {
+            _left -= _isCounted ? iterations : 0;
+        }
+
+        /// <summary>Writes or restores what is left.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _left);
+        }
+
+        private long Most => (long)AtOnce * _mostIterations;
+    }
+}
