@@ -53,6 +53,11 @@ namespace Guidewire.Core
             }
             result.Method = method;
             result.Residual = Residual(shape);
+            if (result.Converged && !(result.Residual <= double.MaxValue))
+            {
+                result.Converged = false;
+                result.Reason = "the forces on it are no finite numbers";
+            }
             return result;
         }
 

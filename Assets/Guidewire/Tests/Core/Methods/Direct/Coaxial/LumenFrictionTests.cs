@@ -137,6 +137,27 @@ namespace Guidewire.Core.Tests
             return run;
         }
 
+        /// <summary>Coefficients that no file may have: the force overflows, and no result with it is
+        /// reliable.</summary>
+        [TestCase(10.0)]
+        [TestCase(1e3)]
+        [TestCase(1e300)]
+        public void ForceBeyondWhatTheWireBears_IsNotReliable(double coefficient)
+        {
+            Start(coefficient, 90.0, out _, out SimulationParameters parameters);
+            parameters.Drive.Steering = null;
+            parameters.Drive.InsertionSpeed = -0.05;
+            parameters.Method.MaxSimulationSteps = 12;
+            Simulation run = Simulation.Create(parameters);
+            Wires.Step(run, 12);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            double force = run.Hub()!.Force;
+            TestContext.WriteLine("{0:G4} N", force);
+            Assert.That(Math.Abs(force) <= 0.2 * Math.PI * 1e-8 * 2e9, Is.False);
+            Assert.That(run.Warnings, Has.Some.Contains("outermost fibre was strained"));
+            Assert.That(run.IsReliable, Is.False);
+        }
+
         // It goes on with a hub that slips, as hubs do between walls: one that is far from both.
         private static Simulation StartSlipping(double coefficient, double degrees, double limit, out Steering hub,
             double lead = 50.0)
