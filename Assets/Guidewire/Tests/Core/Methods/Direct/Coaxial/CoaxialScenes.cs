@@ -64,7 +64,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Work of both hubs, J, in one cycle, forth and back and turned, slowly: trapezoids of forces and
-        /// torques. Without shear, whose force jumps a little where a tip passes a node.</summary>
+        /// torques.</summary>
         /// <param name="perStep">Of an element of 10 mm, by which they move in a step.</param>
         /// <param name="peak">The largest that it was, J.</param>
         public static double CycleWork(SimulationParameters parameters, double perStep, out double peak)
@@ -74,8 +74,6 @@ namespace Guidewire.Core.Tests
             double dt = 40.0 * perStep;
             double top = steps * perStep * l;
             parameters.Material.MassDamping = 0.0;
-            parameters.Material.ShearFactor = 1e3;
-            parameters.Scene.Catheters[0].Material.ShearFactor = 1e3;
             parameters.Method.TimeStep = dt;
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.MaxSimulationSteps = 10 + 4 * steps;
