@@ -189,7 +189,7 @@ namespace Guidewire.Core
                 {
                     double along = Math.Abs(coaxial.Joints.LeadOf(i) - _lead[i]);
                     double about = Math.Abs(coaxial.HubTwist[i] - _hubTwist[i]);
-                    Work += along > 0.0 ? Math.Abs(coaxial.InnerForce(shape, _terms, i)) * along : 0.0;
+                    Work += along > 0.0 ? Math.Abs(_terms.Release!.InnerForce(shape, _terms, i)) * along : 0.0;
                     Work += about > 0.0 ? Math.Abs(coaxial.InnerTorque(shape, i)) * about : 0.0;
                     move += along;
                     turn += about;

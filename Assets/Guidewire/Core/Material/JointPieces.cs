@@ -14,8 +14,8 @@ namespace Guidewire.Core
         private readonly InstrumentProfile _profile;
         private readonly CoaxialPieces _side;
         private readonly double[] _station;      // of the n + 1 nodes, m from node 0
-        private readonly double[] _hub = new double[1];
-        private readonly double[] _end;
+        private readonly HubPlaces _hub = new HubPlaces(1);
+        private readonly HubSpeeds _back = new HubSpeeds(1) { Exit = -1.0 };   // of the cut, towards node 0
 
         /// <summary>Those of a wire.</summary>
         /// <param name="stations">Of its n + 1 nodes, m from node 0.</param>
@@ -24,7 +24,7 @@ namespace Guidewire.Core
             _profile = profile;
             _side = new CoaxialPieces(new[] { profile });
             _station = stations;
-            _end = new[] { profile.Length };
+            _hub.Ends[0] = profile.Length;
         }
 
         /// <summary>n + 1, m from node 0.</summary>
@@ -35,14 +35,31 @@ namespace Guidewire.Core
         public CoaxialJoint CutAt(int k, double cut)
         {
             var joint = default(CoaxialJoint);
+            _hub.Sheathed = cut;
             for (int other = Math.Max(k - 1, 0); other <= Math.Min(k + 1, _station.Length - 1); other++)
             {
                 if (other != k)
                 {
-                    _side.AddSide(ref joint, _station[k], _station[other], 0, 0, cut, _hub, _end);
+                    _side.AddSide(ref joint, _station[k], _station[other], 0, 0, _hub);
                 }
             }
             return joint;
+        }
+
+        /// <summary>The derivatives of its sums as the cut moves towards node 0.</summary>
+        /// <param name="cut">m from node 0.</param>
+        public CoaxialJoint RateAt(int k, double cut)
+        {
+            var rate = default(CoaxialJoint);
+            _hub.Sheathed = cut;
+            for (int other = Math.Max(k - 1, 0); other <= Math.Min(k + 1, _station.Length - 1); other++)
+            {
+                if (other != k)
+                {
+                    _side.AddSideRate(ref rate, _station[k], _station[other], 0, 0, _hub, _back, 0.0, 0.0);
+                }
+            }
+            return rate;
         }
 
         /// <summary>The fraction, weighted by its hat function, of the length of joint k that is beyond a
@@ -60,30 +77,6 @@ namespace Guidewire.Core
             double beyond = cut < node ? after + (node - cut) * (1.0 + (cut - node + before) / before)
                 : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - cut), 2.0) / after : 0.0;
             return beyond / (before + after);
-        }
-
-        /// <summary>By how much the energy of joint k falls, J/m, as a cut moves towards node 0: the wire at the cut
-        /// is straight before it and bends by its moment beyond. (m + B kappa)^2/(2 B) about each axis, times the hat
-        /// function there.</summary>
-        /// <param name="cut">m from node 0.</param>
-        /// <param name="moment1">m about d1, N m: of the joint, 0 at its turn at rest.</param>
-        /// <param name="moment2">The same about d2.</param>
-        public double ReleaseAt(int k, double cut, double moment1, double moment2)
-        {
-            int other = cut < _station[k] ? k - 1 : k + 1;
-            if (other < 0 || other >= _station.Length)
-            {
-                return 0.0;
-            }
-            double hat = (_station[other] - cut) / (_station[other] - _station[k]);
-            if (!(hat > 0.0))
-            {
-                return 0.0;
-            }
-            CrossSection piece = _profile.Pieces[_profile.PieceAt(cut)];
-            double full1 = moment1 + piece.BendStiffness1 * piece.RestCurvature.X;
-            double full2 = moment2 + piece.BendStiffness2 * piece.RestCurvature.Y;
-            return 0.5 * hat * (full1 * full1 / piece.BendStiffness1 + full2 * full2 / piece.BendStiffness2);
         }
 
         /// <summary>The next position after one, m from node 0, up to which releases are linear: a node or a border.

@@ -38,6 +38,7 @@ namespace Guidewire.Core
             Stretch = new StretchEnergy(rod);
             Bending = supports.Coaxial != null ? new CoaxialBendTwist(supports.Coaxial)
                 : BendTwistTerm.Create(rod.Joints(supports), supports);
+            Release = Bending is CoaxialBendTwist coaxial ? new Release(supports.Coaxial!, coaxial, Stretch) : null;
             Loads = new DeadLoads(Mass, rod.Length);
             Followers = new TipFollowers(rod, scene);
             _elastic = new EnergyTerm[]
@@ -82,6 +83,9 @@ namespace Guidewire.Core
 
         /// <summary>The loads on coaxial instruments; null where those on the chain are set by hand.</summary>
         public CoaxialLoads? CoaxialLoads { get; set; }
+
+        /// <summary>What drives coaxial instruments out of one another; null where there is one alone.</summary>
+        public Release? Release { get; }
 
         /// <summary>The term that holds it straight in its sheath; null without one.</summary>
         public SheathEnergy? Sheath { get; }
@@ -135,14 +139,6 @@ namespace Guidewire.Core
                 return;
             }
             CoaxialLoads.Set(Loads.Force, time);
-        }
-
-        /// <summary>Elastic energy and that of dead loads, J, of coaxial instruments with their hubs where they are
-        /// now.</summary>
-        public double CoaxialEnergy(RodShape shape)
-        {
-            CoaxialLoads?.Place(Loads.Force);
-            return ElasticEnergy(shape) - Supports.Coaxial!.Axial.PreloadEnergy + Loads.Value(shape);
         }
 
         /// <summary>Adds the gradient of all terms.</summary>

@@ -85,21 +85,40 @@ namespace Guidewire.Core
                 double stiffness = 0.0;
                 for (int i = _joints.CarrierOf(j); i < _joints.Count; i++)
                 {
-                    if (i == _joints.CarrierOf(j) || _joints.EndOf(i) >= _joints.Stations[j + 1])
-                    {
-                        double own = _joints.LeadStretchOf(i);
-                        for (int k = 0; k <= j; k++)
-                        {
-                            own += _joints.StretchOf(i, k);
-                        }
-                        stiffness += 1.0 / own;
-                    }
+                    stiffness += GoesOn(i, j) ? 1.0 / FromHub(i, j) : 0.0;
                 }
                 compliance = 1.0 / stiffness - before;
             }
             before += compliance;
             _compliance[j] = compliance;
             return compliance;
+        }
+
+        /// <summary>A derivative of that.</summary>
+        /// <param name="axial">Of the compliance of all in the element, held together.</param>
+        /// <param name="own">Of that of each from its hub to the element's end.</param>
+        /// <param name="before">Of that of all elements before it.</param>
+        public double ComplianceRateOf(int j, double axial, double[] own, double before)
+        {
+            if (!_joints.IsTip(j))
+            {
+                return axial;
+            }
+            double stiffness = 0.0;
+            double rate = 0.0;
+            for (int i = _joints.CarrierOf(j); i < _joints.Count; i++)
+            {
+                double each = GoesOn(i, j) ? 1.0 / FromHub(i, j) : 0.0;
+                stiffness += each;
+                rate += each * each * own[i];
+            }
+            return rate / (stiffness * stiffness) - before;
+        }
+
+        /// <summary>Sum of N on an element, N.</summary>
+        public double LoadOn(int element)
+        {
+            return _force[element];
         }
 
         /// <summary>Energy that the chain has from its loads alone, sum of 1/2 c (sum N)^2, J: of one whose nodes are
@@ -160,6 +179,24 @@ namespace Guidewire.Core
             snapshot.Serialize(_force);
             snapshot.Serialize(_strain);
             snapshot.Serialize(_slide);
+        }
+
+        // Whether an instrument is in all of an element at a tip.
+        private bool GoesOn(int instrument, int element)
+        {
+            return instrument == _joints.CarrierOf(element)
+                || _joints.EndOf(instrument) >= _joints.Stations[element + 1];
+        }
+
+        // C_i to an element's end, m/N.
+        private double FromHub(int instrument, int element)
+        {
+            double own = _joints.LeadStretchOf(instrument);
+            for (int k = 0; k <= element; k++)
+            {
+                own += _joints.StretchOf(instrument, k);
+            }
+            return own;
         }
 
         // How much farther from its hub an instrument's loads bring it at each node; first N before each.

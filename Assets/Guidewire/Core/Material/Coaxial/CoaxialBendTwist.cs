@@ -12,7 +12,6 @@ namespace Guidewire.Core
     /// <see cref="CoaxialTwistRows"/>.</remarks>
     internal sealed class CoaxialBendTwist : BendTwistTerm
     {
-        private const double Difference = 1e-6;   // of an element, between two energies whose difference is a force
         private const string NoWinding = "joint 0 of coaxial instruments has no winding";
 
         private readonly CoaxialRod _rod;
@@ -49,21 +48,6 @@ namespace Guidewire.Core
 
         /// <summary>Angle from the outermost hub to each, radians, without limit; 0 of the first.</summary>
         public double[] HubTwist { get; }
-
-        /// <summary>Force of an inner hub on its instrument along the axis, N: dE/dp, of all that is elastic and of the
-        /// loads. Negative where the instrument is driven out.</summary>
-        /// <param name="terms">Of which this is one.</param>
-        public double InnerForce(RodShape shape, RodTerms terms, int instrument = 1)
-        {
-            return Released(shape, terms, instrument, Difference * _joints.ShortestAtTips, 0.0);
-        }
-
-        /// <summary>What the outer hub has of the force along the axis besides that on its node, N: with -dE/dD, D the
-        /// length in the sheath, a bent instrument is driven out.</summary>
-        public double SheathForce(RodShape shape, RodTerms terms)
-        {
-            return _joints.Sheathed == 0.0 ? 0.0 : Released(shape, terms, 1, 0.0, Difference * _joints.ShortestAtTips);
-        }
 
         /// <summary>Where the two hubs are in time; null where they are set by hand.</summary>
         public CoaxialHubs? Hubs { get; set; }
@@ -169,7 +153,7 @@ namespace Guidewire.Core
             }
             if (_joints.HasLast)
             {
-                sum += LastAt(shape, out _, out _, out _);
+                sum += LastAt(shape, _joints.Last, out _, out _, out _);
             }
             return sum;
         }
@@ -336,25 +320,40 @@ namespace Guidewire.Core
             return Vector3d.Zero;
         }
 
-        // A centred difference of energy, N, by a lead and the length in the sheath that are less by these, m.
-        private double Released(RodShape shape, RodTerms terms, int instrument, double lead, double sheathed)
+        /// <summary>A joint in a shape.</summary>
+        public void Evaluate(RodShape shape, int k, out CoaxialJointState s)
         {
-            SetIdleTwists(shape);
-            for (int i = 1; i < _lead.Length; i++)
+            s = default;
+            int frame = _joints.CarrierOf(k);
+            if (frame == 0 && !_hasSecond)
             {
-                _lead[i] = _joints.LeadOf(i);
+                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+                s.Relative = a.Conjugate * shape.Q[k];
+                s.First.Before = k == 0 ? HubTwist[1] : shape.Twist[k - 1];
+                s.First.After = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
+                s.Set(_joints[k], _law, false);
+                return;
             }
-            (double from, double inside) = (_lead[instrument], _joints.Sheathed);
-            _lead[instrument] = from - lead;
-            _rod.SetHubs(_lead, inside - sheathed);
-            double less = terms.CoaxialEnergy(shape);
-            _lead[instrument] = from + lead;
-            _rod.SetHubs(_lead, inside + sheathed);
-            double more = terms.CoaxialEnergy(shape);
-            _lead[instrument] = from;
-            _rod.SetHubs(_lead, inside);
-            terms.CoaxialLoads?.Place(terms.Loads.Force);
-            return 0.5 * (less - more) / (lead + sheathed);
+            s.Relative = Relative(shape, k);
+            int before = k == 0 ? 0 : _joints.CarrierOf(k - 1);
+            s.FrameBefore = frame == before ? 0.0 : AngleAt(shape, k - 1, frame, before);
+            SetAngles(shape, k, before, frame, frame == 0 ? 1 : 0, ref s.First, s.FrameBefore);
+            if (_hasSecond)
+            {
+                SetAngles(shape, k, before, frame, frame == 2 ? 1 : 2, ref s.Second, s.FrameBefore);
+            }
+            s.Set(_joints[k], _law, _hasSecond);
+        }
+
+        /// <summary>What the last half element holds, J, and its derivatives by both angles.</summary>
+        /// <param name="joint">Of it, or derivatives of its sums.</param>
+        public double LastAt(RodShape shape, in CoaxialJoint joint, out AngleHessian hessian, out double first,
+            out double second)
+        {
+            int last = _joints.ElementCount - 1;
+            int frame = _joints.CarrierOf(last);
+            return joint.HeldAt(frame == 0 ? shape.Twist[last] : 0.0,
+                _hasSecond ? shape.Twist[shape.ElementCount + last] : 0.0, out hessian, out first, out second);
         }
 
         // Joint k stands between elements k - 1 and k: a range has those after its elements, the first that at the hub.
@@ -383,30 +382,6 @@ namespace Guidewire.Core
             return Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
         }
 
-        private void Evaluate(RodShape shape, int k, out CoaxialJointState s)
-        {
-            s = default;
-            int frame = _joints.CarrierOf(k);
-            if (frame == 0 && !_hasSecond)
-            {
-                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
-                s.Relative = a.Conjugate * shape.Q[k];
-                s.First.Before = k == 0 ? HubTwist[1] : shape.Twist[k - 1];
-                s.First.After = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
-                s.Set(_joints[k], _law, false);
-                return;
-            }
-            s.Relative = Relative(shape, k);
-            int before = k == 0 ? 0 : _joints.CarrierOf(k - 1);
-            s.FrameBefore = frame == before ? 0.0 : AngleAt(shape, k - 1, frame, before);
-            SetAngles(shape, k, before, frame, frame == 0 ? 1 : 0, ref s.First, s.FrameBefore);
-            if (_hasSecond)
-            {
-                SetAngles(shape, k, before, frame, frame == 2 ? 1 : 2, ref s.Second, s.FrameBefore);
-            }
-            s.Set(_joints[k], _law, _hasSecond);
-        }
-
         private void SetAngles(RodShape shape, int k, int carrier, int frame, int instrument,
             ref CoaxialPartState part, double frameBefore)
         {
@@ -417,19 +392,10 @@ namespace Guidewire.Core
                 ? shape.Twist[(instrument - 1) * shape.ElementCount + k] : 0.0;
         }
 
-        // Of the last half element, by both angles.
-        private double LastAt(RodShape shape, out AngleHessian hessian, out double first, out double second)
-        {
-            int last = _joints.ElementCount - 1;
-            int frame = _joints.CarrierOf(last);
-            return _joints.Last.HeldAt(frame == 0 ? shape.Twist[last] : 0.0,
-                _hasSecond ? shape.Twist[shape.ElementCount + last] : 0.0, out hessian, out first, out second);
-        }
-
         private AngleHessian AddLast(RodShape shape, RodVector[] gradient)
         {
             int n = _joints.ElementCount;
-            LastAt(shape, out AngleHessian hessian, out double first, out double second);
+            LastAt(shape, _joints.Last, out AngleHessian hessian, out double first, out double second);
             gradient[n + 2 + n - 1].T3 += first;
             gradient[n + 2 + n - 1].T2 += second;
             return hessian;

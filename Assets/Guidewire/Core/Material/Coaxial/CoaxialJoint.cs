@@ -110,6 +110,16 @@ namespace Guidewire.Core
             return held;
         }
 
+        /// <summary>Of a joint whose sums are derivatives: that of the energy of bending, J over their unit.</summary>
+        /// <param name="moment1">Of the joint itself about d1, N m.</param>
+        /// <param name="rest">The derivative of f.</param>
+        /// <param name="held">That of what does not go with phi.</param>
+        public readonly double BendingRate(double moment1, double moment2, in Vector3d rest, double held)
+        {
+            return held - moment1 * (0.5 * moment1 * Compliance1 + rest.X)
+                - moment2 * (0.5 * moment2 * Compliance2 + rest.Y);
+        }
+
         /// <summary>C cos t + S sin t, and minus its derivative.</summary>
         public static double Wave(double cosine, double sine, double t, out double slope)
         {

@@ -22,8 +22,6 @@ namespace Guidewire.Core
         private readonly int[] _beyond;            // nodes of each instrument in the chain, from its tip on
         private readonly int[] _tip;               // node of each where the next one goes on
         private readonly int[] _carrier;           // of each element: the outermost instrument there
-        private readonly double[] _lead;           // d_i, m
-        private readonly double[] _end;            // of each, m along the chain
         private readonly int[] _active;            // elements of each whose angle is unknown
         private readonly double[] _stretch;        // of each instrument, then by element, m/N
         private readonly double[] _leadStretch;    // of each before the outermost hub, m/N
@@ -47,8 +45,7 @@ namespace Guidewire.Core
             _instrument = instruments;
             _beyond = (int[])beyond.Clone();
             _tip = new int[count];
-            _lead = new double[count];
-            _end = new double[count];
+            Hubs = new HubPlaces(count);
             _active = new int[count];
             _tip[0] = instruments[0].Rod.ElementCount;
             for (int i = 1; i < count; i++)
@@ -67,9 +64,8 @@ namespace Guidewire.Core
             _leadStretch = new double[count];
             _axial = new double[_carrier.Length];
             _shear = new double[_carrier.Length];
-            InstrumentProfile[] profiles = Array.ConvertAll(instruments, instrument => instrument.Profile);
-            _before = new CoaxialPieces(profiles);
-            _after = new CoaxialPieces(profiles);
+            _before = CreatePieces();
+            _after = CreatePieces();
             SetHubs(leads, sheathed);
         }
 
@@ -85,8 +81,11 @@ namespace Guidewire.Core
         /// <summary>Elements of the outermost instrument.</summary>
         public int OuterCount => _tip[0];
 
+        /// <summary>Where the instruments are along the chain.</summary>
+        public HubPlaces Hubs { get; }
+
         /// <summary>Length of the chain in a sheath, m from the outer hub; 0 without one.</summary>
-        public double Sheathed { get; private set; }
+        public double Sheathed => Hubs.Sheathed;
 
         /// <summary>Elements, from the first on, with a twist angle that is unknown.</summary>
         public int ActiveCount { get; private set; }
@@ -109,6 +108,26 @@ namespace Guidewire.Core
             return _carrier[element];
         }
 
+        /// <summary>The instrument on whose frame the joint at node k stands.</summary>
+        public int FrameOf(int k)
+        {
+            return _carrier[Math.Min(k, _carrier.Length - 1)];
+        }
+
+        /// <summary>Sums over pieces of these instruments.</summary>
+        public CoaxialPieces CreatePieces()
+        {
+            return new CoaxialPieces(Array.ConvertAll(_instrument, instrument => instrument.Profile));
+        }
+
+        /// <summary>Adds what is on both sides of the joint at node k, no end of the chain.</summary>
+        public void AddSides(int k, CoaxialPieces sides)
+        {
+            var joint = default(CoaxialJoint);
+            AddSide(ref joint, k, k - 1, FrameOf(k), sides);
+            AddSide(ref joint, k, k + 1, FrameOf(k), sides);
+        }
+
         /// <summary>Nodes of an instrument in the chain, from its tip on.</summary>
         public int BeyondOf(int instrument)
         {
@@ -124,7 +143,7 @@ namespace Guidewire.Core
         /// <summary>Distance of an instrument's hub behind the outermost one's, m.</summary>
         public double LeadOf(int instrument)
         {
-            return _lead[instrument];
+            return Hubs.Leads[instrument];
         }
 
         /// <summary>Where a node of an inner instrument is, m along the chain.</summary>
@@ -132,19 +151,19 @@ namespace Guidewire.Core
         public double StationOf(int instrument, int fromTip)
         {
             double[] station = _instrument[instrument].Stations;
-            return station[station.Length - 1 - fromTip] - _lead[instrument];
+            return station[station.Length - 1 - fromTip] - Hubs.Leads[instrument];
         }
 
         /// <summary>Where the tip of an instrument is, m along the chain.</summary>
         public double EndOf(int instrument)
         {
-            return _end[instrument];
+            return Hubs.Ends[instrument];
         }
 
         /// <summary>Distance of an instrument's tip beyond that of another, m; negative inside.</summary>
         public double ExtensionOf(int instrument, int outer)
         {
-            return _instrument[instrument].Profile.Length - _lead[instrument] - _end[outer];
+            return _instrument[instrument].Profile.Length - Hubs.Leads[instrument] - Hubs.Ends[outer];
         }
 
         /// <summary>Elements, from the first on, where the twist angle of an inner instrument is unknown.</summary>
@@ -183,21 +202,6 @@ namespace Guidewire.Core
             return k > 0 && k < _carrier.Length && _carrier[k] != _carrier[k - 1];
         }
 
-        /// <summary>Length of the first element or, where that is shorter, of one beyond a tip, m.</summary>
-        public double ShortestAtTips
-        {
-            get
-            {
-                double shortest = _station[1];
-                for (int i = 0; i < InnerCount; i++)
-                {
-                    int tip = _tip[i];
-                    shortest = IsTip(tip) ? Math.Min(shortest, _station[tip + 1] - _station[tip]) : shortest;
-                }
-                return shortest;
-            }
-        }
-
         /// <summary>Whether several instruments are in the last half element.</summary>
         public bool HasLast => _carrier[ElementCount - 1] < InnerCount && ActiveCount == ElementCount;
 
@@ -217,7 +221,20 @@ namespace Guidewire.Core
         public ref readonly CrossSection PieceAt(int k, int instrument)
         {
             InstrumentProfile profile = _instrument[instrument].Profile;
-            return ref profile.Pieces[profile.PieceAt(_station[k] + _lead[instrument])];
+            return ref profile.Pieces[profile.PieceAt(_station[k] + Hubs.Leads[instrument])];
+        }
+
+        /// <summary>What an instrument is made of at the outermost hub; where a border is there, what is before
+        /// it.</summary>
+        public ref readonly CrossSection PieceAtHub(int instrument)
+        {
+            InstrumentProfile profile = _instrument[instrument].Profile;
+            int p = 0;
+            while (p < profile.Pieces.Length - 1 && profile.Borders[p + 1] - Hubs.Leads[instrument] < 0.0)
+            {
+                p++;
+            }
+            return ref profile.Pieces[p];
         }
 
         /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
@@ -225,13 +242,13 @@ namespace Guidewire.Core
         /// <param name="sheathed">m.</param>
         public void SetHubs(double[] leads, double sheathed)
         {
-            Sheathed = sheathed;
+            Hubs.Sheathed = sheathed;
             ActiveCount = 0;
             HeldInLead = 0.0;
             for (int i = 0; i < Count; i++)
             {
-                _lead[i] = leads[i];
-                _end[i] = _instrument[i].Profile.Length - leads[i];
+                Hubs.Leads[i] = leads[i];
+                Hubs.Ends[i] = _instrument[i].Profile.Length - leads[i];
                 if (i > 0)
                 {
                     SetStations(i);
@@ -256,14 +273,14 @@ namespace Guidewire.Core
             int first = station.Length - 1 - _beyond[instrument];
             for (int k = 1; k <= _beyond[instrument]; k++)
             {
-                _station[_tip[instrument - 1] + k] = station[first + k] - _lead[instrument];
+                _station[_tip[instrument - 1] + k] = station[first + k] - Hubs.Leads[instrument];
             }
         }
 
         private void SetActive(int instrument)
         {
             int most = _tip[instrument - 1];
-            double end = Math.Min(_end[instrument], _station[most]);
+            double end = Math.Min(Hubs.Ends[instrument], _station[most]);
             int active = 0;
             while (active < most && _station[active] < end)
             {
@@ -277,7 +294,7 @@ namespace Guidewire.Core
         {
             ref CoaxialJoint joint = ref _joint[k];
             joint = default;
-            int frame = _carrier[Math.Min(k, _carrier.Length - 1)];
+            int frame = FrameOf(k);
             _before.Clear();
             _after.Clear();
             if (k > 0)
@@ -337,8 +354,7 @@ namespace Guidewire.Core
 
         private void AddSide(ref CoaxialJoint joint, int k, int other, int frame, CoaxialPieces side)
         {
-            side.AddSide(ref joint, _station[k], _station[other], _carrier[Math.Min(k, other)], frame, Sheathed, _lead,
-                _end);
+            side.AddSide(ref joint, _station[k], _station[other], _carrier[Math.Min(k, other)], frame, Hubs);
         }
 
         private void AddLead(int instrument, ref double compliance, ref double rest)
@@ -347,7 +363,7 @@ namespace Guidewire.Core
             _leadStretch[instrument] = 0.0;
             for (int p = 0; p < profile.Pieces.Length; p++)
             {
-                double length = Math.Min(_lead[instrument], profile.Borders[p + 1]) - profile.Borders[p];
+                double length = Math.Min(Hubs.Leads[instrument], profile.Borders[p + 1]) - profile.Borders[p];
                 if (length > 0.0)
                 {
                     ref CrossSection piece = ref profile.Pieces[p];

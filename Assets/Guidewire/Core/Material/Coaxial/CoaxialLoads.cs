@@ -15,6 +15,10 @@ namespace Guidewire.Core
         private readonly Vector3d[] _tip;         // N
         private readonly double[] _factor;        // of point loads
         private Vector3d _gravity;                // m/s^2
+        private RodShape _shape = null!;          // these and the next are of a derivative
+        private HubSpeeds _speeds = null!;
+        private double[] _stationSpeeds = null!;
+        private double _workRate;                 // N
 
         /// <summary>Loads of each instrument of a rod, the outermost one first.</summary>
         public CoaxialLoads(CoaxialRod rod, CoaxialInstrument[] instruments, PrescribedLoads[] loads)
@@ -47,6 +51,23 @@ namespace Guidewire.Core
         {
             Array.Clear(force, 0, force.Length);
             _axial.ClearLoads();
+            AddAll(force);
+        }
+
+        /// <summary>A derivative of their potential, N, with all nodes held. What comes in at the outermost hub has
+        /// none there.</summary>
+        /// <param name="speeds">Of the instruments.</param>
+        /// <param name="stations">Of the chain's nodes along it.</param>
+        public double EnergyRate(RodShape shape, HubSpeeds speeds, double[] stations)
+        {
+            (_shape, _speeds, _stationSpeeds) = (shape, speeds, stations);
+            _workRate = 0.0;
+            AddAll(null);
+            return -_workRate;
+        }
+
+        private void AddAll(Vector3d[]? force)
+        {
             for (int i = 0; i < _instrument.Length; i++)
             {
                 double lead = _joints.LeadOf(i);
@@ -63,7 +84,7 @@ namespace Guidewire.Core
         }
 
         // Those of each piece in an element at the piece's middle.
-        private void AddPerLength(Vector3d[] force, int instrument)
+        private void AddPerLength(Vector3d[]? force, int instrument)
         {
             InstrumentProfile profile = _instrument[instrument].Profile;
             double[] station = _joints.Stations;
@@ -90,7 +111,7 @@ namespace Guidewire.Core
             }
         }
 
-        private void AddAt(Vector3d[] force, int instrument, double station, in Vector3d load)
+        private void AddAt(Vector3d[]? force, int instrument, double station, in Vector3d load)
         {
             if (station < 0.0 || load == Vector3d.Zero)
             {
@@ -105,9 +126,18 @@ namespace Guidewire.Core
             AddOn(force, instrument, j, (station - stations[j]) / (stations[j + 1] - stations[j]), load);
         }
 
-        // On the nodes beside it by the lever rule, so that it does the same work.
-        private void AddOn(Vector3d[] force, int instrument, int element, double fraction, in Vector3d load)
+        // On the nodes beside it by the lever rule, so that it does the same work; or to the derivative of that work.
+        private void AddOn(Vector3d[]? force, int instrument, int element, double fraction, in Vector3d load)
         {
+            if (force == null)
+            {
+                double first = _stationSpeeds[element];
+                double moves = _speeds.Instruments[instrument] - first
+                    - fraction * (_stationSpeeds[element + 1] - first);
+                _workRate += moves / (_joints.Stations[element + 1] - _joints.Stations[element])
+                    * Vector3d.Dot(load, _shape.X[element + 1] - _shape.X[element]);
+                return;
+            }
             force[element] += (1.0 - fraction) * load;
             force[element + 1] += fraction * load;
             _axial.AddLoad(instrument, element, fraction, load);

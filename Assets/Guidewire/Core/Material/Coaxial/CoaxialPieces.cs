@@ -62,65 +62,109 @@ namespace Guidewire.Core
 
         /// <summary>Adds an element on one side of a joint; its hat function falls from 1 at the node to 0 at the other
         /// end.</summary>
-        /// <param name="node">m along the chain, as are the other end and the following.</param>
+        /// <param name="node">m along the chain, as is the other end.</param>
         /// <param name="carrier">The outermost instrument there.</param>
         /// <param name="frame">The instrument on whose frame the joint stands.</param>
-        /// <param name="sheathed">Where a sheath ends.</param>
-        /// <param name="leads">How far each hub is behind the outermost one's, m.</param>
-        /// <param name="ends">Where the instruments end.</param>
-        public void AddSide(ref CoaxialJoint joint, double node, double far, int carrier, int frame, double sheathed,
-            double[] leads, double[] ends)
+        public void AddSide(ref CoaxialJoint joint, double node, double far, int carrier, int frame, HubPlaces hubs)
         {
             double from = Math.Min(node, far);
             double to = Math.Max(node, far);
             double perLength = 1.0 / (to - from);
-            Begin(carrier, from, leads);
+            bool isSheathed = Begin(carrier, from, hubs);
             for (double at = from; at < to;)
             {
-                bool isSheathed = at < sheathed;
-                double next = FindNext(at, isSheathed ? Math.Min(to, sheathed) : to, leads, ends);
+                double next = FindNext(isSheathed ? Math.Min(to, hubs.Sheathed) : to, hubs, out int nearest);
                 if (next > at)
                 {
                     double lambda = (next - at) * (1.0 - Math.Abs(0.5 * (at + next) - node) * perLength);
                     Add(ref joint, next - at, lambda, frame, isSheathed);
                 }
                 at = Math.Max(next, at);
-                Advance(at, leads);
+                isSheathed &= at < hubs.Sheathed;
+                Pass(nearest);
             }
         }
 
-        private void Begin(int carrier, double from, double[] leads)
+        /// <summary>Adds the derivatives of the same sums while borders and nodes move: every sum is linear in the
+        /// lengths and in their weights.</summary>
+        /// <param name="rate">The joint's.</param>
+        /// <param name="nodeSpeed">Of the node, as the others over that of what the derivative is by.</param>
+        /// <returns>Whether any of them is not 0.</returns>
+        /// <remarks>A border at the side's first end has yet to pass it, and then a piece without length has a
+        /// derivative.</remarks>
+        public bool AddSideRate(ref CoaxialJoint rate, double node, double far, int carrier, int frame, HubPlaces hubs,
+            HubSpeeds speeds, double nodeSpeed, double farSpeed)
+        {
+            bool isAfter = node < far;
+            (double from, double fromSpeed) = isAfter ? (node, nodeSpeed) : (far, farSpeed);
+            (double to, double toSpeed) = isAfter ? (far, farSpeed) : (node, nodeSpeed);
+            double perLength = 1.0 / (to - from);
+            double stretching = (toSpeed - fromSpeed) * perLength;
+            double atSpeed = fromSpeed;
+            bool isSheathed = Begin(carrier, from, hubs);
+            bool moves = false;
+            for (double at = from; at < to;)
+            {
+                bool endsInSheath = isSheathed && hubs.Sheathed < to;
+                double next = FindNext(endsInSheath ? hubs.Sheathed : to, hubs, out int nearest);
+                double nextSpeed = nearest >= 0 ? speeds.Instruments[nearest] : endsInSheath ? speeds.Exit : toSpeed;
+                double distance = Math.Abs(0.5 * (at + next) - node) * perLength;
+                double apart = (0.5 * (atSpeed + nextSpeed) - nodeSpeed) * perLength;
+                double length = Math.Max(next - at, 0.0);
+                double grows = nextSpeed - atSpeed;
+                double lambda = grows * (1.0 - distance)
+                    - length * ((isAfter ? apart : -apart) - distance * stretching);
+                if (grows != 0.0 || lambda != 0.0)
+                {
+                    Add(ref rate, grows, lambda, frame, isSheathed);
+                    moves = true;
+                }
+                at = Math.Max(next, at);
+                atSpeed = nextSpeed;
+                isSheathed &= at < hubs.Sheathed;
+                Pass(nearest);
+            }
+            return moves;
+        }
+
+        // The first pieces from a position on; whether they are in a sheath.
+        private bool Begin(int carrier, double from, HubPlaces hubs)
         {
             _carrier = carrier;
             for (int i = carrier; i < _piece.Length; i++)
             {
-                double position = from + leads[i];
                 double[] borders = _borders[i];
                 int p = 0;
-                while (p < borders.Length - 2 && borders[p + 1] <= position)
+                while (p < borders.Length - 2 && borders[p + 1] - hubs.Leads[i] < from)
                 {
                     p++;
                 }
                 _piece[i] = p;
+                _isPresent[i] = i == carrier || from <= hubs.Ends[i];
             }
+            return from <= hubs.Sheathed;
         }
 
-        // The next border of a piece; the pieces begin at a position, and it is no farther than 'to'.
-        private double FindNext(double at, double to, double[] leads, double[] ends)
+        // The next border of a piece, no farther than 'to', and the instrument whose it is; -1: that is 'to'.
+        private double FindNext(double to, HubPlaces hubs, out int nearest)
         {
             double next = to;
+            nearest = -1;
             _presentCount = 0;
             for (int i = _carrier; i < _piece.Length; i++)
             {
-                bool isPresent = i == _carrier || at < ends[i];
-                _isPresent[i] = isPresent;
-                if (isPresent)
+                if (_isPresent[i])
                 {
                     int p = _piece[i];
                     double[] borders = _borders[i];
                     _presentCount++;
-                    double border = p < borders.Length - 2 ? borders[p + 1] - leads[i] : i == _carrier ? to : ends[i];
-                    next = border < next ? border : next;
+                    double border = p < borders.Length - 2 ? borders[p + 1] - hubs.Leads[i]
+                        : i == _carrier ? to : hubs.Ends[i];
+                    if (border < next)
+                    {
+                        next = border;
+                        nearest = i;
+                    }
                 }
             }
             return next;
@@ -166,17 +210,19 @@ namespace Guidewire.Core
             }
         }
 
-        private void Advance(double at, double[] leads)
+        // The border of an instrument's piece; one at a time, as others in the same place move otherwise.
+        private void Pass(int instrument)
         {
-            for (int i = _carrier; i < _piece.Length; i++)
+            if (instrument < 0)
             {
-                int p = _piece[i];
-                double[] borders = _borders[i];
-                if (p < borders.Length - 2 && at >= borders[p + 1] - leads[i])
-                {
-                    _piece[i] = p + 1;
-                }
+                return;
             }
+            if (_piece[instrument] < _borders[instrument].Length - 2)
+            {
+                _piece[instrument]++;
+                return;
+            }
+            _isPresent[instrument] = false;
         }
 
         /// <summary>Energy of a piece that is kept straight, J/m.</summary>

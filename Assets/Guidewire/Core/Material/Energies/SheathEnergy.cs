@@ -7,9 +7,10 @@ namespace Guidewire.Core
     /// part.</summary>
     /// <remarks>With a and f compliance and turn at rest beyond the exit (<see cref="JointPieces"/>), and W the energy
     /// of what is before it, a joint has |theta - f|^2/(2 a) + W. The exit lies at a position along the wire that
-    /// follows from the hub's, not from the nodes: so the energy depends on the hub, and its slope, -sum over joints of
-    /// the hat function at the exit times |m + B kappa|^2/(2 B), is the force by which a bent wire is driven out of a
-    /// sheath without friction. It acts on the hub, at any speed.</remarks>
+    /// follows from the hub's, not from the nodes: so the energy depends on the hub, and its slope is the force by
+    /// which a bent wire is driven out of a sheath without friction. It acts on the hub, at any speed. As of coaxial
+    /// instruments (<see cref="Release"/>) it is a sum of derivatives: the hat function at the exit times |m + B
+    /// kappa|^2/(2 B), over joints.</remarks>
     internal sealed class SheathEnergy : EnergyTerm
     {
         private readonly SheathWindow _window;
@@ -88,8 +89,9 @@ namespace Guidewire.Core
                 {
                     Joint joint = k < _cutCount ? _cutJoint[k] : _window.Joints[k];
                     Vector3d change = _bending.TurnOf(shape, k) - joint.Rest;
-                    sum += _window.Pieces.ReleaseAt(_window.First + k, cut, joint.Bend1 * change.X,
-                        joint.Bend2 * change.Y);
+                    CoaxialJoint rate = _window.Pieces.RateAt(_window.First + k, cut);
+                    sum -= rate.BendingRate(joint.Bend1 * change.X, joint.Bend2 * change.Y,
+                        new Vector3d(rate.FixedX, rate.FixedY, 0.0), rate.Held);
                 }
             }
             return sum;

@@ -241,14 +241,14 @@ namespace Guidewire.Core
             terms.SetTime(_whole.Schedule, _dynamics.Time);
             RodShape shape = _dynamics.Shape;
             int wire = _drives.Length - 1;
-            double wireForce = Bending.InnerForce(shape, terms, wire);
+            double wireForce = terms.Release!.InnerForce(shape, terms, wire);
             double wireTorque = Bending.InnerTorque(shape, wire);
             // The outermost hub has the chain's reaction less those of the others.
             double force = Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - wireForce;
             double torque = Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis) - wireTorque;
             for (int i = wire - 1; i > 0; i--)
             {
-                double own = Bending.InnerForce(shape, terms, i);
+                double own = terms.Release!.InnerForce(shape, terms, i);
                 double ownTorque = Bending.InnerTorque(shape, i);
                 force -= own;
                 torque -= ownTorque;
@@ -256,7 +256,7 @@ namespace Guidewire.Core
                     ownTorque, wireForce, wireTorque);
             }
             _records[0].Take(_rod.Joints, terms, shape, shape, _drives[0], _drives[wire],
-                force + Bending.SheathForce(shape, terms), torque, wireForce, wireTorque);
+                force + terms.Release!.SheathForce(shape), torque, wireForce, wireTorque);
             return _records[0];
         }
 

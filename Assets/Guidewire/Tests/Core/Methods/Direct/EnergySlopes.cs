@@ -56,6 +56,25 @@ namespace Guidewire.Core.Tests
             return (value(step) - value(-step)) / (2.0 * step);
         }
 
+        /// <summary>The same, of fourth order.</summary>
+        public static double FineDifference(double step, Func<double, double> value)
+        {
+            return (4.0 * Difference(step, value) - Difference(2.0 * step, value)) / 3.0;
+        }
+
+        /// <summary>Elastic energy and potential of dead loads, J, of coaxial instruments with their hubs where they
+        /// are now; what comes in at the outermost hub has none there.</summary>
+        public static double OfInstruments(RodTerms terms, RodShape shape)
+        {
+            terms.CoaxialLoads?.Place(terms.Loads.Force);
+            double energy = terms.ElasticEnergy(shape) - terms.Supports.Coaxial!.Axial.PreloadEnergy;
+            foreach (Vector3d force in terms.Loads.Force)
+            {
+                energy += Vector3d.Dot(force, shape.X[0]);
+            }
+            return energy + terms.Loads.Value(shape);
+        }
+
         /// <summary>E'(z1)(z0 - z1) of the coordinates, J: along straight lines of the nodes, rotation vectors of the
         /// elements and, with others inside, their twist.</summary>
         public static double Along(RodDynamics motion, RodShape before)

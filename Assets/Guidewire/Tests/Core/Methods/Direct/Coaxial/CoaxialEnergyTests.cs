@@ -164,7 +164,7 @@ namespace Guidewire.Core.Tests
             run.Rod.SetHubs(leads, 0.0);
             bending.HubTwist[instrument] = twist + turn;
             RodTerms terms = run.Dynamics.Terms;
-            double energy = terms.CoaxialEnergy(run.Dynamics.Shape);
+            double energy = EnergySlopes.OfInstruments(terms, run.Dynamics.Shape);
             leads[instrument] = lead;
             run.Rod.SetHubs(leads, 0.0);
             terms.CoaxialLoads!.Place(terms.Loads.Force);

@@ -46,6 +46,9 @@ namespace Guidewire.Core.Tests
         /// <summary>The pair as one rod.</summary>
         public CoaxialRod Coaxial { get; private set; } = null!;
 
+        /// <summary>Each alone.</summary>
+        public CoaxialInstrument[] Instruments => _instruments;
+
         /// <summary>Its terms.</summary>
         public RodTerms Terms { get; private set; } = null!;
 
@@ -163,7 +166,7 @@ namespace Guidewire.Core.Tests
         public double Torque => Bending.InnerTorque(Shape);
 
         /// <summary>Force of the inner hub, N.</summary>
-        public double Force => Bending.InnerForce(Shape, Terms);
+        public double Force => Terms.Release!.InnerForce(Shape, Terms);
 
         private InstrumentProfile ProfileOf(Piece[] pieces)
         {

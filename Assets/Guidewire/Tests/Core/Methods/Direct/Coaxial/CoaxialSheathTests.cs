@@ -72,18 +72,19 @@ namespace Guidewire.Core.Tests
             double sum = outer + inner;
             double mean = (outer * k + inner * own) / sum;
             double wire = 0.5 * outer * inner / sum * (k - own) * (k - own) - 0.5 * inner * kw * kw;
-            Assert.That(pair.Bending.SheathForce(pair.Shape, pair.Terms),
+            Assert.That(pair.Terms.Release!.SheathForce(pair.Shape),
                 Is.EqualTo(-0.5 * sum * mean * mean).Within(1e-3 * 0.5 * sum * k * k));
             Assert.That(pair.Force, Is.EqualTo(wire).Within(1e-3 * 0.5 * sum * k * k));
         }
 
+        // Not at a node: there the shear force jumps, and with it this one by 0.5 %.
         [TestCase(0.13)]
-        [TestCase(0.3)]
-        [TestCase(0.55)]
+        [TestCase(0.31)]
+        [TestCase(0.56)]
         public void SheathForce_IsTheDifferenceOfTheRestShapesEnergies(double sheathed)
         {
             CoaxialPair pair = Loaded(sheathed);
-            double force = pair.Bending.SheathForce(pair.Shape, pair.Terms);
+            double force = pair.Terms.Release!.SheathForce(pair.Shape);
             double wire = pair.Force;
             double torque = pair.Torque;
             double Energy(double on, double wireOn, double turn)

@@ -54,7 +54,7 @@ namespace Guidewire.Core.Tests
             var extensions = new double[14];
             for (int k = 0; k < extensions.Length; k++)
             {
-                extensions[k] = -0.30 + 0.05 * k;
+                extensions[k] = -0.30 + 0.0487 * k;   // not where both tips meet, for there the force jumps
             }
             Case[] fine = Array.ConvertAll(extensions, p => JTip(80, p));
             double range = 0.0;

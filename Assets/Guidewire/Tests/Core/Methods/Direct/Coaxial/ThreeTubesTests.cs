@@ -140,7 +140,7 @@ namespace Guidewire.Core.Tests
                 double ahead = EnergyAt(order, turns, i, step, 0.0);
                 double back = EnergyAt(order, turns, i, -step, 0.0);
                 Assert.That((ahead - back) / (2.0 * step), Is.EqualTo(torque).Within(1e-5), "torque " + i);
-                double force = tubes.Bending.InnerForce(tubes.Shape, tubes.Terms, i);
+                double force = tubes.Terms.Release!.InnerForce(tubes.Shape, tubes.Terms, i);
                 double on = EnergyAt(order, turns, i, 0.0, 1e-5);
                 double off = EnergyAt(order, turns, i, 0.0, -1e-5);
                 Assert.That((on - off) / 2e-5, Is.EqualTo(force).Within(1e-3 * Math.Abs(force) + 1e-5), "force " + i);

@@ -1,0 +1,212 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The derivative of the energy of coaxial instruments by the position of a hub, with all nodes, frames
+    /// and angles held: by that an instrument is driven out of others, or all out of a sheath, without
+    /// friction.</summary>
+    /// <remarks>Hubs move borders, and nodes of the instrument beyond the tip around it. Every sum of a joint or an
+    /// element is linear in the lengths of pieces and in their weights (<see cref="CoaxialPieces"/>). So its derivative
+    /// A', F', e', C', S', (1/K)', r', w' is the same sum of their derivatives, and with the joint's moments m and
+    /// couples c
+    ///   E' = -1/2 sum m_i^2 A_i' - m . (F' + sum R(t) F_i') + e' - C' cos t - S' sin t + dE/dt (z_b - z_a) w'
+    ///       - sum (1/2 c^2 (1/K)' + c r').
+    /// Of an element of the station's length s, compliances a along and b across its axis, force N and shear force V of
+    /// the chain, and f of the loads alone, E' = -N (s' - f a') - 1/2 (N^2 + f^2) a' and what V adds. Where borders of
+    /// two instruments are in one place E has a kink, and E' is that of one side.</remarks>
+    internal sealed class Release
+    {
+        private readonly CoaxialRod _rod;
+        private readonly CoaxialJoints _joints;
+        private readonly CoaxialBendTwist _bending;
+        private readonly StretchEnergy _stretch;
+        private readonly HubSpeeds _speeds;
+        private readonly CoaxialPieces _before;   // derivatives on one side of a joint
+        private readonly CoaxialPieces _after;
+        private readonly CoaxialPieces _shared;   // what is there
+        private readonly double[] _own;           // of the compliance of each from its hub on
+        private readonly double[] _station;       // speeds of nodes
+
+        /// <summary>Of these instruments.</summary>
+        public Release(CoaxialRod rod, CoaxialBendTwist bending, StretchEnergy stretch)
+        {
+            _rod = rod;
+            _joints = rod.Joints;
+            _bending = bending;
+            _stretch = stretch;
+            _speeds = new HubSpeeds(_joints.Count);
+            _before = _joints.CreatePieces();
+            _after = _joints.CreatePieces();
+            _shared = _joints.CreatePieces();
+            _own = new double[_joints.Count];
+            _station = new double[_joints.ElementCount + 1];
+        }
+
+        /// <summary>Force of an inner hub on its instrument along the axis, N: dE/dp, loads among it. Negative where
+        /// the instrument is driven out.</summary>
+        public double InnerForce(RodShape shape, RodTerms terms, int instrument = 1)
+        {
+            SetSpeeds(instrument, 0.0);
+            return RateOf(shape) + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
+        }
+
+        /// <summary>What the outer hub has of the force along the axis besides that on its node, N: -dE/dD, D the
+        /// length in the sheath. Negative where all are driven out.</summary>
+        public double SheathForce(RodShape shape)
+        {
+            if (_joints.Sheathed == 0.0)
+            {
+                return 0.0;
+            }
+            SetSpeeds(0, -1.0);
+            return RateOf(shape);
+        }
+
+        private void SetSpeeds(int instrument, double exit)
+        {
+            _speeds.Exit = exit;
+            for (int i = 1; i < _joints.Count; i++)
+            {
+                _speeds.Instruments[i] = i == instrument ? 1.0 : 0.0;
+                for (int k = _joints.TipOf(i - 1) + 1; k <= _joints.TipOf(i); k++)
+                {
+                    _station[k] = _speeds.Instruments[i];
+                }
+            }
+        }
+
+        private double RateOf(RodShape shape)
+        {
+            _bending.SetIdleTwists(shape);
+            int n = _joints.ElementCount;
+            double sum = 0.0;
+            double compliance = 0.0;   // derivative of that of the chain before an element
+            for (int i = 0; i < _joints.Count; i++)
+            {
+                ref readonly CrossSection atHub = ref _joints.PieceAtHub(i);
+                _own[i] = -_speeds.Instruments[i] / atHub.StretchStiffness;
+                sum -= _speeds.Instruments[i] * CoaxialPieces.Straightened(atHub);
+            }
+            for (int k = 0; k < n; k++)
+            {
+                var rate = default(CoaxialJoint);
+                _before.Clear();
+                _after.Clear();
+                bool moves = k > 0 && AddSide(ref rate, k, k - 1, _before);
+                moves |= AddSide(ref rate, k, k + 1, _after);
+                if (moves || (k == 0 && _speeds.Exit == 0.0))
+                {
+                    SetTwists(ref rate, k);
+                    sum += RateOf(shape, k, rate);
+                }
+                sum += OfElement(shape, k, ref compliance);
+            }
+            return sum + (_joints.HasLast ? OfLast(shape) : 0.0);
+        }
+
+        private bool AddSide(ref CoaxialJoint rate, int k, int other, CoaxialPieces side)
+        {
+            return side.AddSideRate(ref rate, _joints.Stations[k], _joints.Stations[other],
+                _joints.CarrierOf(Math.Min(k, other)), _joints.FrameOf(k), _joints.Hubs, _speeds, _station[k],
+                _station[other]);
+        }
+
+        // Derivatives of compliances, turns at rest and weights of the joint at node k.
+        private void SetTwists(ref CoaxialJoint rate, int k)
+        {
+            int frame = _joints.FrameOf(k);
+            rate.Twist = _before.Compliance[frame] + _after.Compliance[frame];
+            rate.RestTwist = _before.Rest[frame] + _after.Rest[frame];
+            ref readonly CoaxialJoint joint = ref _joints[k];
+            bool isFirst = true;
+            for (int i = 0; i < _joints.Count; i++)
+            {
+                if (i != frame)
+                {
+                    SetPart(ref (isFirst ? ref rate.First : ref rate.Second), isFirst ? joint.First : joint.Second,
+                        k, i);
+                    isFirst = false;
+                }
+            }
+        }
+
+        private void SetPart(ref CoaxialPart rate, in CoaxialPart part, int k, int instrument)
+        {
+            rate.Twist = _before.Compliance[instrument] + _after.Compliance[instrument];
+            rate.RestTwist = _before.Rest[instrument] + _after.Rest[instrument];
+            if (part.Twist == 0.0)
+            {
+                return;
+            }
+            if (k == 0)
+            {
+                ref readonly CrossSection atHub = ref _joints.PieceAtHub(instrument);
+                double own = rate.Twist;
+                rate.Twist -= _speeds.Instruments[instrument] / atHub.TwistStiffness;
+                rate.RestTwist -= _speeds.Instruments[instrument] * atHub.RestCurvature.Z;
+                rate.Weight = -0.5 * part.Twist * (own - 2.0 * (1.0 - part.Weight) * rate.Twist);
+                return;
+            }
+            _shared.Clear();
+            _joints.AddSides(k, _shared);
+            double shared = _shared.Shared[instrument];
+            double after = _after.Shared[instrument];
+            rate.Weight = shared > 0.0
+                ? (after - part.Weight * (_before.Shared[instrument] + after)) / shared : 0.0;
+        }
+
+        private double RateOf(RodShape shape, int k, in CoaxialJoint rate)
+        {
+            ref readonly CoaxialJoint joint = ref _joints[k];
+            _bending.Evaluate(shape, k, out CoaxialJointState s);
+            double t = s.First.Mean(joint.First);
+            double u = s.Second.Mean(joint.Second);
+            var rest = new Vector3d(rate.FixedX, rate.FixedY, 0.0);
+            rate.First.AddRest(t, ref rest, out _, out _);
+            rate.Second.AddRest(u, ref rest, out _, out _);
+            double held = rate.HeldAt(t, u, out _, out _, out _);
+            double couple = joint.Twist * (s.Turn.Z - joint.RestTwist);
+            return rate.BendingRate(s.Joint.Bend1 * (s.Turn.X - s.Joint.Rest.X),
+                    s.Joint.Bend2 * (s.Turn.Y - s.Joint.Rest.Y), rest, held)
+                - couple * (0.5 * couple * rate.Twist + rate.RestTwist) + OfPart(rate.First, s.First)
+                + OfPart(rate.Second, s.Second);
+        }
+
+        private static double OfPart(in CoaxialPart rate, in CoaxialPartState s)
+        {
+            return s.Slope * rate.Weight * (s.After - s.Before)
+                - s.Couple * (0.5 * s.Couple * rate.Twist + rate.RestTwist);
+        }
+
+        private double OfLast(RodShape shape)
+        {
+            int n = _joints.ElementCount;
+            var rate = default(CoaxialJoint);
+            _before.Clear();
+            return AddSide(ref rate, n, n - 1, _before) ? _bending.LastAt(shape, rate, out _, out _, out _) : 0.0;
+        }
+
+        // Of stretch and shear.
+        private double OfElement(RodShape shape, int j, ref double before)
+        {
+            for (int i = 0; i < _own.Length; i++)
+            {
+                _own[i] += _after.Stretch[i];
+            }
+            double along = _rod.Axial.ComplianceRateOf(j, _after.Axial, _own, before);
+            before += along;
+            double grows = _station[j + 1] - _station[j];
+            if (along == 0.0 && grows == 0.0 && _after.Shear == 0.0)
+            {
+                return 0.0;
+            }
+            Vector3d n = _stretch.Stress(shape, j, out _);
+            double load = _rod.Axial.LoadOn(j);
+            double length = grows - along * load;
+            double across = _rod.Rod.ShearStiffness[j];
+            double acrossRate = (grows - across * _after.Shear) / _joints.ShearOf(j);
+            return -n.Z * length - 0.5 * along * (n.Z * n.Z + load * load)
+                + 0.5 * (n.X * n.X + n.Y * n.Y) / across * (acrossRate / across * _rod.Rod.Length[j] - length);
+        }
+    }
+}
