@@ -55,7 +55,8 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     if arguments.open:
         from guidewire.anatomy.ends import open_ends
 
-        repaired = open_ends(repaired, None if arguments.open == "all" else list(map(int, arguments.open.split(","))))
+        repaired = open_ends(repaired, None if arguments.open == "all" else list(map(int, arguments.open.split(","))),
+                             source.faces)
     line = find_centreline(repaired.mesh, repaired.rims)
     if arguments.catheter and not arguments.instrument:
         raise AnatomyError("--catheter needs the wire in it: add --instrument")

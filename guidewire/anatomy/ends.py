@@ -10,6 +10,7 @@ from guidewire.anatomy.centreline import End, find_centreline
 from guidewire.anatomy.distance_grid import cut_open
 from guidewire.anatomy.inspection import sort_rims
 from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, find_rims
+from guidewire.anatomy.reading import Faces
 from guidewire.anatomy.repair import Change, Repaired, with_rims_apart
 from guidewire.anatomy.surfaces import nearest
 
@@ -19,10 +20,11 @@ _SHARP = np.cos(np.radians(40.0))  # between a cap and the wall around it
 _SIZES = (0.5, 1.7)  # radius of a cap over that of the lumen
 
 
-def open_ends(repaired: Repaired, numbers: list[int] | None = None) -> Repaired:
-    """The vessel without its flat caps, and without the last radius of other branches that end closed.
+def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces | None = None) -> Repaired:
+    """The vessel without its caps, and without the last radius of other branches that end closed.
 
     numbers : of the ends to open, as a report without opened ones has them; None: all but domes of sacs.
+    faces : of the wall, where its file numbers them: a face over an end is its cap; else a flat one with a sharp rim is.
 
     Raises
     ------
@@ -34,19 +36,32 @@ def open_ends(repaired: Repaired, numbers: list[int] | None = None) -> Repaired:
     for number in numbers or []:
         if number not in known:
             raise AnatomyError(f"--open {number}: there are the ends {', '.join(map(str, known))}")
-    changes = {"flat caps taken off": 0, "closed ends cut open one radius inside": 0}
+    changes = {"caps taken off": 0, "closed ends cut open one radius inside": 0}
     for end in line.ends:
         if end.is_open or (end.is_sac if numbers is None else end.number not in numbers):
             continue
-        cap = _flat_cap(mesh, end)
+        cap = (_face_over(mesh, end, faces) if faces is not None else None)
+        cap = _flat_cap(mesh, end) if cap is None else cap
         cut = cut_open(mesh, end.centre + _BACK * end.radius * end.direction, end.direction, 1.5 * end.radius) if (
             cap is None) else mesh.part(~cap)
         if cut is not mesh:
-            changes["flat caps taken off" if cap is not None else "closed ends cut open one radius inside"] += 1
+            changes["caps taken off" if cap is not None else "closed ends cut open one radius inside"] += 1
         mesh = cut
     mesh, _ = with_rims_apart(mesh)
     return Repaired(mesh, sort_rims(mesh, find_rims(mesh, Edges.of(mesh))),
                     [*repaired.changes, *(Change(name, count) for name, count in changes.items() if count)])
+
+
+def _face_over(mesh: Mesh, end: End, faces: Faces) -> np.ndarray | None:
+    """(t,): the triangles of the face over an end; None where that is not of the size of a cap."""
+    own = faces.of(mesh)
+    cap = own == own[int(nearest(end.centre[None], mesh)[1][0])]
+    return cap if _is_as_wide(float(np.linalg.norm(mesh.area_vectors()[cap], axis=1).sum()), end) else None
+
+
+def _is_as_wide(area: float, end: End) -> bool:
+    """Whether an area is that of a cap over an end."""
+    return _SIZES[0] * end.radius < np.sqrt(area / np.pi) < _SIZES[1] * end.radius
 
 
 def _flat_cap(mesh: Mesh, end: End) -> np.ndarray | None:
@@ -61,9 +76,8 @@ def _flat_cap(mesh: Mesh, end: End) -> np.ndarray | None:
     graph = coo_matrix((np.ones(len(both)), both.T), shape=(len(areas), len(areas)))
     labels = connected_components(graph, directed=False)[1]
     cap = is_flat & (labels == labels[seed])
-    radius = float(np.sqrt(areas[cap].sum() / np.pi))
     border = pairs[cap[pairs].sum(axis=1) == 1]
-    if not len(border) or not _SIZES[0] * end.radius < radius < _SIZES[1] * end.radius:
+    if not len(border) or not _is_as_wide(float(areas[cap].sum()), end):
         return None
     is_sharp = np.einsum("ij,ij->i", normals[border[:, 0]], normals[border[:, 1]]) < _SHARP
     return cap if is_sharp.mean() > 0.9 else None

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from pathlib import Path
 
 import numpy as np
+from scipy.spatial import cKDTree
 
 from guidewire.anatomy.formats import CENTRELINES, ENDINGS, MASKS
 from guidewire.anatomy.images import read_image
@@ -22,10 +23,23 @@ _SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)")  # as 3D Slicer writes it into he
 
 
 @dataclass(frozen=True)
+class Faces:
+    """Faces of a wall, such as its caps, by number, as SimVascular writes them. middles : ndarray (t, 3) of triangles;
+    numbers : ndarray of int (t,)."""
+
+    middles: np.ndarray
+    numbers: np.ndarray
+
+    def of(self, mesh: Mesh) -> np.ndarray:
+        """(t,): the face of each triangle of a mesh, by the nearest middle."""
+        return self.numbers[cKDTree(self.middles).query(mesh.corners.mean(axis=1))[1]]
+
+
+@dataclass(frozen=True)
 class Source:
     """mesh : in LPS where the axes are known, else in the file's own; unit : where it is known; unit_said_by : who says
     the unit; axes : of the file; notes : what was done; name : of the file, or what was made; sha256 : of the file's
-    bytes."""
+    bytes; faces : of the wall, where the file numbers them."""
 
     mesh: Mesh
     unit: str | None
@@ -34,6 +48,7 @@ class Source:
     notes: list[str] = field(default_factory=list)
     name: str = ""
     sha256: str = ""
+    faces: Faces | None = None
 
     @property
     def stem(self) -> str:
@@ -99,7 +114,10 @@ def read(file: Path, unit: str | None = None, label: float | None = None, thresh
         return Source((axes or found.axes).take(mesh), said, by, axes or found.axes, [done], file.name, sha256)
     mesh = read_mesh(file, data)
     axes = axes or _stated_axes(file)
-    return Source(axes.take(mesh), unit, "as given", axes, [], file.name, sha256)
+    numbers = _face_numbers(data) if data is not None else None
+    taken = axes.take(mesh)
+    faces = Faces(taken.corners.mean(axis=1), numbers) if numbers is not None else None
+    return Source(taken, unit, "as given", axes, [], file.name, sha256, faces)
 
 
 def read_mesh(file: Path, data=None) -> Mesh:
@@ -142,18 +160,33 @@ def _stated_axes(file: Path) -> Axes:
 
 def _triangles(data) -> Mesh:
     from vtkmodules.util.numpy_support import vtk_to_numpy
-    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
 
     if data.GetNumberOfPolys() + data.GetNumberOfStrips() == 0:
         raise AnatomyError("the file holds no triangles")
+    cut = _cut(data)
+    cells = vtk_to_numpy(cut.GetPolys().GetConnectivityArray())
+    vertices = vtk_to_numpy(cut.GetPoints().GetData()).astype(float)
+    return Mesh(vertices, cells.reshape(-1, 3).astype(np.int64))
+
+
+def _face_numbers(data) -> np.ndarray | None:
+    """(t,): ModelFaceID of each triangle, or None."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    found = _cut(data).GetCellData().GetArray("ModelFaceID")
+    return None if found is None else vtk_to_numpy(found).astype(int).ravel()
+
+
+def _cut(data):
+    """vtkPolyData of triangles alone."""
+    from vtkmodules.vtkFiltersCore import vtkTriangleFilter
+
     cut = vtkTriangleFilter()
     cut.PassLinesOff()
     cut.PassVertsOff()
     cut.SetInputData(data)
     cut.Update()
-    cells = vtk_to_numpy(cut.GetOutput().GetPolys().GetConnectivityArray())
-    vertices = vtk_to_numpy(cut.GetOutput().GetPoints().GetData()).astype(float)
-    return Mesh(vertices, cells.reshape(-1, 3).astype(np.int64))
+    return cut.GetOutput()
 
 
 def _poly_data(file: Path, kind: str):

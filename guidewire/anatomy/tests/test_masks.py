@@ -8,7 +8,7 @@ import pytest
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
 from guidewire.anatomy.masks import mesh_of_image  # noqa: E402
-from guidewire.anatomy.mesh import AnatomyError, find_bodies  # noqa: E402
+from guidewire.anatomy.mesh import AnatomyError, find_bodies, signed_volume  # noqa: E402
 from guidewire.anatomy.images import Image  # noqa: E402
 
 SPACING = 0.5
@@ -91,3 +91,22 @@ def test_a_mask_without_the_label_is_one_line(label, threshold, expected) -> Non
     values[2:4, 2:4, 2:4] = [[[1.0, 2.0], [3.0, 1.0]], [[1.0, 1.0], [1.0, 1.0]]]
     with pytest.raises(AnatomyError, match=expected.replace("(", r"\(")):
         mesh_of_image(Image(values, np.eye(4)), label, threshold, None)
+
+
+def test_blocks_that_touch_at_a_corner_are_one_surface_and_the_place_is_named() -> None:
+    values = np.zeros((20, 20, 24), dtype=np.uint8)
+    values[2:8, 2:8, 2:12] = 1
+    values[8:13, 8:13, 12:20] = 1
+    mesh, notes = mesh_of_image(Image(values, np.diag([0.5, 0.5, 0.5, 1.0])), None, None, None)
+    assert find_bodies(mesh).max() == 0 and mesh.vertices[:, 2].max() > 9.0 and mesh.vertices[:, 2].min() < 1.5
+    assert any("a part of 200 voxels touches the rest at an edge or a corner of voxels only" in note for note in notes)
+
+
+def test_cavities_are_filled_and_the_volume_after_each_step_is_told() -> None:
+    values = np.zeros((16, 16, 24), dtype=np.uint8)
+    values[3:13, 3:13, 3:21] = 1
+    values[7:9, 7:9, 10:12] = 0
+    mesh, notes = mesh_of_image(Image(values, np.diag([0.5, 0.5, 0.5, 1.0])), None, None, None)
+    assert find_bodies(mesh).max() == 0 and any("8 voxels of cavities within it filled" in note for note in notes)
+    told, = (note for note in notes if note.startswith("volume: voxels 224 mm3"))
+    assert f"decimated {abs(signed_volume(mesh)):.5g} mm3" in told

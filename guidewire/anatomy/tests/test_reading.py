@@ -45,6 +45,78 @@ def test_formats_hold_the_same_mesh(tmp_path: Path, name: str) -> None:
     assert signed_volume(read) == pytest.approx(signed_volume(mesh), rel=1e-5)
 
 
+@pytest.mark.parametrize("kind", ["ascii", "little", "big"])
+def test_a_ply_of_any_kind_holds_the_same_mesh(tmp_path: Path, kind: str) -> None:
+    mesh = tube()
+    head = (f"ply\nformat {'ascii' if kind == 'ascii' else f'binary_{kind}_endian'} 1.0\ncomment SPACE=RAS\n"
+            f"element vertex {len(mesh.vertices)}\nproperty double x\nproperty double y\nproperty double z\n"
+            f"element face {len(mesh.triangles)}\nproperty list uchar int vertex_indices\nend_header\n")
+    if kind == "ascii":
+        body = "".join(f"{x!r} {y!r} {z!r}\n" for x, y, z in mesh.vertices.tolist()) + "".join(
+            f"3 {a} {b} {c}\n" for a, b, c in mesh.triangles)
+        (tmp_path / "a.ply").write_text(head + body)
+    else:
+        order = "<" if kind == "little" else ">"
+        rows = np.zeros(len(mesh.triangles), dtype=[("n", "u1"), ("ids", order + "i4", 3)])
+        rows["n"], rows["ids"] = 3, mesh.triangles
+        (tmp_path / "a.ply").write_bytes(head.encode() + mesh.vertices.astype(order + "f8").tobytes() + rows.tobytes())
+    read = reading.read_mesh(tmp_path / "a.ply")
+    np.testing.assert_array_equal(read.triangles, mesh.triangles)
+    np.testing.assert_allclose(read.vertices, mesh.vertices, atol=1e-5)
+    assert reading.read(tmp_path / "a.ply").axes.letters == "RAS"
+
+
+@pytest.mark.parametrize("mode", [0, 1, 2])  # ASCII, binary, appended
+@pytest.mark.parametrize("is_packed", [False, True])
+def test_a_vtp_of_any_kind_holds_the_same_mesh_and_strips_are_triangles(tmp_path: Path, mode: int, is_packed) -> None:
+    from vtkmodules.vtkFiltersCore import vtkStripper
+    from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter
+
+    strips = vtkStripper()
+    strips.SetInputData(to_vtk(tube()))
+    strips.Update()
+    writer = vtkXMLPolyDataWriter()
+    writer.SetFileName(str(tmp_path / "a.vtp"))
+    writer.SetInputData(strips.GetOutput())
+    writer.SetDataMode(mode)
+    if not is_packed:
+        writer.SetCompressorTypeToNone()
+    writer.Write()
+    read = weld_exactly(reading.read_mesh(tmp_path / "a.vtp"))
+    assert len(read.triangles) == len(tube().triangles)
+    assert signed_volume(read) == pytest.approx(signed_volume(tube()), rel=1e-5)
+
+
+POINTS = "v 0 0 0\nv 10 0 0\nv 0 10 0\nv 0 0 10\n"
+SOLID = "solid a\n" + "".join(
+    "facet normal 0 0 0\nouter loop\n" + "".join(f"vertex {corner}\n" for corner in corners) + "endloop\nendfacet\n"
+    for corners in (("0 0 0", "0 10 0", "10 0 0"), ("0 0 0", "10 0 0", "0 0 10"), ("0 0 0", "0 0 10", "0 10 0"),
+                    ("10 0 0", "0 10 0", "0 0 10"))) + "endsolid a\n"
+FACES = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
+
+
+@pytest.mark.parametrize("name, content", [  # the runner's readers have the same cases in MeshFileTests
+    ("slash.obj", POINTS + FACES.replace("f 1 3 2", "f 1/ 3/ 2/")),
+    ("slashes.obj", POINTS + "usemtl \n" + FACES.replace("f 1 3 2", "f 1// 3//7 2/5").replace("f 2 3 4", "f -3 -2 -1")),
+    ("mark.obj", "\ufeff" + POINTS + FACES.replace("f 1 3 2", "f 1 3 \\\n2")),
+    ("ends.obj", POINTS + "lod 3\nvn 0 0 1\n" + FACES.replace("\n", " # a comment\r\n")),
+    ("capitals.stl", SOLID.upper()), ("blank.stl", SOLID.replace("endsolid", "end solid").replace("endfacet", "end facet")),
+])
+def test_a_tetrahedron_is_read_from_every_kind_of_text(tmp_path: Path, name: str, content: str) -> None:
+    (tmp_path / name).write_bytes(content.encode())
+    mesh = reading.read_mesh(tmp_path / name)
+    assert len(mesh.triangles) == 4 and signed_volume(mesh) == pytest.approx(1000.0 / 6.0, rel=1e-9)
+
+
+def test_bytes_behind_a_binary_stl_are_left_out_up_to_a_triangle(tmp_path: Path) -> None:
+    data = write_stl(tmp_path / "a.stl", tube()).read_bytes()
+    (tmp_path / "a.stl").write_bytes(data + b"\r\n")
+    assert len(reading.read_mesh(tmp_path / "a.stl").triangles) == len(tube().triangles)
+    (tmp_path / "a.stl").write_bytes(data + bytes(50))
+    with pytest.raises(AnatomyError, match="it needs"):
+        reading.read_mesh(tmp_path / "a.stl")
+
+
 def nifti(shape=(8, 8, 8), voxels: bytes | None = None, first: int = 348) -> bytes:
     head = bytearray(352)
     struct.pack_into("<i", head, 0, first)
@@ -277,3 +349,16 @@ def test_values_are_what_slope_intercept_byte_order_and_encoding_make_of_them(tm
 
 def test_binary_stl_is_read(tmp_path: Path) -> None:
     assert len(reading.read_mesh(write_stl(tmp_path / "a.stl", tube())).triangles) == len(tube().triangles)
+
+
+@pytest.mark.parametrize("system, sign", [("LPS", 1.0), ("RAS", -1.0)])
+def test_a_curve_of_slicer_is_in_the_system_that_it_names(tmp_path: Path, system: str, sign: float) -> None:
+    points = ", ".join(f'{{"position": [{sign * k}, {sign * 2}, 3]}}' for k in range(4))
+    (tmp_path / "a.mrk.json").write_text(
+        f'{{"markups": [{{"coordinateSystem": "{system}", "coordinateUnits": "mm", "controlPoints": [{points}], '
+        '"measurements": [{"name": "Radius", "controlPointValues": [2, 2, 2, 2]}]}]}')
+    source = reading.read(tmp_path / "a.mrk.json")
+    assert source.axes.letters == system and source.unit == "mm"
+    middle = 0.5 * (source.mesh.vertices.min(axis=0) + source.mesh.vertices.max(axis=0))
+    np.testing.assert_allclose(middle[1:], [2.0, 3.0], atol=0.05)
+    assert source.mesh.vertices[:, 0].max() > 2.9 and source.mesh.vertices[:, 0].min() > -0.2

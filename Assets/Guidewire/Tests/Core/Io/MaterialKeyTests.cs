@@ -15,6 +15,22 @@ namespace Guidewire.Core.Tests
             Assert.That(values.Simulation.Drive.Displacement, Is.Zero);
         }
 
+        [TestCase(1.0)]
+        [TestCase(0.01)]
+        public void LengthsThatAreNotGiven_AreTheSameInAnyUnit(double metresPerUnit)
+        {
+            SimulationParameters here = Load(("solver", "direct"), ("metresPerUnit", metresPerUnit)).Simulation;
+            SimulationParameters millimetres = Load(("solver", "direct")).Simulation;
+            double scale = metresPerUnit / 1e-3;
+            Assert.That(millimetres.Method.DeltaThreshold, Is.GreaterThan(0.0));
+            Assert.That(here.Method.DeltaThreshold * scale,
+                Is.EqualTo(millimetres.Method.DeltaThreshold).Within(1e-12));
+            Assert.That(here.Scene.GuidewireLength * scale,
+                Is.EqualTo(millimetres.Scene.GuidewireLength).Within(1e-9));
+            Assert.That(Load(("solver", "direct"), ("metresPerUnit", metresPerUnit), ("deltaThreshold", 0.5)).Simulation
+                .Method.DeltaThreshold, Is.EqualTo(0.5));
+        }
+
         [TestCase("stretchStiffness", 0.5)]
         [TestCase("bendStiffness", 0.5)]
         [TestCase("totalMass", 0.5)]
