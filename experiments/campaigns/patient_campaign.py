@@ -9,6 +9,7 @@ axes, its unit and its place, and whether the wire is at the target.
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import re
 import subprocess
@@ -133,13 +134,14 @@ def main() -> int:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("files", nargs="*", type=Path)
     parser.add_argument("--out", type=Path, required=True)
-    parser.add_argument("--only", default="")
+    parser.add_argument("--only", help="a word in names of the twenty; empty for none of them")
     parser.add_argument("--minutes", type=float)
     asked = parser.parse_args()
-    patients = [Patient(file.resolve(), "", np.empty((0, 4))) for file in asked.files]
-    patients += patient_files.write(asked.out.resolve() / "files", lambda name: asked.only in name)
+    given = (Patient(file.resolve(), "", np.empty((0, 4))) for file in asked.files)
+    made = patient_files.write(asked.out.resolve() / "files", lambda name: asked.only is None or (
+        asked.only != "" and asked.only in name))
     rows = []
-    for patient in patients:
+    for patient in itertools.chain(given, made):
         rows.append(take(patient, asked.out.resolve() / patient.file.name, asked.minutes))
         print(rows[-1], f"{rows[-1].seconds:.0f} s", flush=True)
     print(f"{sum(row.is_right for row in rows)} of {len(rows)} right, {sum(bool(row.refused) for row in rows)} refused")

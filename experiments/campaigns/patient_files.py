@@ -5,7 +5,7 @@ from __future__ import annotations
 
 import gzip
 import struct
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -30,14 +30,12 @@ class Patient:
     voxel: float = 0.0
 
 
-def write(folder: Path, chosen: Callable[[str], bool] = lambda name: True) -> list[Patient]:
-    """All of them, or those whose names are chosen."""
+def write(folder: Path, chosen: Callable[[str], bool] = lambda name: True) -> Iterator[Patient]:
+    """One after the other, all of them or those whose names are chosen."""
     folder.mkdir(parents=True, exist_ok=True)
-    found = []
     for name, made in _PATIENTS.items():
         if chosen(name):
-            found.append(made(folder / name))
-    return found
+            yield made(folder / name)
 
 
 def _lines(kind: str, number: int, seed: int) -> list[np.ndarray]:

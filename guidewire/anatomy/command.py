@@ -63,7 +63,7 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     wire = diameter_of(arguments.instrument) if arguments.instrument else arguments.wire
     if arguments.catheter:
         diameter_of(arguments.catheter)
-    inlet = output.find_inlet(line, arguments.inlet)
+    inlet = output.find_inlet(line, arguments.inlet, source.begin)
     target = (output.find_end(line, arguments.target) if arguments.target
               else output.default_target(line, inlet, found.unit, wire))
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)

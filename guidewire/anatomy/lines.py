@@ -98,6 +98,13 @@ def mesh_of_lines(lines: list[Line]) -> tuple[Mesh, str]:
     return mesh_of_tubes(tubes, _CARINA * max(float(tube.radii.max()) for tube in tubes)), done
 
 
+def begin_of(lines: list[Line]) -> np.ndarray | None:
+    """(3,): where all lines begin, as those of VMTK do at their inlet; None where they begin in several places."""
+    first = np.array([line.points[0] for line in lines])
+    apart = np.linalg.norm(first - first[0], axis=1)
+    return first[0] if (apart <= [line.radii[0] for line in lines]).all() else None
+
+
 def tree_of(lines: list[Line]) -> tuple[list[Tube], int]:
     """Lines as branches of one tree, each without what others contain of it, and how many they contain whole.
 

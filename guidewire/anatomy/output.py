@@ -68,14 +68,15 @@ def check_source(folder: Path, source: Source) -> None:
         raise AnatomyError(f"{folder} holds the vessel of {other}: --force replaces it, --out takes another folder")
 
 
-def find_inlet(line: Centreline, asked: str | None) -> End:
-    """The end with a number or a name, or else the widest one.
+def find_inlet(line: Centreline, asked: str | None, begin: np.ndarray | None = None) -> End:
+    """The end with a number or a name, or else that at which the file's lines begin, or else the widest one.
 
     Raises
     ------
     AnatomyError : there is none, or it is the dome of a sac.
     """
-    inlet = line.ends[0] if asked is None else find_end(line, asked)
+    inlet = (find_end(line, asked) if asked is not None else line.ends[0] if begin is None
+             else min(line.ends, key=lambda end: float(np.linalg.norm(end.centre - begin))))
     if inlet.is_sac:
         raise AnatomyError(f"end {inlet.number} '{inlet.name}' is the dome of a sac: no wire enters there, unless "
                            f"--open {inlet.number} opens it")

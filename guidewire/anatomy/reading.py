@@ -39,7 +39,7 @@ class Faces:
 class Source:
     """mesh : in LPS where the axes are known, else in the file's own; unit : where it is known; unit_said_by : who says
     the unit; axes : of the file; notes : what was done; name : of the file, or what was made; sha256 : of the file's
-    bytes; faces : of the wall, where the file numbers them."""
+    bytes; faces : of the wall, where the file numbers them; begin : (3,), where all lines of a file begin, or None."""
 
     mesh: Mesh
     unit: str | None
@@ -49,6 +49,7 @@ class Source:
     name: str = ""
     sha256: str = ""
     faces: Faces | None = None
+    begin: np.ndarray | None = None
 
     @property
     def stem(self) -> str:
@@ -111,7 +112,10 @@ def read(file: Path, unit: str | None = None, label: float | None = None, thresh
         mesh, done = lines.mesh_of_lines(found.lines)
         said = unit or found.unit or None
         by = "as given" if unit else "as the file says"
-        return Source((axes or found.axes).take(mesh), said, by, axes or found.axes, [done], file.name, sha256)
+        axes = axes or found.axes
+        begin = lines.begin_of(found.lines)
+        return Source(axes.take(mesh), said, by, axes, [done], file.name, sha256,
+                      begin=None if begin is None else axes.to_lps @ begin)
     mesh = read_mesh(file, data)
     axes = axes or _stated_axes(file)
     numbers = _face_numbers(data) if data is not None else None

@@ -9,8 +9,10 @@ import pytest
 
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
-from guidewire.anatomy.lines import Line, read_lines, tree_of  # noqa: E402
-from guidewire.anatomy.mesh import AnatomyError  # noqa: E402
+from guidewire.anatomy.centreline import find_centreline  # noqa: E402
+from guidewire.anatomy.lines import Line, begin_of, mesh_of_lines, read_lines, tree_of  # noqa: E402
+from guidewire.anatomy.mesh import AnatomyError, Edges, find_rims  # noqa: E402
+from guidewire.anatomy.output import find_inlet  # noqa: E402
 
 # x, y, z, radius and a number that is none of them, of a straight line.
 ROWS = [(10.0 + k, 20.0, 30.0, 2.0, float(k)) for k in range(41)]
@@ -91,3 +93,14 @@ def test_fragments_in_any_order_and_sense_are_a_tree() -> None:
 def test_a_line_apart_from_the_others_is_refused() -> None:
     with pytest.raises(AnatomyError, match=r"line 2 of 2, from \[30, 0, 0\] on, begins 28 outside of the others"):
         tree_of([straight([0, 0, 0], [0, 0, 40]), straight([30, 0, 0], [60, 0, 0])])
+
+
+def test_lines_from_one_place_have_their_inlet_there_and_fragments_have_none() -> None:
+    trunk = np.column_stack([np.zeros(21), np.zeros(21), np.arange(21.0)])
+    arms = [np.column_stack([0.5 * s * np.arange(1.0, 21.0), np.zeros(20), 20.0 + np.arange(1.0, 21.0)]) for s in (1, -1)]
+    whole = [Line(np.concatenate([trunk, arm]), np.full(41, 2.0)) for arm in arms]
+    np.testing.assert_array_equal(begin_of(whole), [0.0, 0.0, 0.0])
+    assert begin_of([whole[0], Line(whole[1].points[::-1], whole[1].radii)]) is None
+    mesh, _ = mesh_of_lines(whole)
+    line = find_centreline(mesh, find_rims(mesh, Edges.of(mesh)))
+    assert find_inlet(line, None, begin_of(whole)).centre[2] < 1.0
