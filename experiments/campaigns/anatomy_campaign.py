@@ -107,7 +107,7 @@ def draw(vessel: Vessel, seed: int, folder: Path, instrument: str | None = None)
         scene = {key: value for key, value in scene.items() if key not in _WIRE} | {"instrument": instrument}
     if random.uniform() < 0.6:
         scene["vessel"]["frictionCoefficient"] = random.uniform(0.02, 0.3)
-    rows = _drive(random, 0.9 * float(vessel.scene["guidewireLength"]))
+    rows = drive(random, 0.9 * float(vessel.scene["guidewireLength"]))
     # Of one run in five the hub never slips: what jams has to fail then, with the force in its reason.
     scene["hubForceLimit"] = (float(np.exp(random.uniform(np.log(0.5), np.log(10.0))))
                               if random.uniform() < 0.8 else 0.0)
@@ -119,7 +119,7 @@ def draw(vessel: Vessel, seed: int, folder: Path, instrument: str | None = None)
     return path
 
 
-def _drive(random: np.random.Generator, most: float) -> list[tuple[float, float, float]]:
+def drive(random: np.random.Generator, most: float) -> list[tuple[float, float, float]]:
     """Time s, insertion mm and rotation rad, piece by piece: pushes, pulls and turns, and some at once."""
     at, rows = np.zeros(3), [(0.0, 0.0, 0.0)]
     while at[0] < STEP * MOST_STEPS:

@@ -20,6 +20,7 @@ from PIL import Image, ImageDraw, ImageFont
 
 from guidewire.figures.raster import Camera, Picture, draw
 from guidewire.logs.logs import LogError, PositionLog, extent
+from guidewire.logs.paths import lengths_of, through_tips
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface, curvature, refine, tube
 
@@ -241,7 +242,7 @@ def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: Vie
     if not times:
         return _frame_at(stage, log, chosen[0], SIZE)
     colours = colormaps["plasma"](np.linspace(0.4, 0.95, len(chosen)))[:, :3]
-    return frame(stage, [(_finite(log, k), colour) for k, colour in zip(chosen, colours)],
+    return frame(stage, [(_path(log, k), colour) for k, colour in zip(chosen, colours)],
                  [f"t = {log.time[k]:.4g} s   step {log.steps[k]}" for k in chosen],
                  [_catheters_at(log, k) for k in chosen])
 
@@ -279,7 +280,7 @@ def _of_few_colours(images: Sequence[Image.Image]) -> list[Image.Image]:
 
 
 def _frame_at(stage: Stage, log: PositionLog, k: int, size: tuple[int, int]) -> Image.Image:
-    return frame(stage, [(_finite(log, k), None)], [_caption(log, k, stage)], [_catheters_at(log, k)], k, size)
+    return frame(stage, [(_path(log, k), None)], [_caption(log, k, stage)], [_catheters_at(log, k)], k, size)
 
 
 def save_images(images: Sequence[Image.Image], path: Path) -> None:
@@ -344,6 +345,12 @@ def _finite(log: PositionLog, k: int) -> np.ndarray:
     if not np.isfinite(log.positions[k]).all():
         raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite; give --times before it")
     return log.positions[k]
+
+
+def _path(log: PositionLog, k: int) -> np.ndarray:
+    """Points of the wire at one entry, the tips of catheters that it comes out of among them."""
+    nodes = _finite(log, k)
+    return through_tips(nodes, _catheters_at(log, k), lengths_of(log.positions))[0] if log.catheters else nodes
 
 
 def _catheters_at(log: PositionLog, k: int) -> list[np.ndarray]:

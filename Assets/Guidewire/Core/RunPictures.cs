@@ -14,12 +14,14 @@ namespace Guidewire.Core
         private const double MassAttenuation = 0.12;   // m^2/kg
         private const double Margin = 1.05;            // of the picture's side, around what is shown
         private const double Millimetre = 1e-3;        // m
+        private const double Stretch = 1e-3;           // of an element's length, by which it may be longer
 
         private readonly Fluoroscopy _fluoroscopy;
         private readonly Extents? _vessel;
         private readonly double _perUnit;   // mm
         private readonly PatientAxes? _axes;
         private readonly ImagedInstrument[] _instruments;
+        private readonly double[] _lengths;   // of the wire's elements, units
         private ImagedInstrument[] _drawn;
         private double? _attenuation;
 
@@ -53,6 +55,7 @@ namespace Guidewire.Core
                 _instruments[k] = InstrumentOf(own, isMaterial, metres);
             }
             _drawn = _instruments;
+            _lengths = ElementLayout.Lengths(parameters, 1.0, out _);
         }
 
         /// <summary>Length of a unit, mm.</summary>
@@ -85,7 +88,9 @@ namespace Guidewire.Core
                 Blur = asked.Blur / _perUnit,
             };
             Place(centrelines, view.Attenuation);
-            _fluoroscopy.Draw(_drawn, Arm(centrelines[0], view), settings, grey);
+            var shown = (ImagedInstrument[])_drawn.Clone();
+            shown[0] = shown.Length > 1 ? ThroughTips(shown[0], centrelines) : shown[0];
+            _fluoroscopy.Draw(shown, Arm(centrelines[0], view), settings, grey);
         }
 
         private static ImagedInstrument InstrumentOf(SimulationParameters parameters, bool isMaterial, double metres)
@@ -125,6 +130,41 @@ namespace Guidewire.Core
             {
                 _drawn[k].Positions = centrelines[k];
             }
+        }
+
+        // The wire with the tips that it comes out of: the chord of an element there would cut the corner.
+        private ImagedInstrument ThroughTips(ImagedInstrument wire, IReadOnlyList<Vector3d[]> centrelines)
+        {
+            var points = new List<Vector3d>(centrelines[0]);
+            var elements = new List<int>();
+            for (int j = 0; j < _lengths.Length; j++)
+            {
+                elements.Add(j);
+            }
+            for (int k = 1; k < centrelines.Count; k++)
+            {
+                Vector3d tip = centrelines[k][centrelines[k].Length - 1];
+                int crossing = -1;
+                double least = 1.0 + Stretch;
+                for (int j = 0; j < elements.Count; j++)
+                {
+                    double behind = (points[j] - tip).Length;
+                    double beyond = (points[j + 1] - tip).Length;
+                    double detour = (behind + beyond) / _lengths[elements[j]];
+                    if (detour <= least)
+                    {
+                        least = detour;
+                        crossing = Math.Min(behind, beyond) > 0.0 ? j : -1;
+                    }
+                }
+                if (crossing >= 0)
+                {
+                    points.Insert(crossing + 1, tip);
+                    elements.Insert(crossing, elements[crossing]);
+                }
+            }
+            double[] Of(double[] values) => elements.ConvertAll(j => values[j]).ToArray();
+            return new ImagedInstrument(points.ToArray(), Of(wire.Radii), Of(wire.InnerRadii), Of(wire.Attenuations));
         }
 
         private ImagedInstrument WithAttenuation(ImagedInstrument one, double perMillimetre)

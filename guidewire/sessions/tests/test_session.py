@@ -437,3 +437,25 @@ def test_lists_of_another_length_or_of_no_numbers_are_refused_and_nothing_moves(
         assert "\n" not in str(refused.value) and session.state.step == 0
         with pytest.raises(SessionError, match="needs a number, or a list of one for each of the 2 hubs"):
             session.step([1.0, 1.0], hub=1)
+
+
+def test_a_picture_shows_the_wire_bent_at_the_tip_that_it_comes_out_of():
+    with Session(CATHETER, hand=True, native=False) as session:
+        state = session.state
+        wire, catheter = state.positions.copy(), state.catheters[0].positions.copy()
+        lengths = np.linalg.norm(np.diff(wire, axis=0), axis=1)
+        k = len(lengths) // 2
+        along = np.cumsum(np.r_[0.0, lengths])
+        corner = 0.4 * lengths[k]  # the tip's distance from the chord
+        wire = np.outer(along, [0.0, 0.0, 1.0])
+        wire[k + 1:, 2] -= lengths[k] - 2.0 * np.sqrt(0.25 * lengths[k]**2 - corner**2)
+        tip = 0.5 * (wire[k] + wire[k + 1]) + [0.0, corner, 0.0]
+        catheter = tip + np.outer(np.arange(len(catheter))[::-1], [0.0, 2.0, 0.0])  # comes from the side
+        middle = 0.5 * (tip + wire[k + 1])
+        view = {"pixels": 65, "field_of_view": 4.0 * corner, "vessel": "none", "noise": 0.0, "blur": 0.0,
+                "centre": middle.tolist()}
+        bent = session.picture_of([wire, catheter], **view).astype(int)
+        # The same shadow along the beam, and no tip on the wire's way.
+        far = session.picture_of([wire, catheter + [lengths[k], 0.0, 0.0]], **view).astype(int)
+        assert bent[32, 32] < far[32, 32] - 5, "the piece from the tip to the next node is there"
+
