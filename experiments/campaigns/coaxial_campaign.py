@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from experiments.campaigns.anatomy_campaign import RUN_LIMIT, STEP, Vessel, Walk, drive
+from experiments.campaigns.anatomy_campaign import STEP, Vessel, Walk, drive
 from experiments.campaigns.push_campaign import CODES, parser_of
 from experiments.campaigns.push_claims import contradictions
 from guidewire.logs.logs import PositionLog, read_log
@@ -31,6 +31,7 @@ from guidewire.runs.runner import Request, Runner
 
 PAIRS = (("radifocus-angled-0.035", "catheter-angled-5f", 1.67), ("workhorse-0.014", "microcatheter-2.4f", 0.97))
 MOST_STEPS = 160
+RUN_LIMIT = 1200.0  # s of wall time of one run
 _BODY, _BEHIND = 5.0, 60.0  # mm: of a catheter's elements, and of its hub before the wire's
 _POINTS = 10  # looked at on each piece
 _TARGET = 3.0  # radii of a target, at which a tip that reached it has been at least
