@@ -77,8 +77,7 @@ def add_programs(folder: Path) -> None:
               f"-p:PublishDir={older}{os.sep}"])
         shutil.copy(newer, _made(folder) / LIBRARY[True])
         shutil.copy(Path(older) / f"{building.NATIVE}.so", folder / LIBRARY[False])
-    _run([shutil.which("gcc") or "clang", "-O2", "-Wall", "-Wextra", "-Werror", "-s", "-o", str(folder / RUNNER),
-          str(source / "runner.c"), "-ldl"])
+    building.link_runner(folder / RUNNER)
 
 
 def _run(command: Sequence[str]) -> None:

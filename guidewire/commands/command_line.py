@@ -252,8 +252,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     python.add_argument("words", metavar="...", nargs=argparse.REMAINDER, help="the script's own arguments")
     python.set_defaults(packages=DRAWING)
 
-    native = commands.add_parser("native", help="build the native library (needs gcc), with which short calls of "
-                                                "sessions take two thirds of the time")
+    native = commands.add_parser("native", help="build the native library and runner (needs gcc), which compile "
+                                                "nothing while they run")
     native.set_defaults(packages=())
 
     package = commands.add_parser("package", help="build the Python wheel and the NuGet packages (needs gcc)")

@@ -44,7 +44,8 @@ _WRITTEN = ("**/*.dll", "*.so", "*/*.deps.json", "*/*.runtimeconfig.json")
 
 
 def build(project: str, tell: Callable[[str], None]) -> list[str]:
-    """Build one program of the solution (Release) if need be, and return the command that starts it.
+    """Build one program of the solution (Release) if need be, and return the command that starts it. The runner is the
+    native one where that was built from what is there now: it compiles nothing while it runs.
 
     Parameters
     ----------
@@ -59,6 +60,8 @@ def build(project: str, tell: Callable[[str], None]) -> list[str]:
         if project != RUNNER:
             installed.refuse(project)
         return installed.runner()
+    if project == RUNNER and _native_runner().is_file() and native_library() and installed.has_avx2():
+        return [str(_native_runner())]
     program, sdks = dotnet()
     _bring_up_to_date(program, sdks, HEADLESS / project / f"{project}.csproj", (project,), tell)
     return [program, str(_output(project) / f"net{SDK_MAJOR}.0" / f"{project}.dll")]
@@ -75,11 +78,25 @@ def end_compiler() -> None:
 
 
 def build_native(tell: Callable[[str], None]) -> Path:
-    """Build the native library if need be, with the C compiler's linker; `tell` and errors as of `build`."""
+    """Build the native library and the runner that starts it if need be, with the C compiler's linker; `tell` and errors
+    as of `build`."""
     if shutil.which("gcc") is None and shutil.which("clang") is None:
         raise PreparationError("the native library needs a linker: install gcc and zlib1g-dev")
     _bring_up_to_date(*dotnet(), HEADLESS / NATIVE / f"{NATIVE}.csproj", (NATIVE,), tell, "publish")
-    return _output(NATIVE) / f"{NATIVE}.so"
+    library, runner = _output(NATIVE) / f"{NATIVE}.so", _native_runner()
+    if not runner.is_file():
+        runner.parent.mkdir(exist_ok=True)
+        (runner.parent / installed.LIBRARY[True]).symlink_to(Path("..") / library.name)
+        link_runner(runner)
+    return library
+
+
+def link_runner(runner: Path) -> None:
+    """Compile the program that hands its arguments to the native library beside it."""
+    done = subprocess.run([shutil.which("gcc") or "clang", "-O2", "-Wall", "-Wextra", "-Werror", "-s", "-o", str(runner),
+                           str(HEADLESS / NATIVE / "runner.c"), "-ldl"], capture_output=True, text=True, check=False)
+    if done.returncode != 0:
+        raise PreparationError(f"the native runner is not built: {(done.stderr.splitlines() or ['no message'])[0]}")
 
 
 def build_browser(is_compiled_ahead: bool, tell: Callable[[str], None]) -> Path:
@@ -192,6 +209,10 @@ def _digest(project: str, sources: str) -> str:
     files = sorted(path for pattern in _WRITTEN for path in _output(project).glob(pattern))
     written = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
     return hashlib.sha256(f"{sources}{written}".encode()).hexdigest()
+
+
+def _native_runner() -> Path:
+    return _output(NATIVE) / "runner" / installed.RUNNER
 
 
 def _output(project: str) -> Path:
