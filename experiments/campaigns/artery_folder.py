@@ -13,6 +13,7 @@ from guidewire.anatomy.centreline import Centreline, End
 from guidewire.anatomy.inspection import Unit
 from guidewire.anatomy.lumens import ARTERY, ARTERY_ENTRANCE, artery_lumens
 from guidewire.anatomy.mesh import Mesh
+from guidewire.anatomy.reading import Source
 from guidewire.logs.surfaces import read_obj
 from guidewire.runs.whole_files import write_whole
 
@@ -37,8 +38,9 @@ def write(folder: Path, target: int) -> Path:
                  for k, (tip, along) in enumerate(zip(tips, ahead), 1))
     parents = np.r_[-1, np.arange(n - 1), fork, n + np.arange(m - 1)]
     centreline = Centreline(points, np.r_[radii, arm_radii[1:]], parents, branches, ends)
-    mesh, unit = read_obj(ARTERY), Unit("mm", "as made", True)
-    output.write_vessel(folder, Mesh(mesh.vertices, mesh.triangles), centreline, unit, ARTERY.name)
+    found, unit = read_obj(ARTERY), Unit("mm", "as made", True)
+    mesh = Mesh(found.vertices, found.triangles)
+    output.write_vessel(folder, mesh, centreline, unit, Source(mesh, "mm", "as made", name=ARTERY.name))
     write_whole(folder / output.SCENE,
                 json.dumps(output.scene(centreline, unit, ends[0], ends[target - 1], 0.36), indent=2) + "\n")
     return folder / output.SCENE
