@@ -31,6 +31,8 @@ MOST_TRIALS = 400    # sets of values
 _STEP = 1e-3    # of a difference quotient, in scales
 _EXACT = 1e-4   # in scales: of the values at the end
 _SINGULAR = 1e-5    # ratio of singular values, below which difference quotients say nothing
+_LOOKS = 4    # runs, and Jacobians, from the other side, before it is given up
+_NEAR = 4.0    # times the least sum of squares: a search that comes so near goes on
 _USELESS = 1.0    # standard error, in scales, beyond which a value is none
 _SHARE = 0.1    # of a direction, above which an unknown takes part in it
 _TOO_LONG, _TOO_SHORT = 3.0, 0.02    # extent of measured points over the wire's length
@@ -170,7 +172,7 @@ class _Search:
             if len(self._measured) > 1:
                 self._weights = [1.0 / max(part.rms, 1e-12) for part in self._best[2]]
                 found = self._search(found.x, low, high)
-            jacobian = found.jac
+            jacobian = self._other_side(found, low, high).jac
         except KeyboardInterrupt:
             if self._best is None:
                 raise
@@ -179,14 +181,33 @@ class _Search:
         return self._result(self._best[1], self._best[2], jacobian, low, high, is_complete)
 
     def _search(self, at: np.ndarray, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
-        self._best = None    # what counts as best depends on the weights
+        self._best = self._last = None    # what counts as best depends on the weights
         start = self._residual(at)
         self._bad = 1e3 * np.abs(start) + 1e3 * float(np.linalg.norm(start) / math.sqrt(len(start)))
+        return self._descend(at, low, high, 60)
+
+    def _other_side(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
+        """The better one of what was found and of a search from its mirror image: a curvature of either sign, with other
+        stiffnesses, may make nearly the same shape, and each is the end of a search that begins on its side."""
+        at = np.clip([step if one.by_ratio else -step for one, step in zip(self._unknowns, found.x)], low, high)
+        if np.allclose(at, found.x, rtol=0.0, atol=_EXACT) or self._residual(at) is self._bad:
+            return found
+        try:
+            other = self._descend(at, low, high, _LOOKS)
+            if other.cost < _NEAR * found.cost:
+                other = self._descend(other.x, low, high, 60)
+        except PreparationError:    # no runs there
+            return found
+        return other if other.cost < found.cost else found
+
+    def _descend(self, at: np.ndarray, low: np.ndarray, high: np.ndarray, most: int) -> OptimizeResult:
         return least_squares(self._residual, at, jac=self._jacobian, bounds=(low, high), method="trf", x_scale=1.0,
-                             xtol=_EXACT, ftol=1e-10, gtol=1e-12, max_nfev=60)
+                             xtol=_EXACT, ftol=1e-10, gtol=1e-12, max_nfev=most)
 
     def _residual(self, steps: np.ndarray) -> np.ndarray:
         """Weighted residuals; of a run without a result those of the start, times a thousand: never taken for better."""
+        if self._last is not None and np.array_equal(self._last[0], steps):
+            return self._last[1]
         parts = self._compared([steps])[0]
         if parts is None:
             if self._best is None:

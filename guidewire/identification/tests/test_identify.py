@@ -48,18 +48,13 @@ def turned_to(chord):
 @pytest.fixture(scope="module")
 def run_of(runner_command):
     """A function that makes a run of a scene and returns its folder."""
-    made = []
+    with Trials(runner_command, None, {}, 1) as trials:
+        def make(scene):
+            (folder,) = trials.run([scene])
+            assert not isinstance(folder, str), folder
+            return folder
 
-    def make(scene):
-        trials = Trials(runner_command, None, scene, 1)
-        made.append(trials)
-        (folder,) = trials.run([{}])
-        assert not isinstance(folder, str), folder
-        return folder
-
-    yield make
-    for trials in made:
-        trials.__exit__()
+        yield make
 
 
 def shape_of(folder):
