@@ -31,8 +31,12 @@ MOST_TRIALS = 400    # sets of values
 _STEP = 1e-3    # of a difference quotient, in scales
 _EXACT = 1e-4   # in scales: of the values at the end
 _SINGULAR = 1e-5    # ratio of singular values, below which difference quotients say nothing
-_LOOKS = 4    # runs, and Jacobians, from the other side, before it is given up
-_NEAR = 4.0    # times the least sum of squares: a search that comes so near goes on
+_SETTLED = 1e-5    # of the sum of squares: less than that no step gains, a thirtieth of a standard error or so
+_TRUSTED = 0.5    # of the decrease that a Jacobian promised: having had so much, it is corrected, not found anew
+_RIVAL = 12.0    # of a sum of squares over the variance: values that fit no worse than that are not ruled out
+_STRAIGHT = 0.2    # reach of the least certain direction, in scales, within which the valley is taken for straight
+_DOWN, _LEVEL = 8, 0.002    # steps down into the valley at most, and a step that is none
+_AGAIN = 3    # searches with a Jacobian found anew at their end
 _USELESS = 1.0    # standard error, in scales, beyond which a value is none
 _SHARE = 0.1    # of a direction, above which an unknown takes part in it
 _TOO_LONG, _TOO_SHORT = 3.0, 0.02    # extent of measured points over the wire's length
@@ -160,7 +164,10 @@ class _Search:
             _check_size(one, self._scene)
         self._weights = [_first_weight(one) for one in self._measured]
         self._best: tuple[float, np.ndarray, list[Residuals]] | None = None
-        self._last: tuple[np.ndarray, np.ndarray] | None = None
+        self._last: tuple[np.ndarray, np.ndarray] | None = None    # steps and residuals
+        self._model: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None    # the same with their Jacobian
+        self._rival: np.ndarray | None = None    # steps that fit nearly as well
+        self._bend: list[np.ndarray] = []    # steps that bound what is certain
 
     def run(self) -> Identified:
         """Search, weigh the measurements by what they end with, and search once more where there are several."""
@@ -172,7 +179,9 @@ class _Search:
             if len(self._measured) > 1:
                 self._weights = [1.0 / max(part.rms, 1e-12) for part in self._best[2]]
                 found = self._search(found.x, low, high)
-            jacobian = self._other_side(found, low, high).jac
+            best = self._other_side(found, low, high)
+            jacobian = best.jac
+            self._bend = self._valley(best, low, high)
         except KeyboardInterrupt:
             if self._best is None:
                 raise
@@ -181,28 +190,77 @@ class _Search:
         return self._result(self._best[1], self._best[2], jacobian, low, high, is_complete)
 
     def _search(self, at: np.ndarray, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
-        self._best = self._last = None    # what counts as best depends on the weights
+        self._best = self._last = self._model = self._rival = None    # what counts as best depends on the weights
         start = self._residual(at)
         self._bad = 1e3 * np.abs(start) + 1e3 * float(np.linalg.norm(start) / math.sqrt(len(start)))
-        return self._descend(at, low, high, 60)
+        return self._descend(at, low, high)
 
     def _other_side(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
-        """The better one of what was found and of a search from its mirror image: a curvature of either sign, with other
-        stiffnesses, may make nearly the same shape, and each is the end of a search that begins on its side."""
-        at = np.clip([step if one.by_ratio else -step for one, step in zip(self._unknowns, found.x)], low, high)
+        """The better one of what was found and of a search from a standard error beyond its mirror image: a curvature of
+        either sign, with other stiffnesses, may make nearly the same shape, and each is the end of a search that begins
+        on its side. A search whose first step goes back across is given up. The worse one is kept where it cannot be
+        ruled out."""
+        signed = np.array([not one.by_ratio for one in self._unknowns])
+        variance = 2.0 * found.cost / self._free()
+        error = np.sqrt(np.diag(_covariance(self._unknowns, found.jac, math.sqrt(variance))[0]))
+        reach = np.sign(found.x) * np.minimum(error, 2.0 * _USELESS)
+        at = np.clip(np.where(signed, -found.x - reach, found.x), low, high)
         if np.allclose(at, found.x, rtol=0.0, atol=_EXACT) or self._residual(at) is self._bad:
             return found
         try:
-            other = self._descend(at, low, high, _LOOKS)
-            if other.cost < _NEAR * found.cost:
-                other = self._descend(other.x, low, high, 60)
+            step = np.linalg.lstsq(self._jacobian(at), -self._residual(at), rcond=_SINGULAR)[0]
+            if not np.any((found.x * (at + step))[signed] < 0.0):
+                return found
+            other = self._descend(at, low, high)
         except PreparationError:    # no runs there
             return found
-        return other if other.cost < found.cost else found
+        better, worse = (other, found) if other.cost < found.cost else (found, other)
+        if 2.0 * (worse.cost - better.cost) < _RIVAL * variance:
+            self._rival = worse.x
+        return better
 
-    def _descend(self, at: np.ndarray, low: np.ndarray, high: np.ndarray, most: int) -> OptimizeResult:
+    def _free(self) -> int:
+        """Independent residuals less unknowns."""
+        return max(sum(part.independent for part in self._best[2]) - len(self._unknowns), 1)
+
+    def _valley(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> list[np.ndarray]:
+        """Steps at both ends of the 95 % of the least certain direction: the valley of what fits may be bent, so that
+        other unknowns change there by far more than a linear model says."""
+        free = self._free()
+        _, sizes, rows = np.linalg.svd(found.jac, full_matrices=False)
+        reach = float(student.ppf(0.975, free)) * math.sqrt(2.0 * found.cost / free) / max(sizes[-1], 1e-300)
+        if len(sizes) < 2 or not _STRAIGHT < reach < 2.0 * _USELESS:
+            return []
+        ends = []
+        for sign in (-1.0, 1.0):
+            at = np.clip(found.x + sign * reach * rows[-1], low, high)
+            shift = np.array([math.inf])
+            for _ in range(_DOWN):
+                made = self._residual(at)
+                if made is self._bad or np.abs(shift).max() < _LEVEL:
+                    break
+                # Down into the valley, across the direction.
+                shift = rows[:-1].T @ np.linalg.lstsq(found.jac @ rows[:-1].T, made, rcond=None)[0]
+                at = np.clip(at - shift, low, high)
+            if made is not self._bad:
+                ends.append(at)
+        return ends
+
+    def _descend(self, at: np.ndarray, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
+        """Searches until a Jacobian found anew promises no more."""
+        for _ in range(_AGAIN):
+            found = self._least(at, low, high)
+            at, self._model = found.x, None
+            found.jac = self._jacobian(at)
+            step = np.clip(at - np.linalg.lstsq(found.jac, found.fun, rcond=_SINGULAR)[0], low, high) - at
+            left = found.fun + found.jac @ step
+            if found.fun @ found.fun - left @ left <= _SETTLED * (found.fun @ found.fun) or np.abs(step).max() < _EXACT:
+                break
+        return found
+
+    def _least(self, at: np.ndarray, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
         return least_squares(self._residual, at, jac=self._jacobian, bounds=(low, high), method="trf", x_scale=1.0,
-                             xtol=_EXACT, ftol=1e-10, gtol=1e-12, max_nfev=most)
+                             xtol=_EXACT, ftol=_SETTLED, gtol=1e-12, max_nfev=60)
 
     def _residual(self, steps: np.ndarray) -> np.ndarray:
         """Weighted residuals; of a run without a result those of the start, times a thousand: never taken for better."""
@@ -222,10 +280,27 @@ class _Search:
         return made
 
     def _jacobian(self, steps: np.ndarray) -> np.ndarray:
+        """The last one, corrected by what the step from there has changed (Broyden), where it promised well; else
+        difference quotients."""
+        base = self._residual(steps)
+        if self._model is not None:
+            at, residual, jacobian = self._model
+            step = steps - at
+            told = residual + jacobian @ step
+            gain, promised = residual @ residual - base @ base, residual @ residual - told @ told
+            if step @ step == 0.0:
+                return jacobian
+            if promised > 0.0 and gain > _TRUSTED * promised:
+                jacobian = jacobian + np.outer(base - told, step) / (step @ step)
+                self._model = np.array(steps), base, jacobian
+                return jacobian
+        jacobian = self._quotients(steps, base)
+        self._model = np.array(steps), base, jacobian
+        return jacobian
+
+    def _quotients(self, steps: np.ndarray, base: np.ndarray) -> np.ndarray:
         """Difference quotients, all runs side by side; backwards where the run forwards has no result."""
-        if self._last is None or not np.array_equal(self._last[0], steps):
-            self._residual(steps)
-        base, columns = self._last[1], []
+        columns = []
         ahead = self._compared([steps + _STEP * row for row in np.eye(len(steps))])
         for k, (one, parts) in enumerate(zip(self._unknowns, ahead)):
             sign = 1.0
@@ -275,7 +350,7 @@ class _Search:
     def _result(self, steps: np.ndarray, parts: list[Residuals], jacobian: np.ndarray, low: np.ndarray,
                 high: np.ndarray, is_complete: bool) -> Identified:
         weighted = self._weighted(parts)
-        free = max(sum(part.independent for part in parts) - len(steps), 1)
+        free = self._free()
         deviation = math.sqrt((weighted @ weighted) / free)
         covariance, notes = np.full((len(steps), len(steps)), np.inf), []
         if is_complete:
@@ -283,16 +358,26 @@ class _Search:
         errors = np.sqrt(np.diag(covariance))
         quantile = float(student.ppf(0.975, free))
         values = []
+        apart = np.zeros(len(steps), bool)
+        if is_complete and self._rival is not None:
+            apart = np.abs(self._rival - steps) > quantile * errors
+            others = " and ".join(f"{one.key} = {one.value(self._rival[k]):.4g} or {one.value(steps[k]):.4g}"
+                                  for k, one in enumerate(self._unknowns) if apart[k])
+            if others:
+                notes.append(f"{others}: two sets of values fit nearly equally well: this measurement does not tell which")
         for k, one in enumerate(self._unknowns):
             at_bound = not low[k] + 1e-6 < steps[k] < high[k] - 1e-6
-            is_told = errors[k] < _USELESS or not is_complete
+            is_told = not is_complete or errors[k] < _USELESS and not apart[k]
             if at_bound:
                 notes.append(f"{one.key} ended at its bound {one.value(steps[k]):.6g}: its error says nothing")
             reach = quantile * errors[k]
+            first, last = (choose(side, *(end[k] for end in self._bend)) if self._bend else side
+                           for choose, side in ((min, steps[k] - reach), (max, steps[k] + reach)))
             size = one.value(steps[k]) if one.by_ratio else one.scale
+            error = (last - first) / (2.0 * quantile) if self._bend else errors[k]
             values.append(Value(one.key, one.unit, one.start, one.value(steps[k]) if is_told else None,
-                                float(size * errors[k]), one.value(steps[k] - reach) if math.isfinite(reach) else -math.inf,
-                                one.value(steps[k] + reach) if reach < 500.0 else math.inf, at_bound))
+                                float(size * error), one.value(first) if math.isfinite(reach) else -math.inf,
+                                one.value(last) if reach < 500.0 else math.inf, at_bound))
         for file, part in zip(self._measured, parts):
             if part.correlation > 0.5 and len(part.offsets) > 4:
                 notes.append(f"{file.file.name}: neighbouring residuals agree (correlation {part.correlation:.2f}): something "

@@ -5,6 +5,10 @@ from __future__ import annotations
 import json
 import math
 import os
+import signal
+import subprocess
+import sys
+from pathlib import Path
 
 import numpy as np
 import pytest
@@ -18,6 +22,7 @@ from guidewire.logs.curves import offsets, smooth
 from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import read_log
 from guidewire.logs.measurement import read_measurement
+from guidewire.prepare import ROOT
 
 FULL = "GUIDEWIRE_ALL" in os.environ
 CASES = 200 if FULL else 6
@@ -262,6 +267,71 @@ def test_files_of_compare_are_measurements(tmp_path):
     assert force.values == pytest.approx([0.001, 0.007])
     with pytest.raises(LogError, match="line 3: time 0 s after 1 s"):
         read_measurement(write(tmp_path / "c.csv", "time,force", [(1, 1), (0, 7)]), 0.001)
+
+
+def test_an_interrupted_search_leaves_the_best_values_so_far(run_of, tmp_path):
+    points = spread(shape_of(run_of(hung(bendingStiffness=5e-4))), 40, np.random.default_rng(6))
+    file = write(tmp_path / "measured.csv", "x,y,z", points)
+    told = []
+
+    def interrupt(line):
+        told.append(line)
+        if len([one for one in told if "bendingStiffness" in one]) == 3:
+            raise KeyboardInterrupt
+
+    found = identify(hung(), file, "bendingStiffness", tell=interrupt)
+    best = float(told[-1].rpartition(" ")[2])
+    assert not found.is_complete and found["bendingStiffness"].value == pytest.approx(best, rel=1e-5)
+    assert abs(best - 5e-4) < 0.8 * abs(2e-4 - 5e-4) and not math.isfinite(found["bendingStiffness"].error)
+    nodes = shape_of(run_of(hung(bendingStiffness=found["bendingStiffness"].value)))
+    assert found.rms[0] == pytest.approx(np.sqrt(np.mean(np.sum(offsets(points, smooth(nodes))[0] ** 2, axis=1))), rel=1e-3)
+
+
+def test_ctrl_c_writes_the_best_values_and_ends_with_130(run_of, tmp_path):
+    points = spread(shape_of(run_of(hung(bendingStiffness=5e-4))), 40, np.random.default_rng(6))
+    file = write(tmp_path / "measured.csv", "x,y,z", points)
+    scene = write(tmp_path / "scene.json", json.dumps(hung()), [])
+    command = [sys.executable, "guidewire.py", "identify", str(scene), "--measured", str(file), "--fit", "bendingStiffness",
+               "--fit", "torsionalStiffness", "--fit", "restCurvature", "--out", str(tmp_path / "out")]
+    with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
+        for line in process.stderr:
+            if "bendingStiffness = " in line:
+                process.send_signal(signal.SIGINT)
+                break
+        said, rest = process.communicate()
+    assert process.returncode == 130, rest
+    assert "interrupted; the best values so far are written, without errors" in rest and "Traceback" not in rest
+    made = json.loads((tmp_path / "out" / "identified.json").read_text(encoding="utf-8"))
+    assert not made["complete"] and [one["standardError"] for one in made["values"]] == [None] * 5
+    assert all(one["key"] in said for one in made["values"])
+
+
+@pytest.mark.few(1)
+@pytest.mark.parametrize("curvature, runs", [(2.0, 60), (-2.0, 120)])
+def test_three_unknowns_of_30_elements_take_few_runs(run_of, tmp_path, curvature, runs):
+    """A curvature is sought from its other side, too; the second has another set of values that fits nearly as well."""
+    random = np.random.default_rng(12)
+    true = {"bendingStiffness": 2e-4 - 5e-5 * curvature / 2.0, "torsionalStiffness": 1.7e-4 + 5e-5 * curvature / 2.0,
+            "restCurvature[0]": curvature}
+    points = spread(shape_of(run_of(hung(30, **true))), 40, random) + random.normal(0.0, 0.2, (40, 3))
+    found = identify(hung(30), write(tmp_path / "a.csv", "x,y,z", points), list(true))
+    assert found.runs <= runs
+    for key, value in true.items():
+        assert is_within(found[key], value)
+
+
+def test_a_valley_of_values_that_fit_is_followed_where_it_bends():
+    """Points with 0.56 mm of noise on each coordinate tell the curvature to 1.2 rad/m. With the curvature at either end
+    of its interval the stiffness that fits lies up to 25 standard errors of a linear model away."""
+    file = Path(__file__).with_name("bent_valley.csv")
+    found = identify(hung(), file, ["bendingStiffness", "torsionalStiffness", "restCurvature[0]"])
+    curvature, stiffness = found["restCurvature[0]"], found["bendingStiffness"]
+    assert 2.0 < curvature.high - curvature.low < 8.0
+    for end in (curvature.low, curvature.high):
+        other = identify(hung(restCurvature=[end, 0.0, 0.0]), file, ["bendingStiffness", "torsionalStiffness"])
+        value = other["bendingStiffness"].value
+        assert stiffness.low - 2.0 * other["bendingStiffness"].error < value
+        assert value < stiffness.high + 2.0 * other["bendingStiffness"].error
 
 
 def test_the_command_writes_values_picture_and_scene(run_of, tmp_path, capsys):
