@@ -23,26 +23,28 @@ class TurnAndRetry:
     patience : steps without progress.
     back : from the mouth, units.
     turn : between two tries, rad; by the golden angle no two tries have the same side.
+    hub : number of the instrument that does so.
     """
 
     def __init__(self, environment: Environment, wrong: float = 3.0, patience: int = 6, back: float = 12.0,
-                 turn: float = np.pi * (3.0 - 5.0**0.5)) -> None:
+                 turn: float = np.pi * (3.0 - 5.0**0.5), hub: int = 0) -> None:
         self._environment, self._wrong, self._patience = environment, wrong, patience
         self._back, self._turn = back, turn
-        rate = of_each(environment.drive.rotation or environment.task.rotation, environment.hubs)[0]
+        rate = of_each(environment.drive.rotation or environment.task.rotation, environment.hubs)[hub]
+        self._hub = hub
         self._turn_of_step = rate * environment.drive.step_time
 
     def reset(self, observation: Any) -> None:
         """Another episode."""
-        self._best, self._waited = float(np.ravel(observation["distance"])[0]), 0
+        self._best, self._waited = float(np.ravel(observation["distance"])[self._hub]), 0
         self._limit = self._wrong + 1.5 * self._environment.widest
         self._mouth: float | None = None    # least distance on the way back
         self._to_turn = 0.0
 
     def act(self, observation: Any) -> np.ndarray:
         """The next action."""
-        distance = float(np.ravel(observation["distance"])[0])
-        insertion = float(np.ravel(observation["hub"])[0])
+        distance = float(np.ravel(observation["distance"])[self._hub])
+        insertion = float(np.ravel(observation["hub"])[2 * self._hub])
         if self._mouth is not None:
             self._mouth = min(self._mouth, distance)
             if insertion > 0.5 and distance < self._mouth + self._back:
@@ -90,6 +92,38 @@ class Follow(TurnAndRetry):
             push = 1.0 if extension > self._ahead else -1.0 if extension < self._least else 0.0
             actions.append(np.array([push, 0.0], dtype=np.float32))
         return np.concatenate(actions)
+
+
+class Lead(TurnAndRetry):
+    """The catheter turns and retries, with the wire `behind` in it, so that its tip has its own bend; once it is as
+    near to the target as the task asks for, the wire goes on.
+
+    Parameters
+    ----------
+    environment : of one catheter, with "overlap" in its observation besides.
+    behind : units, from the catheter's tip to the wire's.
+    options : of TurnAndRetry.
+    """
+
+    def __init__(self, environment: Environment, behind: float = 60.0, **options: Any) -> None:
+        super().__init__(environment, hub=1, **options)
+        self._behind = behind
+        self._near = of_each(environment.task.follow, 1)[0] or environment.task.tolerance
+
+    def act(self, observation: Any) -> np.ndarray:
+        """The next action."""
+        left, extension = observation["distance"], observation["overlap"][0][0]
+        if left[1] <= 0.8 * self._near or extension > 0.0 and left[1] <= self._near:
+            return np.array([1.0 if left[0] > self._environment.task.tolerance else 0.0, 0.0, 0.0, 0.0], np.float32)
+        catheter = super().act(observation)
+        wire = 1.0 if extension < -self._behind - 5.0 else -1.0 if extension > -self._behind + 5.0 else catheter[0]
+        return np.array([wire, 0.0, *catheter], dtype=np.float32)
+
+
+def baseline_of(environment: Environment) -> TurnAndRetry:
+    """The policy that comes with an environment's task."""
+    name = environment.task.baseline or ("follow" if environment.hubs > 1 else "retry")
+    return {"retry": TurnAndRetry, "follow": Follow, "lead": Lead}[name](environment)
 
 
 class Chance:

@@ -14,7 +14,7 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.env import score
-from guidewire.env.baselines import Chance, Follow, TurnAndRetry
+from guidewire.env.baselines import Chance, baseline_of
 from guidewire.env.environment import Environment
 from guidewire.env.observation import DEFAULT, Observation
 from guidewire.env.recorded import RecordedDrive, digest_of
@@ -70,7 +70,7 @@ def _policy_of(policy: str) -> Callable[[Environment, int], Any]:
     if policy == "random":
         return Chance
     if policy == "retry":
-        return lambda environment, _: (Follow if environment.hubs > 1 else TurnAndRetry)(environment)
+        return lambda environment, _: baseline_of(environment)
     module, _, name = policy.partition(":")
     sys.path.insert(0, "")    # a module of the folder where the command runs
     try:

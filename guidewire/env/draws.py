@@ -25,7 +25,7 @@ class Draw:
     Attributes
     ----------
     instrument : a name, or of the wire and the catheters, or None: the scene's.
-    tip_turn : of the wire, rad.
+    tip_turn : of all instruments, rad.
     insertion : of each hub, or of all, m.
     random : by name, of the task's `random`.
     """

@@ -23,7 +23,7 @@ from guidewire.env.rendering import Scenery, Window
 from guidewire.env.route import Route
 from guidewire.env.spaces import ClosedEnvironmentError, Env, Error, ResetNeeded
 from guidewire.env.task import Task, find_task
-from guidewire.sessions.session import Session, SessionError
+from guidewire.sessions.session import Session, SessionError, State
 
 LEFT = "left the vessel"
 
@@ -107,6 +107,11 @@ class Environment(Env):
     def session(self) -> Session:
         """Of this episode; who steps it past the environment has to reset."""
         return self._scene.session
+
+    @property
+    def session_state(self) -> State:
+        """The instruments as they are now."""
+        return self._state
 
     @property
     def scene(self) -> Mapping[str, Any]:

@@ -51,7 +51,7 @@ class LoadedScene:
         self._routes: dict[str, Route] = {}
 
     def start(self, tip_turn: float, insertion: Any) -> State:
-        """The instruments at the start of an episode: each by so much in its vessel, m, and the wire turned, rad."""
+        """The instruments at the start of an episode: each by so much in its vessel, m, and all turned, rad."""
         insertions = of_each(insertion, self.hubs)
         key = (tip_turn, *insertions)
         if not any(key):
@@ -61,7 +61,8 @@ class LoadedScene:
             return self.session.restore(self._starts[key])
         state = self.session.reset()
         if tip_turn:
-            state = self.session.step(turn=tip_turn, steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
+            turns = [tip_turn] * self.hubs if self.hubs > 1 else tip_turn
+            state = self.session.step(turn=turns, steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
         if any(insertions):
             pushes = [one / self.unit for one in insertions]
             state = self.session.step(pushes if self.hubs > 1 else pushes[0],

@@ -48,7 +48,8 @@ class Route:
     Parameters
     ----------
     anatomy : what `guidewire.py anatomy` writes into anatomy.json.
-    target : name or number of an end; or name of a branch and the distance from its beginning.
+    target : name or number of an end, or {"end": this, "before": a distance before it}; or name of a branch and the
+        distance from its beginning.
     unit : the anatomy's numbers times this are units of the scene.
     placement : of the vessel in the scene; None: as it is.
 
@@ -61,8 +62,8 @@ class Route:
     A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, as in the runner's summary.
     """
 
-    def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any], unit: float = 1.0,
-                 placement: Placement | None = None) -> None:
+    def __init__(self, anatomy: Mapping[str, Any], target: str | int | Sequence[Any] | Mapping[str, Any],
+                 unit: float = 1.0, placement: Placement | None = None) -> None:
         try:
             line = anatomy["centreline"]
             numbers = unit * np.array(line["points"], dtype=float).reshape(-1, 4)
@@ -70,7 +71,17 @@ class Route:
         except (KeyError, TypeError, ValueError) as error:
             raise Error("an anatomy needs a centreline of points and parents, as the command anatomy writes it"
                         ) from error
+        before = 0.0
+        if isinstance(target, Mapping):
+            if set(target) != {"end", "before"} or not _is_number(target["before"]) or target["before"] < 0.0:
+                raise Error(f"target = {target!r} is not allowed: needs \"end\" and \"before\", a number from 0")
+            target, before = target["end"], target["before"]
         self.target = _index_of(anatomy, target, numbers[:, :3])
+        while before > 0.0 and parents[self.target] >= 0:
+            before -= math.dist(numbers[self.target, :3], numbers[parents[self.target], :3])
+            self.target = int(parents[self.target])
+        if before > 0.0:
+            raise Error(f"target = {target!r} is not allowed: the way to this end is {before:.4g} units shorter")
         if placement is not None and not placement.is_none:
             numbers = np.c_[placement.points(numbers[:, :3]), placement.scale * numbers[:, 3]]
         self.points, self._radii = np.ascontiguousarray(numbers[:, :3]), numbers[:, 3]
@@ -117,6 +128,10 @@ class Route:
         return self.points[index]
 
 
+def _is_number(value: Any) -> bool:
+    return isinstance(value, (int, float)) and not isinstance(value, bool)
+
+
 def _three(value: Any) -> list[float]:
     return [value[axis] for axis in "xyz"] if isinstance(value, Mapping) else list(value)
 
@@ -139,7 +154,7 @@ def _index_of(anatomy: Mapping[str, Any], target: str | int | Sequence[Any], poi
         listed = ", ".join(f"{end['number']} '{end['name']}'" for end in anatomy["ends"])
         raise Error(f"target = {target!r} is not allowed: the vessel has the ends {listed}")
     is_depth = isinstance(target, (list, tuple)) and len(target) == 2 and isinstance(target[0], str)
-    if not is_depth or isinstance(target[1], bool) or not isinstance(target[1], (int, float)):
+    if not is_depth or not _is_number(target[1]):
         raise Error(f"target = {target!r} is not allowed: needs a name or number of an end, or a branch and a distance")
     name, depth = target
     names = anatomy["centreline"]["names"]

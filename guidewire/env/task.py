@@ -25,10 +25,11 @@ TASKS_FILE = FOLDER / "tasks.json"
 _WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
 _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
-         "insertion", "time", "tolerance", "speed", "rotation", "follow", "random"}
+         "insertion", "time", "tolerance", "speed", "rotation", "follow", "random", "baseline"}
 # Of what `random` draws, what is no parameter of the scene by itself.
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed")
 _EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
+BASELINES = ("", "retry", "follow", "lead")
 _STIFF = ("youngsModulus", "shearModulus")
 
 
@@ -55,6 +56,7 @@ class Task:
     speed, rotation : fastest of each hub, or of all, m/s and rad/s.
     follow : within what distance before the target along the centreline the tip of each catheter is to come, or of all,
         units; None: it need not.
+    baseline : policy that comes with it: "retry", "follow" or "lead"; "": retry, with catheters follow.
     random : distributions by name, drawn for each episode (`randomisation`): "friction", "tip_turn" (rad), "insertion"
         (m) in place of the lists above; "noise" of the drive; "stiffness", a factor on the moduli of a wire without a
         name; "seed" of a vessel that is generated; or any parameter of the scene by its path, such as "scale",
@@ -77,6 +79,7 @@ class Task:
     rotation: float | Sequence[float] = 3.141592653589793
     follow: float | Sequence[float | None] | None = None
     random: Mapping[str, Any] = field(default_factory=dict)
+    baseline: str = ""
 
     @cached_property
     def hubs(self) -> int:
@@ -175,6 +178,9 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         raise Error(f"{file}: task {name} has no key \"{sorted(unknown)[0]}\": there are {', '.join(sorted(_KEYS))}")
     if not isinstance(entry.get("overrides", {}), dict) or not isinstance(entry.get("scene", ""), str):
         raise Error(f"{file}: task {name}: overrides is an object and scene a text")
+    if entry.get("baseline", "") not in BASELINES:
+        raise Error(f"{file}: task {name}: baseline = {json.dumps(entry['baseline'])} is not allowed: needs one of "
+                    f"{', '.join(filter(None, BASELINES))}")
     if not isinstance(entry.get("random", {}), dict):
         raise Error(f"{file}: task {name}: random = {json.dumps(entry['random'])} is not allowed: needs an object")
     for key, distribution in entry.get("random", {}).items():

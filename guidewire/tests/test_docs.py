@@ -75,7 +75,7 @@ def test_every_file_that_a_page_shows_is_there(page):
     shown += [ROOT / path for path in re.findall(rf"(?<![\w/$.-])((?:{_FOLDERS})/[\w./-]*\w)", text)]
     assert shown
     for path in shown:
-        assert path.exists(), path
+        assert path.exists() or re.fullmatch(r"[a-z]+-v\d", path.name), path    # what gymnasium.make takes is no file
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)

@@ -7,11 +7,12 @@ import numpy as np
 import pytest
 
 from guidewire.env import Drive, Environment, Observation, Picture, RecordedDrive, VectorEnvironment
-from guidewire.env.baselines import Chance, Follow
+from guidewire.env.baselines import Chance, Follow, Lead, baseline_of
 from guidewire.env.observation import DEFAULT, PARTS, RANGES
 from guidewire.env.randomisation import drawn_from, middle_of
 from guidewire.env.score import play
 from guidewire.env.spaces import Error, InvalidAction
+from guidewire.env.task import find_task
 from guidewire.env.tests.environment_cases import same, tube  # noqa: F401
 from guidewire.sessions.session import Session
 
@@ -216,3 +217,19 @@ def test_random_episodes_of_two_hubs_end_as_they_say(pair):
     with Environment(pair) as own:
         for seed in range(3):
             assert play(own, Chance(own, seed), seed).faults == []
+
+
+def test_the_tasks_of_two_devices_begin_and_their_baselines_act():
+    for name, baseline in (("carotid", Lead), ("microcatheter", Follow)):
+        task = find_task(name)
+        assert task.hubs == 2
+        with Environment(name, observation=WITH_OVERLAP) as own:
+            observation, info = own.reset(seed=4)
+            assert 0.9 <= info["draw"]["scale"] <= 1.1 and own.session_state.place.is_inside
+            assert own.session.parameters["scale"] == [info["draw"]["scale"]] * 3
+            policy = baseline_of(own)
+            assert type(policy) is baseline
+            policy.reset(observation)
+            for _ in range(2):
+                observation, _, terminated, _, _ = own.step(policy.act(observation))
+                assert not terminated and own.observation_space.contains(observation)

@@ -1,0 +1,77 @@
+"""The tasks' names for gymnasium.make, and a benchmark's table."""
+
+import importlib
+import sys
+import types
+
+import pytest
+
+from guidewire.env import Reward, all_tasks, command, registration
+from guidewire.env.environment import Environment
+from guidewire.env.score import benchmark_table, play
+from guidewire.env.spaces import Error
+from guidewire.env.tests.environment_cases import tube  # noqa: F401
+
+
+class Forwards:
+    """A policy whose environment has options of its own."""
+
+    options = {"reward": Reward(time=-0.5)}
+
+    def __init__(self, environment):
+        assert environment.reward.time == -0.5
+
+    def reset(self, observation):
+        pass
+
+    def act(self, observation):
+        return [1.0, 0.0]
+
+
+def test_each_task_has_a_name_by_which_what_it_names_is_made(monkeypatch, tube):
+    registered = {}
+    module = types.ModuleType("gymnasium.envs.registration")
+    module.registry = registered
+    module.register = lambda id, **known: registered.update({id: known})
+    envs = types.ModuleType("gymnasium.envs")
+    envs.registration = module
+    for name, one in (("gymnasium", types.ModuleType("gymnasium")), ("gymnasium.envs", envs),
+                      ("gymnasium.envs.registration", module)):
+        monkeypatch.setitem(sys.modules, name, one)
+    registration.register()
+    registration.register()
+    assert set(registered) == {f"guidewire/{name}-v0" for name in all_tasks()}
+    for known in registered.values():
+        home, _, name = known["entry_point"].partition(":")
+        assert getattr(importlib.import_module(home), name) is Environment
+        home, _, name = known["vector_entry_point"].partition(":")
+        with getattr(importlib.import_module(home), name)(2, **{**known["kwargs"], "task": tube}) as vector:
+            assert vector.num_envs == 2
+
+
+def test_gymnasium_makes_what_is_registered():
+    gymnasium = pytest.importorskip("gymnasium", reason="gymnasium is not installed; the names are tested above")
+    registration.register()
+    with gymnasium.make("guidewire/artery-v0", safe_force=1.0) as made:
+        assert made.unwrapped.safe_force == 1.0 and made.reset(seed=1)[1]["draw"]
+    gymnasium.make_vec("guidewire/artery-v0", num_envs=2, vectorization_mode="vector_entry_point").close()
+
+
+def test_a_table_of_a_benchmark_counts_what_reports_say(tube):
+    with Environment(tube, **Forwards.options) as own:
+        played = [play(own, Forwards(own), seed) for seed in (1, 2)]
+    head, _, row = benchmark_table([("tube", "forwards", played)]).splitlines()
+    cells = dict(zip((one.strip() for one in head.split("|")), (one.strip() for one in row.split("|"))))
+    reached = [one.report for one in played if one.report["success"]]
+    assert len(reached) > 0 and cells["success"] == f"{len(reached) / 2:.1%}" and cells["episodes"] == "2"
+    ratio = sum(one["path"] / one["way"] for one in reached) / len(reached)
+    assert float(cells["path ratio"]) == pytest.approx(ratio, abs=0.006)
+    assert float(cells["of any N"]) == pytest.approx(max(one.report["largest_force"] for one in played), rel=0.01)
+
+
+def test_a_policy_is_given_by_its_module_and_name():
+    with pytest.raises(Error, match="retry, random, or MODULE:NAME"):
+        command._policy_of("nowhere:Forwards")
+    make = command._policy_of("guidewire.env.tests.test_registration:Forwards")
+    with Environment("artery", **make.options) as own:
+        assert make(own, 0).act(None) == [1.0, 0.0]
