@@ -1,5 +1,4 @@
 using System;
-using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -132,15 +131,11 @@ namespace Guidewire.Core
             OfSheath(p => p.Material.BendLaw == BendLaw.RotationVector, "bendLaw \"rotationVector\""),
             OfSheath(p => p.Drive.Displacement == 0.0 || p.Drive.Kind != Drive.Hold, "displacement 0"),
             OfCatheters(p => p.Scene.Catheters.Count <= 2, "no more than two catheters"),
-            OfTwo(p => p.Scene.Sheath == null, "no sheath"),
-            OfTwo(p => p.Scene.Catheters.All(catheter => catheter.LumenFriction == 0.0), "lumenFriction 0"),
-            OfTwo(p => p.Drive.HubForceLimit == 0.0
-                && p.Scene.Catheters.All(catheter => catheter.Drive.HubForceLimit == 0.0), "hubForceLimit 0 of all"),
             OfCatheters(p => p.Traits.HasBarriers, "solver direct"),
             OfCatheters(p => !p.HasWalls || p.Method.Integrator == Integrator.ImplicitEuler,
                 "integrator \"implicitEuler\" between walls"),
-            new Rule("catheters[0].hubForceLimit", p => p.Scene.Catheters.Count > 0 && !p.HasWalls
-                && p.Scene.Catheters[0].Drive.HubForceLimit > 0.0, NoSlipWithoutWalls),
+            NoSlipOf(0),
+            NoSlipOf(1),
             OfCatheters(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfCatheters(p => p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,
                 "drive \"displace\" or \"hold\""),
@@ -201,9 +196,10 @@ namespace Guidewire.Core
             return new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
         }
 
-        private static Rule OfTwo(Predicate<Facts> holds, string needed)
+        private static Rule NoSlipOf(int catheter)
         {
-            return OfCatheters(p => p.Scene.Catheters.Count < 2 || holds(p), needed + " where there are two");
+            return new Rule("catheters[" + catheter + "].hubForceLimit", p => p.Scene.Catheters.Count > catheter
+                && !p.HasWalls && p.Scene.Catheters[catheter].Drive.HubForceLimit > 0.0, NoSlipWithoutWalls);
         }
 
         private static ParameterConflict? FindInCatheters(SimulationParameters parameters)

@@ -131,8 +131,8 @@ namespace Guidewire.Core
         /// <summary>Coefficient of friction between the two.</summary>
         public double FrictionCoefficient => _friction.Coefficient;
 
-        /// <summary>What of the force of the wire's hub is friction in the lumen, N; negative where the wire is drawn
-        /// back.</summary>
+        /// <summary>What of the force of the hub of the next instrument inside is friction in the lumen, N; negative
+        /// where that is drawn back.</summary>
         public double FrictionForce { get; private set; }
 
         /// <summary>Angle by which the centreline turns along the overlap, rad.</summary>
@@ -155,7 +155,7 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                PlayAt(k, inside, joints, shape, out double play, out double mismatch, out double reduced);
+                PlayAt(k, inside, inside, joints, shape, out double play, out double mismatch, out double reduced);
                 if (play * mismatch > _play * _mismatch)
                 {
                     _play = play;
@@ -181,23 +181,37 @@ namespace Guidewire.Core
             return inside < joints.Count ? inside : 0;
         }
 
-        // Of node k: play, m; difference of the two rest curvatures, 1/m; B_r, N m^2.
-        private void PlayAt(int k, int inside, CoaxialJoints joints, RodShape shape, out double play,
+        // Of node k: play, m; difference of the rest curvatures of the catheter and of all from 'inside' to 'last' in
+        // it, 1/m; B_r, N m^2.
+        private void PlayAt(int k, int inside, int last, CoaxialJoints joints, RodShape shape, out double play,
             out double mismatch, out double reduced)
         {
             ref readonly CrossSection outer = ref joints.PieceAt(k, _instrument);
-            ref readonly CrossSection inner = ref joints.PieceAt(k, inside);
-            double angle = 0.5 * (CoaxialShape.Angle(shape, shape.Twist, joints, k - 1, inside, _instrument)
-                + CoaxialShape.Angle(shape, shape.Twist, joints, k, inside, _instrument));
-            double c = Math.Cos(angle);
-            double s = Math.Sin(angle);
+            double bend = 0.0;
+            double x = 0.0;
+            double y = 0.0;
+            for (int i = inside; i <= last; i++)
+            {
+                if (k >= joints.ActiveCountOf(i))
+                {
+                    continue;
+                }
+                ref readonly CrossSection inner = ref joints.PieceAt(k, i);
+                double angle = 0.5 * (CoaxialShape.Angle(shape, shape.Twist, joints, k - 1, i, _instrument)
+                    + CoaxialShape.Angle(shape, shape.Twist, joints, k, i, _instrument));
+                double c = Math.Cos(angle);
+                double s = Math.Sin(angle);
+                Vector3d b = inner.BendStiffness1 * inner.RestCurvature;
+                bend += inner.BendStiffness1;
+                x += c * b.X - s * b.Y;
+                y += s * b.X + c * b.Y;
+            }
             Vector3d a = outer.RestCurvature;
-            Vector3d b = inner.RestCurvature;
-            double x = a.X - c * b.X + s * b.Y;
-            double y = a.Y - s * b.X - c * b.Y;
-            play = _lumen - inner.Radius;
+            x = a.X - x / bend;
+            y = a.Y - y / bend;
+            play = _lumen - joints.PieceAt(k, inside).Radius;
             mismatch = Math.Sqrt(x * x + y * y);
-            reduced = outer.BendStiffness1 * inner.BendStiffness1 / (outer.BendStiffness1 + inner.BendStiffness1);
+            reduced = outer.BendStiffness1 * bend / (outer.BendStiffness1 + bend);
         }
 
         // 2 B_r dk/a with a = sqrt(12 play/dk), N.
@@ -212,20 +226,29 @@ namespace Guidewire.Core
             double largest = 0.0;
             for (int k = 1; k < joints.ActiveCount; k++)
             {
-                PlayAt(k, _instrument + 1, joints, shape, out double play, out double mismatch, out double reduced);
+                int inside = InsideAt(k, joints);
+                if (inside == 0)
+                {
+                    continue;
+                }
+                PlayAt(k, inside, joints.InnerCount, joints, shape, out double play, out double mismatch,
+                    out double reduced);
                 largest = Math.Max(largest, EndForce(play, mismatch, reduced));
             }
             return largest;
         }
 
-        /// <summary>Counts a step that both drives have prepared.</summary>
-        /// <param name="from">Insertion of the catheter's hub before it, m.</param>
-        /// <param name="wireFrom">The same for the wire's.</param>
-        internal void TakeStep(MaterialDrive drive, double from, MaterialDrive wireDrive, double wireFrom)
+        /// <summary>Counts a step that all drives have prepared.</summary>
+        /// <param name="drives">The outermost one first, the wire's last.</param>
+        /// <param name="from">Insertion of each hub before it, m.</param>
+        internal void TakeStep(MaterialDrive[] drives, double[] from)
         {
-            _gone += drive.DisplacementSince(from);
-            _wireGone += wireDrive.DisplacementSince(wireFrom);
-            _friction.Slide(wireDrive.Insertion - wireFrom - (drive.Insertion - from));
+            int wire = drives.Length - 1;
+            int inside = _instrument + 1;
+            MaterialDrive drive = drives[_instrument];
+            _gone += drive.DisplacementSince(from[_instrument]);
+            _wireGone += drives[wire].DisplacementSince(from[wire]);
+            _friction.Slide(drives[inside].Insertion - from[inside] - (drive.Insertion - from[_instrument]));
         }
 
         internal void Serialize(Snapshot snapshot)
@@ -240,8 +263,9 @@ namespace Guidewire.Core
 
         /// <summary>Takes a moment.</summary>
         /// <param name="own">Where the catheter is: its nodes and elements first.</param>
+        /// <param name="inside">Sum of the forces of the hubs of all instruments inside, without friction, N.</param>
         internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, RodShape own, MaterialDrive drive,
-            MaterialDrive wireDrive, double force, double torque, double wireForce, double wireTorque)
+            MaterialDrive wireDrive, double torque, double wireTorque, double inside)
         {
             for (int i = 0; i < Positions.Length; i++)
             {
@@ -259,7 +283,9 @@ namespace Guidewire.Core
             Extension = joints.ExtensionOf(_instrument + 1, _instrument);
             Overlap = Math.Min(0.0, Extension)
                 + (_instrument == 0 ? joints.Stations[joints.OuterCount] : joints.EndOf(1) + joints.LeadOf(1));
-            double overlapEnd = _instrument == 0 ? Overlap : Math.Min(joints.EndOf(1), joints.EndOf(2));
+            double overlapEnd = _instrument > 0 ? Math.Min(joints.EndOf(1), joints.EndOf(2))
+                : joints.InnerCount == 1 ? Overlap
+                : Math.Max(Overlap, Math.Min(joints.EndOf(2), joints.Stations[joints.OuterCount]));
             var bending = (CoaxialBendTwist)terms.Bending;
             WireTwist = bending.InnermostTwist(shape);
             LargestCurvature = 0.0;
@@ -279,10 +305,24 @@ namespace Guidewire.Core
                 // The carrier's own twist is the wire's too, but for the hub's frame.
                 WireTwist += turn.Z;
             }
-            FrictionForce = _friction.Force(wireForce, OverlapAngle,
+            FrictionForce = _friction.Force(inside, OverlapAngle,
                 _friction.Coefficient > 0.0 ? LargestEndForce(joints, shape) : 0.0);
-            WireForce = wireForce + FrictionForce;
-            Force = force - FrictionForce;
+        }
+
+        /// <summary>Force of a hub, N: of the outermost instrument first, of the wire last.</summary>
+        internal double ForceOf(int hub)
+        {
+            return hub == _instrument ? Force : Inside == null ? WireForce : Inside.ForceOf(hub);
+        }
+
+        /// <summary>Takes the forces of hubs, N.</summary>
+        /// <param name="force">Of the catheter's, without friction.</param>
+        /// <param name="around">What of it is friction in the lumen around it.</param>
+        /// <param name="wireForce">Of the wire's.</param>
+        internal void TakeForces(double force, double around, double wireForce)
+        {
+            Force = force + around - FrictionForce;
+            WireForce = wireForce;
         }
     }
 }

@@ -11,6 +11,9 @@ namespace Guidewire.Core
     /// and drawn back -U(-F). At rest the hub's force is anywhere between the two: the part that is used is the slip
     /// since the sense has changed over an elastic slip, as of contacts with walls.
     ///
+    /// With several instruments inside, T and F are their sums, whatever passes between them: the next one inside has
+    /// what this lumen adds, and the one around loses it.
+    ///
     /// P is that of the largest difference of the two rest curvatures, at both ends: a bound. Friction about the axis
     /// is left out, and so is that the shape feels what friction takes from the force along the overlap.</remarks>
     internal sealed class LumenFriction

@@ -223,9 +223,7 @@ namespace Guidewire.Core
         // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
         private double SheathWork(double exit)
         {
-            SheathEnergy? sheath = Terms.Sheath;
-            return sheath == null ? 0.0
-                : sheath.WorkTo(Shape, Schedule.Hub.PositionAt(Drive.StepEnd), exit);
+            return Terms.Sheath?.WorkTo(Shape, Schedule.Hub.PositionAt(Drive.StepEnd), exit) ?? 0.0;
         }
 
         private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
@@ -404,18 +402,10 @@ namespace Guidewire.Core
             _dynamics.Clock.Serialize(snapshot);
             _dynamics.Work.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
-            SerializeRecord(snapshot);
+            (_monitor == null ? null : Contacts)?.Serialize(snapshot);
             Ends.SerializeWork(snapshot);
             Rest.Serialize(snapshot);
             _dynamics.SerializeHistory(snapshot, TimeStep);
-        }
-
-        private void SerializeRecord(Snapshot snapshot)
-        {
-            if (_monitor != null)
-            {
-                Contacts!.Serialize(snapshot);
-            }
         }
 
         // What the drive asked in the last step, m, and what of it was not gone.

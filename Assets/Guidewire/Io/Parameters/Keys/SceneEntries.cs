@@ -120,10 +120,10 @@ namespace Guidewire.Io
                 "catheters over the wire, the outermost one first, on one shared centreline: start is the distance of "
                 + "its hub ahead of the wire's (units, 0), length (units), elements (30), wireRadius and lumenRadius "
                 + "its outer and inner radius (m), frictionCoefficient that of its outside with all walls (by default "
-                + "that of each wall), lumenFriction that between the wire and its lumen along the axis (0; with "
-                + "one catheter); the other keys are as for the wire: instrument, youngsModulus, shearModulus, density,"
+                + "that of each wall), lumenFriction that between all that is in it and its lumen along the axis "
+                + "(0); the other keys are as for the wire: instrument, youngsModulus, shearModulus, density,"
                 + " shearFactor, bendingStiffness, torsionalStiffness, axialStiffness, massPerLength, restCurvature,"
-                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit (with one catheter),"
+                + " wireSections, insertionSpeed, rotationSpeed, driveFile, hubForceLimit,"
                 + " tipForce, distributedForce and pointLoads, which act on the catheter; needs"
                 + " proximalEnd \"clamped\"").OnlyWith(Takers.Only(Solver.Direct)),
             new EndEntry("inlet",

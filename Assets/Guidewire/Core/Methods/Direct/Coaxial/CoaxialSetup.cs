@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private const int MostSearches = 8;     // of rest shapes
         private const double SameLength = 1e-12;    // of a length
         private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
-        private const string CatheterName = "catheters[0]";    // where there is a sheath there is one
+        private const string CatheterName = "catheters[0]";    // whose hub goes to the exit of a sheath
 
         private readonly SimulationParameters _parameters;
         private readonly double _drag;
@@ -74,12 +74,15 @@ namespace Guidewire.Core
         /// <summary>Along which all hubs move, a unit vector.</summary>
         public Vector3d Axis => Wire.Schedule.Hub.Frame.Director3;
 
-        /// <summary>Takes what the forces at the hubs strain wire and catheter by, friction in the lumen among
+        /// <summary>Takes what the forces at the hubs strain the instruments by, friction in lumens among
         /// them.</summary>
-        public void TakeStrains(CoaxialRecord record, SolverReport report)
+        public void TakeStrains(CoaxialRecord[] records, SolverReport report)
         {
-            report.Extremes?.TakeStrain(Math.Abs(record.WireForce) / StretchAtHub(Instruments.Length - 1));
-            report.Extremes?.TakeStrain(Math.Abs(record.Force) / StretchAtHub(0));
+            report.Extremes?.TakeStrain(Math.Abs(records[0].WireForce) / StretchAtHub(Instruments.Length - 1));
+            for (int i = 0; i < records.Length; i++)
+            {
+                report.Extremes?.TakeStrain(Math.Abs(records[i].Force) / StretchAtHub(i));
+            }
         }
 
         /// <summary>All as one rod.</summary>
@@ -278,8 +281,15 @@ namespace Guidewire.Core
                 return Text(CatheterName + ": an insertion of {0:G4} m is more than its hub's distance from the"
                     + " sheath's exit, {1:G4} m", asked, available);
             }
-            return inside == x.Length ? null : MaterialStart.FindProblemFrom(Catheter, inside - 1,
-                (1.0 / Wire.Metres) * sheath.Exit, CatheterName);
+            string? problem = null;
+            for (int i = 0; i < Scenes.Length - 1 && problem == null; i++)
+            {
+                x = Scenes[i].Shape.X;
+                inside = sheath.NodesInside(x);
+                problem = inside == x.Length ? null : MaterialStart.FindProblemFrom(Scenes[i], inside - 1,
+                    (1.0 / Wire.Metres) * sheath.Exit, "catheters[" + i + "]");
+            }
+            return problem;
         }
 
         // EA, N.

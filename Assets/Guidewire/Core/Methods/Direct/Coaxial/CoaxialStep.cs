@@ -13,13 +13,14 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private readonly CoaxialSetup _setup;
         private readonly MaterialDrive[] _drives;      // of the outermost catheter first, of the wire last
-        private readonly HubSlip[] _slips;
-        private readonly bool _isLimited;
+        private readonly SlippingHubs _slips;
         private readonly CoaxialHubs _hubs;
         private readonly CoaxialNodes _nodes;
         private readonly CoaxialRecord[] _records;     // of the catheters
+        private readonly bool _hasFriction;            // in a lumen
         private readonly InnerInstrument[] _inner;     // the wire last
         private readonly double[] _insertions;         // before a step, m
+        private readonly double[] _forces;             // of the hubs without friction, N
         private readonly HubRecord _hub;
         private readonly StepStart _start;
         private readonly int[] _active;           // elements with each angle, when the rod was built
@@ -41,9 +42,10 @@ namespace Guidewire.Core
             _drives = _setup.Drives();
             int count = _drives.Length;
             _insertions = new double[count];
-            _slips = _setup.Slips(_drives);
-            _isLimited = Array.Exists(_slips, slip => slip.IsLimited);
+            _forces = new double[count];
             _start = new StepStart(SerializeStep);
+            _slips = new SlippingHubs(_drives, _setup.Slips(_drives), _start, _setup.Work, StepAsRequested,
+                hub => Coaxial()!.ForceOf(hub));
             _hubs = new CoaxialHubs(Array.ConvertAll(_drives, drive => drive.Hub), _setup.Axis, _setup.Sheath);
             _nodes = new CoaxialNodes(_setup.Instruments, _hubs);
             _active = new int[count];
@@ -56,6 +58,7 @@ namespace Guidewire.Core
             }
             _hub = new HubRecord(_setup.Wire.Rod, _setup.Wire.Supports);
             _records = _setup.Records();
+            _hasFriction = Array.Exists(_records, record => record.FrictionCoefficient > 0.0);
             if (_setup.Wire.Walls.Length > 0)
             {
                 string? outside = _setup.FindProblemOfStart();
@@ -100,13 +103,13 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddWarnings(List<RunWarning> warnings)
         {
-            HubSlip.AddWarnings(_slips, _setup.Sheath != null, warnings);
+            _slips.AddWarnings(_setup.Sheath != null, warnings);
         }
 
         /// <inheritdoc/>
         public override void Advance(RodState state)
         {
-            if (!_isLimited)
+            if (!_slips.AreLimited)
             {
                 _start.Save();
             }
@@ -121,9 +124,10 @@ namespace Guidewire.Core
                 TakePlay();
                 TakeInner();
                 TakeContacts();
-                if (_records[0].FrictionCoefficient > 0.0)
+                if (_hasFriction)
                 {
-                    _setup.TakeStrains(Coaxial()!, _report);
+                    Coaxial();
+                    _setup.TakeStrains(_records, _report);
                 }
                 WriteWire(state);
             }
@@ -139,44 +143,7 @@ namespace Guidewire.Core
         public bool Step()
         {
             _setup.Work.BeginStep();
-            return _isLimited ? StepWithSlip() : StepAsRequested();
-        }
-
-        // Taken again until neither hub has more than its force: the wire's in each trial of the catheter's.
-        private bool StepWithSlip()
-        {
-            int wire = _drives.Length - 1;
-            (HubSlip catheterSlip, HubSlip wireSlip) = (_slips[0], _slips[wire]);
-            _start.Save();
-            catheterSlip.Begin();
-            bool isDone;
-            double outer = _drives[0].Insertion;
-            do
-            {
-                _drives[0].Give(catheterSlip.Displacement);
-                wireSlip.Begin();
-                double inner;
-                do
-                {
-                    if (wireSlip.Displacement != null || catheterSlip.Displacement != null)
-                    {
-                        _start.Restore();
-                        _setup.Work.Count();
-                    }
-                    inner = _drives[wire].Insertion;
-                    _drives[wire].Give(wireSlip.Displacement);
-                    isDone = StepAsRequested();
-                }
-                while (wireSlip.NeedsAnother(_drives[wire].Insertion - inner,
-                    isDone ? Coaxial()!.WireForce : double.NaN, _setup.Work.IsScarce));
-            }
-            while (catheterSlip.NeedsAnother(_drives[0].Insertion - outer,
-                isDone ? Coaxial()!.Force : double.NaN, _setup.Work.IsScarce));
-            _drives[0].Give(null);
-            _drives[wire].Give(null);
-            catheterSlip.EndStep(isDone ? Coaxial()!.Force : 0.0);
-            wireSlip.EndStep(isDone ? Coaxial()!.WireForce : 0.0);
-            return isDone;
+            return _slips.AreLimited ? _slips.Step() : StepAsRequested();
         }
 
         private bool StepAsRequested()
@@ -206,10 +173,9 @@ namespace Guidewire.Core
                 _insertions[i] = _drives[i].Insertion;
                 _drives[i].Prepare(_dynamics.Shape, _dynamics.Time);
             }
-            int wire = _drives.Length - 1;
-            for (int i = 0; i < wire; i++)
+            foreach (CoaxialRecord record in _records)
             {
-                _records[i].TakeStep(_drives[i], _insertions[i], _drives[wire], _insertions[wire]);
+                record.TakeStep(_drives, _insertions);
             }
         }
 
@@ -241,22 +207,33 @@ namespace Guidewire.Core
             terms.SetTime(_whole.Schedule, _dynamics.Time);
             RodShape shape = _dynamics.Shape;
             int wire = _drives.Length - 1;
-            double wireForce = terms.Release!.InnerForce(shape, terms, wire);
-            double wireTorque = Bending.InnerTorque(shape, wire);
             // The outermost hub has the chain's reaction less those of the others.
-            double force = Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis) - wireForce;
-            double torque = Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis) - wireTorque;
-            for (int i = wire - 1; i > 0; i--)
+            _forces[0] = Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis);
+            double torque = Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis);
+            double wireTorque = Bending.InnerTorque(shape, wire);
+            double inside = 0.0;
+            for (int i = wire; i > 0; i--)
             {
-                double own = terms.Release!.InnerForce(shape, terms, i);
-                double ownTorque = Bending.InnerTorque(shape, i);
-                force -= own;
-                torque -= ownTorque;
-                _records[i].Take(_rod.Joints, terms, shape, _inner[i - 1].Shape, _drives[i], _drives[wire], own,
-                    ownTorque, wireForce, wireTorque);
+                _forces[i] = terms.Release!.InnerForce(shape, terms, i);
+                _forces[0] -= _forces[i];
+                double own = Bending.InnerTorque(shape, i);
+                torque -= own;
+                if (i < wire)
+                {
+                    _records[i].Take(_rod.Joints, terms, shape, _inner[i - 1].Shape, _drives[i], _drives[wire], own,
+                        wireTorque, inside);
+                }
+                inside += _forces[i];
             }
-            _records[0].Take(_rod.Joints, terms, shape, shape, _drives[0], _drives[wire],
-                force + terms.Release!.SheathForce(shape), torque, wireForce, wireTorque);
+            _forces[0] += terms.Release!.SheathForce(shape);
+            _records[0].Take(_rod.Joints, terms, shape, shape, _drives[0], _drives[wire], torque, wireTorque, inside);
+            double around = 0.0;
+            double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;
+            for (int i = 0; i < wire; i++)
+            {
+                _records[i].TakeForces(_forces[i], around, wireForce);
+                around = _records[i].FrictionForce;
+            }
             return _records[0];
         }
 
@@ -290,10 +267,7 @@ namespace Guidewire.Core
                 _drives[i].Hub.Serialize(snapshot, time);
                 _drives[i].Serialize(snapshot);
             }
-            foreach (HubSlip slip in _slips)
-            {
-                slip.Serialize(snapshot);
-            }
+            _slips.Serialize(snapshot);
             foreach (CoaxialRecord record in _records)
             {
                 record.Serialize(snapshot);

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -44,6 +43,9 @@ namespace Guidewire.Core
             _limit = limit > 0.0 ? limit : double.PositiveInfinity;
             _shortest = shortest;
         }
+
+        /// <summary>The hub's drive.</summary>
+        public MaterialDrive Drive => _drive;
 
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
@@ -109,33 +111,6 @@ namespace Guidewire.Core
             {
                 _stepsBeyond++;
                 _mostBeyond = Math.Max(_mostBeyond, Math.Abs(force));
-            }
-        }
-
-        /// <summary>Adds what is not as asked of the hubs.</summary>
-        /// <param name="hubs">The outermost one first, the wire's last.</param>
-        /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
-        public static void AddWarnings(HubSlip[] hubs, bool isSheathed, List<RunWarning> warnings)
-        {
-            int last = hubs.Length - 1;
-            for (int k = last; k >= 0; k--)
-            {
-                string name = k == last ? "the wire's hub" : last == 1 ? "the catheter's hub"
-                    : k == 0 ? "the outer catheter's hub" : "the inner catheter's hub";
-                string stops = k == last
-                    ? "it met the catheter's hub, or the wire's tip came to the first element of the catheter"
-                    : last == 1 ? "it met the wire's hub, or its first element came to the wire's tip"
-                    : "it met the next hub, or its first element came to a tip inside";
-                stops += k < last && isSheathed ? ", or its hub to the exit of the sheath" : "";
-                if (hubs[k]._drive.FallsShort)
-                {
-                    warnings.Add(WarningTable.HubShortfall.With(name, hubs[k]._drive.Slip,
-                        (hubs[k].IsLimited ? "it slipped at its hubForceLimit, or " : "") + stops));
-                }
-                if (hubs[k].FindExcess(name) is RunWarning excess)
-                {
-                    warnings.Add(excess);
-                }
             }
         }
 

@@ -248,5 +248,48 @@ namespace Guidewire.Core.Tests
             Assert.That(record.Asked, Is.EqualTo(record.Gone + record.Shortfall).Within(1e-12));
             Assert.That(run.Contacts!.Passages, Is.Zero);
         }
+
+        // All three go on together, and the wire's tip comes up against a wall across its axis.
+        [TestCase(0.03, 0.0, 0.0)]
+        [TestCase(0.03, 0.05, 0.0)]
+        [TestCase(0.03, 0.04, 0.05)]
+        public void HubsOfThree_SlipWhereTheyWouldTakeMoreThanTheirForces(double wire, double inner, double outer)
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Scene.Walls = new ContactShape[]
+            {
+                new PlaneShape(new Vector3d(0.0, 0.0, 402.0), -Vector3d.UnitZ),
+            };
+            parameters.Drive.InsertionSpeed = 0.1;
+            parameters.Drive.HubForceLimit = wire;
+            double[] limits = { outer, inner };
+            for (int k = 0; k < 2; k++)
+            {
+                parameters.Scene.Catheters[k].Drive.InsertionSpeed = 0.1;
+                parameters.Scene.Catheters[k].Drive.HubForceLimit = limits[k];
+            }
+            parameters.Method.MaxSimulationSteps = 120;
+            Simulation run = Simulation.Create(parameters);
+            var most = new double[3];
+            while (run.Outcome == Outcome.Running)
+            {
+                run.Step();
+                CoaxialRecord record = run.Coaxial()!;
+                double[] forces = { record.Force, record.Inside!.Force, record.WireForce };
+                for (int k = 0; k < 3; k++)
+                {
+                    most[k] = Math.Max(most[k], Math.Abs(forces[k]));
+                }
+            }
+            TestContext.WriteLine("{0:G4}, {1:G4} and {2:G4} N", most[0], most[1], most[2]);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            Assert.That(most[2], Is.InRange(0.9 * wire, 1.001 * wire));
+            for (int k = 0; k < 2; k++)
+            {
+                Assert.That(most[k], limits[k] > 0.0 ? Is.LessThan(1.001 * limits[k]) : Is.GreaterThan(0.0));
+            }
+            Assert.That(run.Coaxial()!.WireShortfall, Is.GreaterThan(1e-3));
+            Assert.That(run.Contacts!.Passages, Is.Zero);
+        }
     }
 }

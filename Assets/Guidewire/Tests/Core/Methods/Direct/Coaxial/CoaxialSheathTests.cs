@@ -51,6 +51,27 @@ namespace Guidewire.Core.Tests
             Assert.That(force, Is.EqualTo(one.Hub()!.Force).Within(5e-4 * Math.Abs(one.Hub()!.Force)));
         }
 
+        [Test]
+        public void OuterCatheterOfNoStiffness_LeavesTwoAloneInTheirSheath()
+        {
+            SimulationParameters pair = Sheathed(60);
+            SimulationParameters three = Sheathed(60);
+            var outer = new Catheter { Length = 195.0, Elements = 39 };
+            CoaxialScenes.SetTube(outer, 1.35e-3, 1.0e-3, 400.0, 150.0);
+            three.Scene.Catheters = new[] { outer, three.Scene.Catheters[0] };
+            Simulation two = Wires.Finish(pair);
+            Simulation all = Wires.Finish(three);
+            CoaxialRecord inner = all.Coaxial()!.Inside!;
+            TestContext.WriteLine("{0} and {1}; {2:G6} and {3:G6} N, {4:G6} and {5:G6} N", two.State.Positions[60],
+                all.State.Positions[60], two.Hub()!.Force, all.Hub()!.Force, two.Coaxial()!.Force,
+                inner.Force + all.Coaxial()!.Force);
+            Assert.That(two.State.Positions[60].X, Is.GreaterThan(2.0), "mm: it is bent");
+            Assert.That((two.State.Positions[60] - all.State.Positions[60]).Length, Is.LessThan(1e-5 * 142.5));
+            double scale = Math.Abs(two.Hub()!.Force);
+            Assert.That(all.Hub()!.Force, Is.EqualTo(two.Hub()!.Force).Within(5e-4 * scale));
+            Assert.That(inner.Force + all.Coaxial()!.Force, Is.EqualTo(two.Coaxial()!.Force).Within(1e-3 * scale));
+        }
+
         // Nothing loads them: the sheath drives both out by 1/2 B k^2, B the sum of both stiffnesses, k their mean by
         // stiffness; the wire's hub alone has 1/2 B_c B_w/B (k_c - k_w)^2 of the catheter's tip less what straightens
         // it in the sheath, 1/2 B_w k_w^2. So at any place of the exit in an element, and whether turned or not.

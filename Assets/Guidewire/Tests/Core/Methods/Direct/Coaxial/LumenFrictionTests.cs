@@ -106,6 +106,57 @@ namespace Guidewire.Core.Tests
             Assert.That(friction.Force(force, angle, end), Is.Zero.Within(1e-12));
         }
 
+        // A limp wire in a limp catheter, both pulled at their tips, through one that is bent by an angle and does not
+        // give: for all in a lumen together dT/ds = mu |T kappa|, and for the wire in its own. Both are drawn back;
+        // then the catheter is let out while the wire is drawn.
+        [TestCase(0.2, 0.1, 90.0)]
+        [TestCase(0.5, 0.3, 180.0)]
+        [TestCase(0.0, 0.3, 90.0)]
+        [TestCase(0.3, 0.0, 90.0)]
+        public void LumensInOneAnother_HaveTheForcesOfIntegratedCapstans(double inner, double outer, double degrees)
+        {
+            const double InnerLoad = 0.07;
+            Start(outer, degrees, out Steering hub, out SimulationParameters parameters);
+            Catheter around = parameters.Scene.Catheters[0];
+            CoaxialScenes.SetTube(around, 1.35e-3, 1.0e-3, 1e13, 4e12);
+            var limp = new Catheter { Length = 235.0, Elements = 47, Start = 25.0, LumenFriction = inner };
+            CoaxialScenes.SetTube(limp, 0.25e-3, 0.15e-3, 5e8, 2e8);
+            limp.TipForce = InnerLoad / Load * parameters.Scene.TipForce;
+            limp.Drive.Steering = new Steering();
+            parameters.Scene.Catheters = new[] { around, limp };
+            Simulation run = Simulation.Create(parameters);
+            double both = run.Coaxial()!.Force + run.Coaxial()!.Inside!.Force + run.Coaxial()!.WireForce;
+            hub.Push = -0.05;
+            limp.Drive.Steering.Push = -0.025;
+            Wires.GoOn(run, 12);
+            AssertForces(run, Integrated(Load, inner, degrees), Integrated(Load + InnerLoad, outer, degrees), both);
+            limp.Drive.Steering.Push = 0.025;
+            Wires.GoOn(run, 12);
+            AssertForces(run, Integrated(Load, inner, degrees), Integrated(Load + InnerLoad, -outer, degrees), both);
+        }
+
+        private static void AssertForces(Simulation run, double wire, double inside, double all)
+        {
+            CoaxialRecord outer = run.Coaxial()!;
+            double innerForce = outer.Inside!.Force;
+            TestContext.WriteLine("{0:G5} of {1:G5} N, {2:G5} of {3:G5} N", outer.WireForce, -wire,
+                innerForce + outer.WireForce, -inside);
+            Assert.That(outer.WireForce, Is.EqualTo(-wire).Within(Tolerance * wire));
+            Assert.That(innerForce + outer.WireForce, Is.EqualTo(-inside).Within(Tolerance * inside));
+            Assert.That(outer.Force + innerForce + outer.WireForce, Is.EqualTo(all).Within(Tolerance * Load));
+        }
+
+        // Of a tension from the tip to the hub, in 100,000 pieces.
+        private static double Integrated(double tension, double coefficient, double degrees)
+        {
+            const int pieces = 100_000;
+            for (int k = 0; k < pieces; k++)
+            {
+                tension += coefficient * Math.Abs(tension) * Math.PI / 180.0 * degrees / pieces;
+            }
+            return tension;
+        }
+
         // A limp wire through a catheter that is bent by an angle and does not give, its tip pulled along.
         private static Simulation Start(double coefficient, double degrees, out Steering hub,
             out SimulationParameters parameters, double lead = 50.0)

@@ -40,6 +40,11 @@ namespace Guidewire.Core.Tests
             {
                 DrawHubs(new RandomGeometry(seed + OtherSeeds));
             }
+            if (hasOuter && isSheathed)
+            {
+                DrawHubs(outer);
+                _parameters.Scene.Catheters[1].Drive.HubForceLimit = outer.Index(8) == 0 ? outer.Number(0.1, 1.0) : 0.0;
+            }
             if (isSheathed)
             {
                 DrawSheath(new RandomGeometry(seed + 2 * OtherSeeds));
@@ -234,7 +239,9 @@ namespace Guidewire.Core.Tests
             CoaxialRecord record = outermost.Inside ?? outermost;
             Overtakings += _extension * record.Extension < 0.0 ? 1 : 0;
             _extension = record.Extension;
-            Beyond = Math.Max(Beyond, Math.Max(OverLimit(record.WireForce, _parameters.Drive.HubForceLimit),
+            Beyond = Math.Max(Beyond, OverLimit(record.Force,
+                _parameters.Scene.Catheters[_parameters.Scene.Catheters.Count - 1].Drive.HubForceLimit));
+            Beyond = Math.Max(Beyond, Math.Max(OverLimit(outermost.WireForce, _parameters.Drive.HubForceLimit),
                 OverLimit(outermost.Force, _parameters.Scene.Catheters[0].Drive.HubForceLimit)));
             // Beyond the tips around them.
             double outer = outermost == record ? double.PositiveInfinity : outermost.Extension;

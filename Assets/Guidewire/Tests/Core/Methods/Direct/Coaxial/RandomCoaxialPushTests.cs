@@ -38,6 +38,7 @@ namespace Guidewire.Core.Tests
         [TestCase(false, false)]
         [TestCase(true, false)]
         [TestCase(false, true)]
+        [TestCase(true, true)]
         public void NoInstrumentIsEverOutside_AndEveryRunHasAnEnd(bool isSheathed, bool hasOuter)
         {
             (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COAXIAL_PUSHES");
