@@ -9,9 +9,11 @@ import dataclasses
 import numpy as np
 from scipy.linalg import solve_banded
 
-CELLS = 1500
-ELEMENT = 2e-3                     # m, of the solver
-LARGEST_ANGLE = 1.2                # rad; beyond it there may be several rest shapes
+CELLS = 6000
+ELEMENT = 1e-3                     # m, of the solver
+LARGEST_ANGLE = 2.5                # rad
+STRAIN = 3e-4                      # of a tube along its axis by each of its loads, at most
+BARE = 1e-3                        # of the stiffest tube's EI: a softer one ends where a stiffer one carries it
 
 
 @dataclasses.dataclass(frozen=True)
@@ -70,8 +72,11 @@ class Shape:
     pull: float                      # sum of all loads along it, N
 
 
-def solve(tubes, gravity):
-    """The rest shape of tubes, the outermost first, each of whose ends is beyond the outermost hub."""
+def solve(tubes, gravity, near=None):
+    """The rest shape of tubes, the outermost first, each of whose ends is beyond the outermost hub.
+
+    near : (stations, angles) of a shape, whose next rest shape is sought; else the loads grow from none.
+    """
     last = max(tube.end for tube in tubes)
     marks = {0.0, last}
     for tube in tubes:
@@ -99,8 +104,8 @@ def solve(tubes, gravity):
         tangent = np.stack([-np.sin(angle), np.cos(angle)], axis=1)
         return tangent, np.stack([-np.cos(angle), -np.sin(angle)], axis=1)
 
-    angle = np.zeros(len(h))
-    for share in np.linspace(0.1, 1.0, 10):
+    angle = np.zeros(len(h)) if near is None else np.interp(middle, *near)
+    for share in np.linspace(0.1, 1.0, 10) if near is None else [1.0]:
         for _ in range(60):
             tangent, normal = axes(angle)
             along = share * (force * tangent).sum(axis=1)
@@ -179,18 +184,25 @@ def trace(tubes, nodes, tangent, normal, shear, strain, ahead, present):
     return np.array(tips)
 
 
-def hub_forces(tubes, gravity, step=2e-5):
-    """Force of each hub on its tube along the axis, N, the outermost first: of inner ones dE/dp."""
+def hub_forces(tubes, gravity, near=None, step=2e-5):
+    """Force of each hub on its tube along the axis, N, the outermost first: of inner ones dE/dp. `near` as of solve."""
     forces = []
     for i in range(1, len(tubes)):
         less, more = (solve([dataclasses.replace(tube, lead=tube.lead + sign * step) if k == i else tube
-                             for k, tube in enumerate(tubes)], gravity).energy for sign in (-1.0, 1.0))
+                             for k, tube in enumerate(tubes)], gravity, near).energy for sign in (-1.0, 1.0))
         forces.append((less - more) / (2.0 * step))
-    return np.array([-solve(tubes, gravity).pull - sum(forces), *forces])
+    return np.array([-solve(tubes, gravity, near).pull - sum(forces), *forces])
+
+
+def angles(tube, nodes):
+    """Stations, m from the outermost hub, and angles of the elements of a tube of n + 1 nodes (y, z)."""
+    along, aside = np.diff(nodes[:, 1]), np.diff(nodes[:, 0])
+    n = len(along)
+    return tube.length * (np.arange(n) + 0.5) / n - tube.lead, np.unwrap(np.arctan2(-aside, along))
 
 
 def random_case(seed):
-    """Tubes, gravity, and their rest shape: the first of random ones that is not bent too far."""
+    """Tubes and gravity: the first of random ones whose rest shape under growing loads is not bent too far."""
     random = np.random.default_rng(seed)
     while True:
         tubes, gravity = random_tubes(random)
@@ -199,37 +211,40 @@ def random_case(seed):
         except ArithmeticError:
             continue
         if shape.sideways < LARGEST_ANGLE:
-            return tubes, gravity, shape
+            return tubes, gravity
 
 
 def random_tubes(random):
     """Two or three tubes and a gravity, the outermost first: soft and stiff, thin and thick, each with its loads."""
     count = int(random.integers(2, 4))
     length = random.uniform(0.15, 0.4)
-    tubes = []
+    tubes, drawn = [], []
     lumen = 0.0
     lead = random.uniform(0.0, 0.05) * np.arange(count - 1, -1, -1)
     for k in range(count):                     # the wire first
         radius = lumen + random.uniform(0.05e-3, 0.35e-3) + (0.15e-3 if k == 0 else 0.0)
-        young = 10.0 ** random.uniform(7.0, 11.3)
-        end = length * random.uniform(0.7, 1.3)
+        drawn.append((radius, lumen, 10.0 ** random.uniform(3.0, 12.0), length * random.uniform(0.7, 1.3)))
+        lumen = radius + random.uniform(0.02e-3, 0.2e-3)
+    stiff = [young * (radius ** 4 - hole ** 4) for radius, hole, young, _ in drawn]
+    carried = min(end for (*_, end), one in zip(drawn, stiff) if one >= BARE * max(stiff))
+    for k, (radius, lumen, young, end) in enumerate(drawn):
+        end = end if stiff[k] >= BARE * max(stiff) else carried * random.uniform(0.3, 0.95)
         own = end + lead[k]
         soft = own - random.uniform(0.05, 0.3) * end
         factor = 10.0 ** random.uniform(-1.0, 0.0)
         bent = random.uniform(-3.0, 3.0, 2)
         tubes.append(Tube(own, float(lead[k]), radius, lumen, 0, ((0.0, young, young / 2.6, bent[0]),
-                     (soft, factor * young, factor * young / 2.6, bent[1])), random.uniform(1e3, 8e3)))
-        lumen = radius + random.uniform(0.02e-3, 0.2e-3)
+                     (soft, factor * young, factor * young / 2.6, bent[1])),
+                          min(random.uniform(1e3, 8e3), STRAIN * factor * young / length)))
     tubes.reverse()
     bend = max(tube.pieces[0][1] * tube.second for tube in tubes)
     scale = random.uniform(0.05, 0.5) * bend / length ** 2
     loaded = []
     for tube in tubes:
-        # No more along the axis than strains it by some ten-thousandths.
-        most = 3e-4 * tube.pieces[1][1] * tube.area
+        most = STRAIN * tube.pieces[1][1] * tube.area
 
         def load(size, most=most):
-            return (size * random.uniform(-1.0, 1.0), np.clip(size * random.uniform(-1.0, 1.0), -most, most))
+            return tuple(np.clip(size * random.uniform(-1.0, 1.0, 2), -most, most))
 
         at = tube.lead + tube.end * random.uniform(0.1, 0.95)
         loaded.append(dataclasses.replace(tube, elements=int(np.ceil(tube.length / ELEMENT)), tip=load(0.3 * scale),
