@@ -6,6 +6,7 @@ import {
 
 import { ramp, roundUp, row } from "./colours.js";
 import { DrawnInstrument } from "./instrument.js";
+import { throughTips } from "./path.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
@@ -30,8 +31,12 @@ export class Model {
     this.tint = { before: { value: /** @type {import("three").Texture | null} */ (null) },
       origin: { value: new Vector2() } };
     /** The wire, and then the catheters over it. */
-    this.drawn = recording.centrelines.map((name, k) =>
-      new DrawnInstrument(recording.channel(name).width / 3, k > 0, (material) => this._tinted(material)));
+    this.drawn = recording.centrelines.map((name, k) => new DrawnInstrument(recording.channel(name).width / 3
+      + (k === 0 ? recording.centrelines.length - 1 : 0), k > 0, (material) => this._tinted(material)));
+    /** Lengths of the wire's elements: the longest that were seen. */
+    this._lengths = new Float64Array(spheres - 1);
+    /** Of each point that the wire is drawn by, where it is along the wire, in elements. @type {number[]} */
+    this._along = [];
     this.arrows = new LineSegments(new BufferGeometry(), this._tinted(new LineBasicMaterial({ color: ARROWS })));
     this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
     this.arrows.frustumCulled = false;
@@ -84,8 +89,11 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     const positions = this.recording.at("positions", frame);
     const first = this.recording.firstShown(frame);
     this._drawnThickness = this.shownThickness;
-    this.drawn.forEach((one, k) => one.place(this.centreline(k),
-      this.recording.radiusOf(k) * this._drawnThickness, k === 0 ? first : 0));
+    const path = this.wirePath();
+    this._along = path.along;
+    this.drawn.forEach((one, k) => one.place(k === 0 ? path.points : this.centreline(k),
+      this.recording.radiusOf(k) * this._drawnThickness,
+      k === 0 ? path.along.findIndex((place) => place >= first) : 0));
     this._sheath?.children[0].scale.set(this._drawnThickness, 1, this._drawnThickness);
     this._paint(full);
     this._point(positions, first);
@@ -108,6 +116,21 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
   /** The points of an instrument's centreline in the frame shown. @param {number} instrument its number */
   centreline(instrument) {
     return this.recording.at(this.recording.centrelines[instrument], this.frame);
+  }
+
+  /** The points that the wire is drawn by in the frame shown: tips that it comes out of among them. */
+  wirePath() {
+    const [wire, ...catheters] = this.recording.centrelines.map((_, k) => this.centreline(k));
+    return throughTips(wire, catheters, this._lengthsWith(wire));
+  }
+
+  /** The wire for X-rays, and its points. @param {import("./pieces.js").Instrument} wire
+   * @returns {[import("./pieces.js").Instrument, Float64Array]} */
+  imagedWire(wire) {
+    const { points, along } = this.wirePath();
+    const of = (/** @type {number[]} */ values) => along.slice(0, -1).map((place) => values[Math.floor(place)]);
+    return [{ ...wire, radii: of(wire.radii), innerRadii: of(wire.innerRadii), attenuations: of(wire.attenuations) },
+      points];
   }
 
   /** The place of the last sphere, units. */
@@ -138,7 +161,9 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     const full = shared ?? this.full(channel.name);
     const colours = this._ramps[channel.isSigned ? 1 : 0];
     const last = values.length - 1;
-    wire.paint((along, colour) => {
+    wire.paint((point, colour) => {
+      const from = Math.min(Math.floor(point), this._along.length - 2);
+      const along = this._along[from] + (point - from) * (this._along[from + 1] - this._along[from]);
       const j = Math.min(Math.floor(along), last);
       const next = channel.place === "sphere" ? values[Math.min(j + 1, last)] : values[j];
       const k = 3 * row(values[j] + (along - j) * (next - values[j]), full, channel.isSigned);
@@ -164,6 +189,15 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
       }
     }
     ends.needsUpdate = true;
+  }
+
+  /** Lengths of the wire's elements, those of a frame taken in: in a catheter chords are shorter.
+   * @param {Float64Array} x of its spheres */
+  _lengthsWith(x) {
+    for (let j = 0; j < this._lengths.length; j++) {
+      this._lengths[j] = Math.max(this._lengths[j], this._length(x.subarray(3 * j, 3 * j + 6)) || 0);
+    }
+    return this._lengths;
   }
 
   /** @param {Float64Array} x */

@@ -119,7 +119,8 @@ export class Xray {
     }
     look.seed = this._frames++;
     this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.drawnInstruments.map((instrument, k) =>
-      /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
+      k === 0 ? model.imagedWire(instrument)
+        : /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
     this._label();
     this.drawn++;
     this.onDrawn();

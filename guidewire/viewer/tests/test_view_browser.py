@@ -13,6 +13,7 @@ from PIL import Image
 
 from guidewire.env import Environment, RecordedDrive
 from guidewire.logs.logs import read_log
+from guidewire.logs.paths import lengths_of, through_tips
 from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 from guidewire.viewer import parts
@@ -262,3 +263,22 @@ def test_each_of_three_instruments_is_drawn_and_taken_into_the_hand(browse, runn
         )["seen"]
     assert seen == ["workhorse-0.014catheter-guide-6fmicrocatheter-2.4f", 3, "microcatheter-2.4f"]
     assert is_drawn(tmp_path / "three.png")
+
+
+def test_a_wire_is_drawn_through_the_tip_that_it_comes_out_of(browse, runner_command, tmp_path):
+    subprocess.run([*runner_command, "-parameters", str(ROOT / "params/catheter.json"), "-out", str(tmp_path / "run"),
+                    "-maxSimulationSteps", "60", "-logEvery", "10"], check=True, capture_output=True)
+    log = read_log(tmp_path / "run", "all")
+    with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):
+        seen = browse(["open", address], DRAWN, *(step for k in range(len(log.steps)) for step in (
+            ["see", f"viewer.shown.go({log.time[k]})"], ["see", "[...viewer.shown.models[0].wirePath().points]"])))["seen"]
+    crossed = 0
+    for k, points in enumerate(seen[1::2]):
+        drawn = np.array(points).reshape(-1, 3)
+        lengths = lengths_of(log.positions[:k + 1])
+        path, _ = through_tips(log.positions[k], [log.catheters[0][k]], lengths)
+        assert len(drawn) == len(log.positions[k]) + 1
+        crossed += len(path) == len(drawn)
+        if len(path) == len(drawn):
+            np.testing.assert_allclose(drawn, path, atol=1e-5)
+    assert crossed > 0
