@@ -15,7 +15,8 @@ FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
 # Warnings at the end of a run that make its result unreliable; others are of its parameters, or of a tip that left.
 SERIOUS = re.compile(r"\d+ points of the wire passed a wall|the wire penetrated a wall by |the wire is [\d.]+ % |"
-                    r"the outermost fibre was strained by |the drive fell short: ")
+                    r"the outermost fibre was strained by |the drive fell short: |.* fell short by |"
+                    r".* had up to .* N, above its hubForceLimit of |.* mm of play in the ")
 RIM = "the tip left the vessel by an open rim"
 SAME = 1e-9  # of the radius, or of the displacement that was asked for: what figures may differ by
 
