@@ -167,6 +167,9 @@ class Environment(Env):
         else:
             self._scene, loaded = self._scenes.find(draw)
             self._state = self._scene.start(draw.tip_turn, draw.insertion)
+        if self._scene.hubs != self.hubs:
+            raise Error(f"the scene of {self.task.anatomies[draw.anatomy]} has {self._scene.hubs} instruments, the "
+                        f"task's first one {self.hubs}")
         self._draw = draw
         self._route = self._scene.route(self.task.targets[draw.target])
         self._places = self._found()
