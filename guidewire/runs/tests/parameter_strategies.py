@@ -197,7 +197,7 @@ VALUES: dict[str, st.SearchStrategy] = {
     "contactDistance": st.one_of(st.just(0), log_uniform(1e-6, 1e-2)),
     "elasticSlip": log_uniform(1e-8, 1e-3),
     "contactStiffness": st.one_of(st.just(0), log_uniform(1.0, 1e8)),
-    "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]),
+    "driveFile": st.sampled_from(["", str(DRIVE_TABLE)]), "patientAxes": st.sampled_from(["", "LPS", "RAS"]),
     "proximalMotionFile": st.just(""), "distalMotionFile": st.just(""),  # need ends that go with them
     "logEvery": whole(1, 20), "logFilePath": st.sampled_from(["", "elsewhere", "Gefäß 1"]),
 }
