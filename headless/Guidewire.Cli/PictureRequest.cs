@@ -14,6 +14,7 @@ namespace Guidewire.Cli
         private static readonly (string Word, VesselContrast Contrast)[] Vessels =
         {
             ("none", VesselContrast.None), ("contrast", VesselContrast.Contrast), ("roadmap", VesselContrast.RoadMap),
+            ("injected", VesselContrast.Injected),
         };
 
         /// <summary>The view that members of an object stand for; what it leaves out or has as null is as by
@@ -61,7 +62,7 @@ namespace Guidewire.Cli
                     int word = Array.FindIndex(Vessels, pair => value.Type == JTokenType.String
                         && pair.Word == (string?)value);
                     settings.Vessel = word >= 0 ? Vessels[word].Contrast
-                        : throw Wrong(name, value, "one of \"none\", \"contrast\", \"roadmap\"");
+                        : throw Wrong(name, value, "one of \"none\", \"contrast\", \"roadmap\", \"injected\"");
                     break;
                 case "contrast":
                     settings.Contrast = Number(name, value, 0.0, 1e6, "a number from 0 to 1e6 (1/mm)");

@@ -32,6 +32,11 @@ namespace Guidewire.Cli
             Positions = (string?)json["positions"] ?? "";
             Middle = MiddleOf(json["middle"]);
             Reach = (double?)json["reach"];
+            Amount = (double?)json["amount"];
+            Rate = (double?)json["rate"] ?? 1.0;
+            Seconds = (double?)json["seconds"] ?? 0.0;
+            AtInlet = (bool?)json["inlet"] ?? false;
+            Flow = (JObject?)json["flow"];
             foreach (JProperty property in ((JObject?)json["set"] ?? new JObject()).Properties())
             {
                 Overrides.Add(new KeyValuePair<string, JToken>(property.Name, property.Value));
@@ -96,6 +101,21 @@ namespace Guidewire.Cli
         /// <summary>How far from there walls without end are drawn, units, or null for the wire's length.</summary>
         public double? Reach { get; }
 
+        /// <summary>Contrast agent to be injected, ml; 0 ends an injection; null: no other one.</summary>
+        public double? Amount { get; }
+
+        /// <summary>How fast, ml/s.</summary>
+        public double Rate { get; }
+
+        /// <summary>Time by which the blood goes on without a step, s.</summary>
+        public double Seconds { get; }
+
+        /// <summary>Whether agent is injected where the blood comes in, and not at a tip.</summary>
+        public bool AtInlet { get; }
+
+        /// <summary>How blood flows, or null: as before.</summary>
+        public JObject? Flow { get; }
+
         /// <summary>Parameters that count instead of the file's.</summary>
         public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
 
@@ -122,6 +142,11 @@ namespace Guidewire.Cli
             CheckNumber(json, "hub", 0.0, int.MaxValue, HubNeeds);
             CheckNumbers(json, "push", "a number (units), or a list of one for each hub");
             CheckNumbers(json, "turn", "a number (rad), or a list of one for each hub");
+            Check(json, "inlet", "true or false", JTokenType.Boolean);
+            Check(json, "flow", "an object", JTokenType.Object);
+            CheckNumber(json, "amount", 0.0, 1e4, "a number from 0 to 10000 (ml)");
+            CheckNumber(json, "rate", 1e-6, 1e4, "a number from 1e-6 to 10000 (ml/s)");
+            CheckNumber(json, "seconds", 0.0, 1e4, "a number from 0 to 10000 (s)");
             CheckNumber(json, "reach", double.Epsilon, double.MaxValue, "a number above 0 (units)");
             return new RunRequest(json);
         }

@@ -24,6 +24,7 @@ namespace Guidewire.Core
         private readonly double[] _lengths;   // of the wire's elements, units
         private ImagedInstrument[] _drawn;
         private double? _attenuation;
+        private ContrastFlow? _contrast;
 
         /// <param name="parameters">Those of the run.</param>
         public RunPictures(SimulationParameters parameters)
@@ -65,6 +66,21 @@ namespace Guidewire.Core
         /// said with each picture.</summary>
         public IReadOnlyList<ImagedInstrument> Instruments => _instruments;
 
+        /// <summary>Contrast agent that pictures show with <see cref="VesselContrast.Injected"/>, or null.</summary>
+        public ContrastFlow? Contrast
+        {
+            get => _contrast;
+            set
+            {
+                _contrast = value;
+                if (value != null && _vessel.HasValue)
+                {
+                    _fluoroscopy.SetCells(Array.ConvertAll(value.Middles, point => 1.0 / _perUnit * point),
+                        Array.ConvertAll(value.Radii, radius => radius / _perUnit));
+                }
+            }
+        }
+
         /// <summary>Takes a picture.</summary>
         /// <param name="centrelines">Nodes of each instrument, units.</param>
         /// <param name="view">What picture.</param>
@@ -90,7 +106,8 @@ namespace Guidewire.Core
             Place(centrelines, view.Attenuation);
             var shown = (ImagedInstrument[])_drawn.Clone();
             shown[0] = shown.Length > 1 ? ThroughTips(shown[0], centrelines) : shown[0];
-            _fluoroscopy.Draw(shown, Arm(centrelines[0], view), settings, grey);
+            _fluoroscopy.Draw(shown, Arm(centrelines[0], view), settings, grey,
+                _contrast != null ? _contrast.Parts : default);
         }
 
         private static ImagedInstrument InstrumentOf(SimulationParameters parameters, bool isMaterial, double metres)

@@ -78,6 +78,13 @@ namespace Guidewire.Core
                 Vector3d.Dot(from, _towards));
         }
 
+        /// <summary>The point that is seen at x, y and z in pixels, as of <see cref="ToDetector"/>.</summary>
+        public Vector3d FromDetector(double x, double y, double z)
+        {
+            double half = 0.5 * Pixels;
+            return Centre + (1.0 / Scale) * ((x - half) * _right + (half - y) * _up + z * _towards);
+        }
+
         /// <inheritdoc/>
         public bool Equals(CArm? other)
         {

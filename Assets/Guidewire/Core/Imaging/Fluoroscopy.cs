@@ -20,6 +20,9 @@ namespace Guidewire.Core
         private InstrumentShadow _shadow = new InstrumentShadow(Array.Empty<float>(), 0);
         private SpotBlur? _blur;
         private (VesselContrast, double, double) _shown;
+        private LumenCells? _cells;
+        private CArm? _cellsArm;
+        private double[] _agent = Array.Empty<double>();
 
         /// <param name="vessels">What may be filled with contrast agent.</param>
         public Fluoroscopy(IReadOnlyList<WallSurface> vessels)
@@ -27,22 +30,38 @@ namespace Guidewire.Core
             _vessels = vessels;
         }
 
+        /// <summary>Says where contrast agent may be: the cells of the vessels' tree.</summary>
+        /// <param name="middles">Units.</param>
+        /// <param name="radii">Units.</param>
+        public void SetCells(Vector3d[] middles, double[] radii)
+        {
+            var corners = new List<Vector3d>();
+            foreach (WallSurface vessel in _vessels)
+            {
+                corners.AddRange(vessel.Vertices);
+            }
+            Extents box = Extents.Of(corners);
+            _cells = new LumenCells(middles, radii, box.Low, box.High);
+            _cellsArm = null;
+        }
+
         /// <summary>Takes a picture.</summary>
         /// <param name="instruments">What is in the vessels.</param>
         /// <param name="arm">Where it is seen from.</param>
         /// <param name="settings">What is shown.</param>
         /// <param name="grey">Takes the grey levels, row by row from the upper left corner.</param>
+        /// <param name="parts">Of the blood in each cell that is contrast agent; none: nothing is injected.</param>
         /// <exception cref="ArgumentException">A setting out of its range, or another number of grey
         /// levels.</exception>
         public void Draw(IReadOnlyList<ImagedInstrument> instruments, CArm arm, FluoroscopySettings settings,
-            Span<byte> grey)
+            Span<byte> grey, ReadOnlySpan<double> parts = default)
         {
             string? problem = settings.FindProblem();
             if (problem != null || grey.Length != arm.Pixels * arm.Pixels)
             {
                 throw new ArgumentException(problem ?? "a picture needs as many grey levels as it has pixels");
             }
-            SetLayer(arm, settings);
+            SetLayer(arm, settings, parts);
             Array.Clear(_depth, 0, _depth.Length);
             for (int k = 0; k < instruments.Count; k++)
             {
@@ -76,7 +95,7 @@ namespace Guidewire.Core
             }
         }
 
-        private void SetLayer(CArm arm, FluoroscopySettings settings)
+        private void SetLayer(CArm arm, FluoroscopySettings settings, ReadOnlySpan<double> parts)
         {
             bool isNewView = !arm.Equals(_arm);
             if (isNewView)
@@ -89,6 +108,11 @@ namespace Guidewire.Core
                 }
                 _arm = arm;
             }
+            if (settings.Vessel == VesselContrast.Injected && parts.Length > 0 && _cells != null)
+            {
+                SetAgent(arm, settings, parts);
+                return;
+            }
             var shown = (settings.Vessel, settings.Contrast, settings.Background);
             if (isNewView || !shown.Equals(_shown))
             {
@@ -100,6 +124,21 @@ namespace Guidewire.Core
             }
         }
 
+        private void SetAgent(CArm arm, FluoroscopySettings settings, ReadOnlySpan<double> parts)
+        {
+            if (!arm.Equals(_cellsArm))
+            {
+                _cells!.Look(arm, _lumens);
+                _cellsArm = arm;
+            }
+            _cells!.Sum(parts, _agent);
+            for (int i = 0; i < _layer.Length; i++)
+            {
+                _layer[i] = (float)(settings.Background * Math.Exp(-settings.Contrast * _agent[i]));
+            }
+            _shown = default;    // what else may be shown is computed anew
+        }
+
         private void SetSize(int pixels)
         {
             if (_depth.Length == pixels * pixels)
@@ -107,6 +146,7 @@ namespace Guidewire.Core
                 return;
             }
             _thickness = new float[pixels * pixels];
+            _agent = new double[pixels * pixels];
             _layer = new float[pixels * pixels];
             _depth = new float[pixels * pixels];
             _picture = new float[pixels * pixels];

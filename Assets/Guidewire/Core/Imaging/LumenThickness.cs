@@ -12,6 +12,7 @@ namespace Guidewire.Core
         private readonly int[] _triangles;
         private readonly double[] _sum;
         private readonly Vector3d[] _projected;
+        private List<(int Pixel, double Depth, bool IsIn)>? _crossings;
 
         /// <param name="wall">The vessel.</param>
         /// <param name="pixels">Of a side.</param>
@@ -31,20 +32,37 @@ namespace Guidewire.Core
         /// <param name="thickness">Row by row; grows.</param>
         public void Add(CArm arm, float[] thickness)
         {
+            Array.Clear(_sum, 0, _sum.Length);
+            Project(arm);
+            for (int i = 0; i < _sum.Length; i++)
+            {
+                thickness[i] += (float)Math.Max(0.0, _sum[i]);
+            }
+        }
+
+        private void Project(CArm arm)
+        {
             for (int i = 0; i < _vertices.Length; i++)
             {
                 _projected[i] = arm.ToDetector(_vertices[i]);
             }
-            Array.Clear(_sum, 0, _sum.Length);
             for (int t = 0; t < _triangles.Length; t += 3)
             {
                 AddTriangle(_projected[_triangles[t]], _projected[_triangles[t + 1]], _projected[_triangles[t + 2]],
                     arm.Pixels);
             }
-            for (int i = 0; i < _sum.Length; i++)
-            {
-                thickness[i] += (float)Math.Max(0.0, _sum[i]);
-            }
+        }
+
+        /// <summary>Notes where rays pass the wall: in which pixel, how deep (pixels' sides, towards the detector),
+        /// and whether
+        /// a ray from the detector goes in there.</summary>
+        /// <param name="arm">Where it is seen from.</param>
+        /// <param name="crossings">Grows.</param>
+        public void Cross(CArm arm, List<(int Pixel, double Depth, bool IsIn)> crossings)
+        {
+            _crossings = crossings;
+            Project(arm);
+            _crossings = null;
         }
 
         // Rows are cut at their middles. A side between two triangles is computed from its upper end for both, so each
@@ -77,7 +95,14 @@ namespace Guidewire.Core
                 double depth = anchor.Z + slopeX * (first + 0.5 - anchor.X) + slopeY * (y - anchor.Y);
                 for (int k = row * pixels + first; k < row * pixels + end; k++)
                 {
-                    _sum[k] += sign * depth;
+                    if (_crossings != null)
+                    {
+                        _crossings.Add((k, depth, sign > 0.0));
+                    }
+                    else
+                    {
+                        _sum[k] += sign * depth;
+                    }
                     depth += slopeX;
                 }
             }

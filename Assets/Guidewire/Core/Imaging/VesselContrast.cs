@@ -12,5 +12,8 @@ namespace Guidewire.Core
         /// <summary>As a road map, a picture with contrast that was subtracted from those that follow: brighter than
         /// the background, without hiding instruments.</summary>
         RoadMap,
+
+        /// <summary>Where contrast agent is injected: darker by its part of the blood there.</summary>
+        Injected,
     }
 }

@@ -53,6 +53,7 @@ namespace Guidewire.Io
             }
             _motion = new double[2 * InstrumentCount];
             Simulation = Simulation.Create(handler.Values.Simulation);
+            Contrast = SessionContrast.Of(handler.Values.Anatomy, 1e3 * Parameters.Scene.MetresPerUnit);
             _start = Simulation.Save();
         }
 
@@ -73,6 +74,10 @@ namespace Guidewire.Io
 
         /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
+
+        /// <summary>Contrast agent in the blood, which no step depends on; null where the vessel has no
+        /// centreline.</summary>
+        public SessionContrast? Contrast { get; }
 
         /// <summary>Where an instrument is in its vessel now; null where the run has no inlet.</summary>
         /// <param name="points">Of its spheres, from the hub on, units.</param>
@@ -239,6 +244,7 @@ namespace Guidewire.Io
             {
                 Simulation.Step();
             }
+            Contrast?.Flow.Advance(Parameters.Method.TimeStep);
             double time = (Stopwatch.GetTimestamp() - before) * RunFolder.ToMilliseconds;
             StepTime = StepTime == 0.0 ? time : StepTime + Smoothing * (time - StepTime);
         }
@@ -333,6 +339,7 @@ namespace Guidewire.Io
         public void Reset()
         {
             Simulation = Simulation.Restore(_handler.Values.Simulation, _start);
+            Contrast?.Flow.Clear();
         }
 
         // What a snapshot must agree in with who reads it, and a sum that says whether it is whole.

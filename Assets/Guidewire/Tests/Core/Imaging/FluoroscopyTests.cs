@@ -43,6 +43,34 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void LumenFullOfAgent_IsAsDarkAsContrast_AndEachCellHasItsOwn([Values(0.0, 35.0, 70.0)] double cranial)
+        {
+            const double Mu = 0.03;
+            var middles = Enumerable.Range(0, 20).Select(k => new Vector3d(0.0, 0.0, -19.0 + 2.0 * k)).ToArray();
+            double[] radii = Enumerable.Repeat(8.0, 20).ToArray();
+            var fluoroscopy = new Fluoroscopy(Tube());
+            fluoroscopy.SetCells(middles, radii);
+            var arm = new CArm(0.0, cranial, Vector3d.Zero, Pixels, Pixels);
+            byte[] Taken(VesselContrast vessel, double[] parts)
+            {
+                var grey = new byte[Pixels * Pixels];
+                fluoroscopy.Draw(Nothing, arm, new FluoroscopySettings { Vessel = vessel, Contrast = Mu }, grey, parts);
+                return grey;
+            }
+            byte[] all = Taken(VesselContrast.Contrast, Array.Empty<double>());
+            Assert.That(Taken(VesselContrast.Injected, Enumerable.Repeat(1.0, 20).ToArray()).Zip(all,
+                (one, other) => Math.Abs(one - other)).Max(), Is.LessThanOrEqualTo(1));
+            Assert.That(Taken(VesselContrast.Injected, new double[20]), Is.All.EqualTo((byte)191));
+            double[] half = Enumerable.Range(0, 20).Select(k => k < 10 ? 1.0 : 0.0).ToArray();
+            byte[] split = Taken(VesselContrast.Injected, half);
+            int column = Pixels / 2;
+            double seen = Math.Cos(cranial * Math.PI / 180.0);
+            Assert.That(split[(Pixels / 2 - (int)(seen * 17.0)) * Pixels + column], Is.GreaterThan(
+                split[(Pixels / 2 + (int)(seen * 17.0)) * Pixels + column]), "towards the head there is none");
+            Assert.That(Taken(VesselContrast.Contrast, Array.Empty<double>()), Is.EqualTo(all));
+        }
+
+        [Test]
         public void RoadMap_IsBrighter_AndWithoutContrastNoVesselIsSeen()
         {
             Assert.That(Draw(Tube(), new FluoroscopySettings { Vessel = VesselContrast.RoadMap })[Middle],

@@ -1,0 +1,297 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>Contrast agent in the blood of a vessel's tree: injected somewhere, carried on, spread and washed out.
+    /// No step of
+    /// an instrument depends on it.</summary>
+    /// <remarks>In one dimension along the centreline: d(A c)/dt + d(Q c)/dx = d(A D dc/dx)/dx, with the part c of the
+    /// blood that
+    /// is agent, finite volumes, upwind fluxes of second order with van Leer's limiter, and D = dispersion * radius *
+    /// velocity,
+    /// implicit. What is injected adds to the flow beyond that place. What leaves one cell enters others or leaves by
+    /// an end, so
+    /// amounts add up.</remarks>
+    public sealed class ContrastFlow
+    {
+        private const double MostCourant = 0.5;    // part of a cell's blood that is exchanged in a part of a step
+        private const double PerMillilitre = 1e3;  // mm^3
+
+        private readonly VesselCells _cells;
+        private readonly BloodFlow _flow;
+        private readonly double _inlet;            // ml/s, mean
+        private readonly double[] _volumes;        // ml
+        private readonly double[] _conductances;   // of the face before each cell over the flow through it
+        private readonly double[] _part;           // c
+        private readonly double[] _next;
+        private readonly double[] _rates;          // flow through the face before each, ml/s
+        private readonly double[] _diagonal;
+        private readonly bool[] _isBeyond;         // the place of injection
+        private readonly bool[] _isEnd;
+        private int _place = -1;
+        private double _left;                      // still to be injected, ml
+        private double _speed;                     // ml/s
+        private double _time;
+
+        /// <summary>Blood without agent.</summary>
+        /// <param name="tree">The vessel.</param>
+        /// <param name="flow">How blood flows.</param>
+        /// <exception cref="ArgumentException">A value of the flow out of its range.</exception>
+        public ContrastFlow(VesselTree tree, BloodFlow flow)
+        {
+            string? problem = flow.FindProblem();
+            if (problem != null)
+            {
+                throw new ArgumentException(problem);
+            }
+            _cells = new VesselCells(tree, flow.Given);
+            _flow = flow;
+            int n = _cells.Count;
+            _volumes = new double[n];
+            _conductances = new double[n];
+            _part = new double[n];
+            _next = new double[n];
+            _rates = new double[n];
+            _diagonal = new double[n];
+            _isBeyond = new bool[n];
+            _isEnd = new bool[n];
+            Array.Fill(_isEnd, true);
+            double area = Math.PI * tree.Radii[0] * tree.Radii[0];
+            _inlet = flow.Inlet ?? area * BloodFlow.UsualVelocity / PerMillilitre;
+            for (int k = 0; k < n; k++)
+            {
+                if (!(_cells.Shares[k] > 0.0))
+                {
+                    throw new ArgumentException("flows that are given need to be numbers above 0");
+                }
+                double radius = _cells.Radii[k];
+                _volumes[k] = Math.PI * radius * radius * _cells.Lengths[k] / PerMillilitre;
+                int before = _cells.Before[k];
+                if (before >= 0)
+                {
+                    _isEnd[before] = false;
+                    // A D/dx = Q * dispersion * r/dx, as D = dispersion * r * Q/A.
+                    _conductances[k] = flow.Dispersion * (_cells.Radii[before] + radius)
+                        / (_cells.Lengths[before] + _cells.Lengths[k]);
+                }
+            }
+        }
+
+        /// <summary>Number of cells.</summary>
+        public int Count => _cells.Count;
+
+        /// <summary>Part of the blood in each cell that is agent, from 0 to 1.</summary>
+        public ReadOnlySpan<double> Parts => _part;
+
+        /// <summary>Middles of the cells, mm.</summary>
+        public Vector3d[] Middles => _cells.Middles;
+
+        /// <summary>Radii of the cells, mm.</summary>
+        public double[] Radii => _cells.Radii;
+
+        /// <summary>Injected so far, ml.</summary>
+        public double Injected { get; private set; }
+
+        /// <summary>Washed out by the ends so far, ml.</summary>
+        public double WashedOut { get; private set; }
+
+        /// <summary>In the vessel now, ml.</summary>
+        public double Held
+        {
+            get
+            {
+                double sum = 0.0;
+                for (int k = 0; k < _part.Length; k++)
+                {
+                    sum += _volumes[k] * _part[k];
+                }
+                return sum;
+            }
+        }
+
+        /// <summary>Flow at the inlet now, ml/s.</summary>
+        public double Inlet => _inlet
+            * (1.0 + _flow.PulseAmplitude * Math.Sin(2.0 * Math.PI * _flow.PulseRate * _time));
+
+        /// <summary>Whether an injection goes on.</summary>
+        public bool IsInjecting => _left > 0.0;
+
+        /// <summary>Whether there is agent, or will be: otherwise nothing changes with time.</summary>
+        public bool IsActive { get; private set; }
+
+        /// <summary>Flow through a cell over that at the inlet, without injection.</summary>
+        public double ShareOf(int cell)
+        {
+            return _cells.Shares[cell];
+        }
+
+        /// <summary>The cell that a point of the lumen belongs to: the one whose sphere has the least power.</summary>
+        /// <param name="point">mm.</param>
+        public int CellOf(in Vector3d point)
+        {
+            int best = 0;
+            double least = double.PositiveInfinity;
+            for (int k = 0; k < _part.Length; k++)
+            {
+                double power = (point - _cells.Middles[k]).LengthSquared - _cells.Radii[k] * _cells.Radii[k];
+                if (power < least)
+                {
+                    (least, best) = (power, k);
+                }
+            }
+            return best;
+        }
+
+        /// <summary>Begins an injection; one that goes on ends.</summary>
+        /// <param name="cell">Where.</param>
+        /// <param name="amount">ml, 0 or more.</param>
+        /// <param name="rate">ml/s, above 0.</param>
+        /// <exception cref="ArgumentException">A value out of its range.</exception>
+        public void Inject(int cell, double amount, double rate)
+        {
+            if (cell < 0 || cell >= Count || !(amount >= 0.0) || double.IsInfinity(amount) || !(rate > 0.0)
+                || double.IsInfinity(rate))
+            {
+                throw new ArgumentException("an injection needs one of the cells, 0 ml or more, and more than 0 ml/s");
+            }
+            (_place, _left, _speed) = (cell, amount, rate);
+            IsActive |= amount > 0.0;
+            for (int k = 0; k < Count; k++)
+            {
+                int before = _cells.Before[k];
+                _isBeyond[k] = before >= 0 && (before == cell || _isBeyond[before]);
+            }
+        }
+
+        /// <summary>Blood without agent again.</summary>
+        public void Clear()
+        {
+            Array.Clear(_part, 0, _part.Length);
+            (Injected, WashedOut, _left, IsActive) = (0.0, 0.0, 0.0, false);
+        }
+
+        /// <summary>Goes on by a time.</summary>
+        /// <param name="seconds">0 or more.</param>
+        public void Advance(double seconds)
+        {
+            while (seconds > 0.0 && IsActive)
+            {
+                double step = _left > 0.0 ? Math.Min(seconds, _left / _speed) : seconds;
+                Pass(step);
+                seconds -= step;
+            }
+            _time += Math.Max(seconds, 0.0);
+        }
+
+        // With one rate of injection all through.
+        private void Pass(double seconds)
+        {
+            double injected = _left > 0.0 ? _speed : 0.0;
+            double inlet = _inlet * (1.0 + _flow.PulseAmplitude);    // the most that it may be meanwhile
+            double most = 0.0;
+            for (int k = 0; k < Count; k++)
+            {
+                most = Math.Max(most, (FlowBefore(k, inlet, injected) + (k == _place ? injected : 0.0)) / _volumes[k]);
+            }
+            int parts = Math.Max(1, (int)Math.Ceiling(most * seconds / MostCourant));
+            for (int part = 0; part < parts; part++)
+            {
+                Carry(seconds / parts, injected);
+                _time += seconds / parts;
+            }
+            if (_flow.Dispersion > 0.0)
+            {
+                Spread(seconds);
+            }
+            // The last part of an amount is what is left of it, whatever the roundings of time.
+            double amount = injected * seconds;
+            _left = _left - amount > 1e-12 * Math.Max(1.0, amount) ? _left - amount : 0.0;
+            IsActive = _left > 0.0 || Held > 1e-15 * Injected;
+        }
+
+        private double FlowBefore(int cell, double inlet, double injected)
+        {
+            return _cells.Shares[cell] * (inlet + (_isBeyond[cell] ? injected / _cells.Shares[_place] : 0.0));
+        }
+
+        private void Carry(double seconds, double injected)
+        {
+            double inlet = Inlet;
+            for (int k = 0; k < Count; k++)
+            {
+                _rates[k] = FlowBefore(k, inlet, injected);
+                _next[k] = _volumes[k] * _part[k];
+            }
+            for (int k = 0; k < Count; k++)
+            {
+                int before = _cells.Before[k];
+                if (before >= 0)
+                {
+                    double amount = seconds * _rates[k] * FacePart(before, k, seconds, injected);
+                    _next[before] -= amount;
+                    _next[k] += amount;
+                }
+                if (_isEnd[k])
+                {
+                    double amount = seconds * (_rates[k] + (k == _place ? injected : 0.0)) * _part[k];
+                    _next[k] -= amount;
+                    WashedOut += amount;
+                }
+            }
+            if (injected > 0.0)
+            {
+                _next[_place] += seconds * injected;
+                Injected += seconds * injected;
+            }
+            for (int k = 0; k < Count; k++)
+            {
+                _part[k] = _next[k] / _volumes[k];
+            }
+        }
+
+        // c at the face between a cell and the next, carried there during a step: van Leer's slope.
+        private double FacePart(int before, int cell, double seconds, double injected)
+        {
+            int first = _cells.Before[before];
+            double here = _part[before];
+            double behind = here - (first < 0 ? 0.0 : _part[first]);
+            double ahead = _part[cell] - here;
+            double product = behind * ahead;
+            if (!(product > 0.0))
+            {
+                return here;
+            }
+            double courant = seconds * (_rates[before] + (before == _place ? injected : 0.0)) / _volumes[before];
+            return here + product / (behind + ahead) * (1.0 - courant);
+        }
+
+        // Dispersion, implicit: the tree is eliminated from its ends to the inlet.
+        private void Spread(double seconds)
+        {
+            for (int k = 0; k < Count; k++)
+            {
+                _diagonal[k] = _volumes[k];
+                _next[k] = _volumes[k] * _part[k];
+            }
+            for (int k = Count - 1; k > 0; k--)
+            {
+                int before = _cells.Before[k];
+                if (before < 0)
+                {
+                    continue;
+                }
+                double exchanged = seconds * _conductances[k] * _rates[k];
+                double own = _diagonal[k] + exchanged;
+                _diagonal[before] += exchanged * (_diagonal[k] / own);
+                _next[before] += exchanged / own * _next[k];
+            }
+            for (int k = 0; k < Count; k++)
+            {
+                int before = _cells.Before[k];
+                double exchanged = before < 0 ? 0.0 : seconds * _conductances[k] * _rates[k];
+                double from = before < 0 ? 0.0 : exchanged * _part[before];
+                _part[k] = (_next[k] + from) / (_diagonal[k] + exchanged);
+            }
+        }
+    }
+}
