@@ -29,6 +29,7 @@ import numpy as np
 from guidewire.logs.surfaces import Surface
 from guidewire.prepare import DOOR
 from guidewire.runs import building
+from guidewire.sessions.agent import Agent
 from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
 from guidewire.sessions.session_state import (
     Frames, LumenPlace, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
@@ -192,12 +193,44 @@ class Session:
     def describe(self) -> dict[str, Any]:
         """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
         "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
-        element "radii", "innerRadii" (units) and "attenuations" (1/unit); and "target", the centreline from the inlet
+        element "radii", "innerRadii" (units) and "attenuations" (1/unit), and of a material "tipLoad" and "shaftLoad" (N), at
+        which the last 10 mm and 50 mm of the shaft bow out; "cells" of the vessel's tree, through which contrast agent goes:
+        "middles" (x, y, z of each) and "radii" (units), None without a centreline; "target", the centreline from the inlet
         to it: "name", "reach" (units before it from which on it is reached), "indices" (of the centreline's points in
         anatomy.json), "points" (units), "radii", "distances"; None where the run has none; and "patient", unit vectors
         to the patient's "left", "chest" and "head", None where they are unknown."""
         answer = self._ask("describe")
-        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "target", "patient")}
+        return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "cells", "target", "patient")}
+
+    def inject(self, amount: float, rate: float, hub: int | None = 0) -> Agent:
+        """Begin to inject contrast agent into the blood; an injection that goes on ends. Steps carry it on, and do not depend
+        on it; `reset` takes it away.
+
+        Parameters
+        ----------
+        amount : ml; 0 ends an injection.
+        rate : ml/s.
+        hub : from whose tip: 0 the wire's, k that of catheter k; None: where the blood comes in, the widest open end.
+
+        Raises
+        ------
+        SessionError : a value is not allowed, or the vessel has no centreline (`vessel.anatomy`).
+        """
+        place = {"inlet": True} if hub is None else {"hub": _whole("hub", hub, "0, the wire's")}
+        return Agent.of(self._ask("agent", amount=_number("amount", amount), rate=_number("rate", rate), **place))
+
+    def agent(self, seconds: float = 0.0, **flow: float) -> Agent:
+        """What contrast agent is where.
+
+        Parameters
+        ----------
+        seconds : by which the blood goes on first, without a step.
+        flow : how blood flows, to begin anew with: inlet (ml/s; a mean velocity of 200 mm/s), dispersion (coefficient over
+            mean velocity and radius; 1), pulse (amplitude over mean flow; 0), pulseRate (1/s; 1). At forks it divides by
+            radii cubed.
+        """
+        asked = {"flow": {name: _number(name, value) for name, value in flow.items()}} if flow else {}
+        return Agent.of(self._ask("agent", seconds=_number("seconds", seconds), **asked))
 
     def places(self, positions: np.ndarray) -> list[LumenPlace]:
         """Where a wire with nodes elsewhere, (f, n+1, 3), units, is in its vessel, for each of f states; an empty list
@@ -237,7 +270,8 @@ class Session:
         lao, cranial : angles of the C-arm, degrees (0, 0); RAO and caudal are negative.
         centre : what is in the middle, units, and
         field_of_view : side of the picture, mm: so that the vessel is seen, or without one the wire.
-        vessel : "roadmap" (brighter than the background), "contrast" (darker) or "none".
+        vessel : "roadmap" (brighter than the background), "contrast" (darker), "none", or "injected": darker where there is
+            agent of `inject`.
         contrast : attenuation coefficient of contrast agent, 1/mm (0.1: iodine of 130 mg/ml at 60 keV).
         attenuation : coefficient of the instruments, 1/mm; by their materials.
         background : brightness beside all, from 0 to 1 (0.75).

@@ -8,8 +8,10 @@ that each channel has had (so that the scales of all pages agree), then all chan
 from __future__ import annotations
 
 import asyncio
+import base64
 import json
 import math
+import os
 import re
 import time
 import warnings
@@ -23,8 +25,10 @@ import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
 
 from guidewire.logs.surfaces import Surface
+from guidewire.sessions.agent import Agent
 from guidewire.sessions.session import Session, SessionError, State
 from guidewire.sessions.steered import RULES as STEERED
+from guidewire.viewer.cases import title_of
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.recording import (
     ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, name_walls, radius_of, read_off,
@@ -34,6 +38,7 @@ from guidewire.viewer.recording import (
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
 PACES = (0.01, 0.1, 0.5, 1, 2, 5, 10)  # of in-game time against the clock, where the machine is fast enough
+MOST_INJECTED = 200.0         # ml, and ml/s
 _FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where the machine is fast enough
 _LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
 _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
@@ -90,6 +95,8 @@ class LiveRun:
         self._walls: list[Surface] = []
         self._sheath: np.ndarray | None = None
         self._largest = np.zeros(0)
+        self._begun: State | None = None
+        self._agent: Agent | None = None    # contrast in the vessel, once some was injected
         self._named: dict[str, str] = {}  # instruments by their keys that a page has chosen
         self._described: dict[str, Any] = {}
         self._warnings: list[str] = []
@@ -115,7 +122,7 @@ class LiveRun:
         self._open(self._scene)
 
     async def recording(self) -> bytes:
-        """The run as it is now, one frame of it, with its walls."""
+        """The run as it is now and as it began, with its walls."""
         return await self._in_thread(lambda: self._record().to_bytes())
 
     async def go(self) -> None:
@@ -142,6 +149,10 @@ class LiveRun:
             began = time.monotonic()
             try:
                 state = await self._in_thread(lambda: session.step(push * steps, turn * steps, steps, hub))
+                if self._agent is not None and self._agent.is_active:
+                    agent = await self._in_thread(session.agent)
+                    if self._session is session:
+                        await self._tell_agent(agent)
                 if self._session is session:
                     instruments.add(hub, push, turn, steps, state)
             except SessionError as error:
@@ -235,6 +246,13 @@ class LiveRun:
     async def _do_hold(self, message: Mapping[str, Any]) -> None:
         self._instruments.hold(message["instrument"])
 
+    async def _do_inject(self, message: Mapping[str, Any]) -> None:
+        amount, rate, hub = float(message["amount"]), float(message["rate"]), message["instrument"]
+        if not (0.0 <= amount <= MOST_INJECTED and 0.0 < rate <= MOST_INJECTED) or not (hub is None or type(hub) is int):
+            raise ValueError("no such injection")
+        session = self._session
+        await self._tell_agent(await self._in_thread(lambda: session.inject(amount, rate, hub)))
+
     async def _do_name(self, message: Mapping[str, Any]) -> None:
         number, name = message["instrument"], message["name"]
         key = self._instruments.key_of(number, name)
@@ -259,7 +277,7 @@ class LiveRun:
             self._is_paused = not self._session.hand
             self._opened += 1
             self._instruments.begin(self._session, self._described, self._instruments.held)
-            self._largest = largest_shown(self._channels(self._session, self._session.state))
+            self._begin(self._session)
         self._problem = ""
 
     async def _do_pace(self, message: Mapping[str, Any]) -> None:
@@ -307,6 +325,11 @@ class LiveRun:
         self._sheath = sheath_of(session.parameters, self._numbers(session, session.state))
         self._opened += 1
         self._cost = 0.0
+        self._begin(session)
+
+    def _begin(self, session: Session) -> None:
+        self._agent = None
+        self._begun = session.state
         self._largest = largest_shown(self._channels(session, session.state))
 
     def _close_session(self) -> None:
@@ -318,14 +341,19 @@ class LiveRun:
         session = self._session
         if session is None:
             raise web.HTTPNotFound()
+        state = session.state
+        states = [state] if self._begun is None or self._begun.step == state.step else [self._begun, state]
         return Recording(
             self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
-            self._channels(session, session.state), name_walls(session.parameters, self._walls), self._sheath,
+            self._channels(session, *states), name_walls(session.parameters, self._walls), self._sheath,
             self._largest, self._described,
         )
 
-    def _channels(self, session: Session, state: State) -> list[Channel]:
-        return make_channels(units_of(session.parameters), self._numbers(session, state))
+    def _channels(self, session: Session, *states: State) -> list[Channel]:
+        numbers = [self._numbers(session, state) for state in states]
+        together = {name: None if values is None else np.concatenate([one[name] for one in numbers])
+                    for name, values in numbers[0].items()}
+        return make_channels(units_of(session.parameters), together)
 
     def _numbers(self, session: Session, state: State) -> dict[str, Any]:
         walls = bool(self._walls)
@@ -359,6 +387,15 @@ class LiveRun:
                 page.on_the_way += 1
                 await _send(page.socket.send_bytes(block))
 
+    async def _tell_agent(self, agent: Agent) -> None:
+        """Where contrast agent is, to all pages."""
+        self._agent = agent
+        told = {"agent": {
+            "parts": base64.b64encode(agent.parts.astype("<f8").tobytes()).decode("ascii"), "injected": agent.injected,
+            "held": agent.held, "isActive": agent.is_active, "isInjecting": agent.is_injecting}}
+        for page in list(self._pages):
+            await _send(page.socket.send_str(json.dumps(told)))
+
     async def _tell(self) -> None:
         for page in list(self._pages):
             await _send(page.socket.send_str(json.dumps(self._status(page))))
@@ -371,7 +408,8 @@ class LiveRun:
         return {
             "hand": self._hand is page, "isFree": self._hand is None, "isPaused": self._is_paused,
             "isSteered": session is not None and session.hand, "opened": self._opened, "scene": self._scene,
-            "scenes": list(self._scenes), "problem": self._problem, "values": values,
+            "scenes": list(self._scenes), "titles": [title_of(path) for path in self._scenes.values()],
+            "file": os.path.relpath(self._scenes[self._scene]), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
             "steered": self._instruments.problem, **self._instruments.status(),
@@ -404,7 +442,7 @@ class LiveRun:
 
 _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
     "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
-    "hold": LiveRun._do_hold, "name": LiveRun._do_name, "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
+    "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name, "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
 }
 
 

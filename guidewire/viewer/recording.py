@@ -7,7 +7,6 @@ then the arrays, lowest byte first. `guidewire/viewer/page/recording.js` reads i
 from __future__ import annotations
 
 import json
-import math
 import re
 import struct
 from collections.abc import Callable, Mapping, Sequence
@@ -193,7 +192,7 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3), and of
         the first catheter "contact_forces1"; "reaction" (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy",
         "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key;
-        "lumen" (k, 2), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
+        "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
         "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
@@ -227,8 +226,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
             Channel("contactForces", "", units.force, "vector", _flat(forces)),
             Channel("contactForce", "contact force", units.force, "sphere", np.linalg.norm(forces, axis=2)),
             *(Channel(f"contactForces{k}", "", units.force, "vector", _flat(own)) for k, own in of_catheters.items()),
-            Channel("wallForce", "force of all walls", units.force, "frame",
-                    np.linalg.norm(sum(own.sum(axis=1) for own in (forces, *of_catheters.values())), axis=1)),
+            Channel("wallForce", "all wall forces added up", units.force, "frame",
+                    sum(np.linalg.norm(own, axis=2).sum(axis=1) for own in (forces, *of_catheters.values()))),
         ]
     if "lumen" in known:
         channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
@@ -381,10 +380,12 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
 
 
 def lumen_of(places: Sequence[LumenPlace | None]) -> np.ndarray | None:
-    """(k, 2): units to the target along the vessel and whether it is reached, of k states; None without a target."""
-    if not places or any(place is None or math.isnan(place.left) for place in places):
+    """(k, 3) of k states: units to the target along the vessel (not a number without one), whether it is reached, and
+    whether the wire is in the vessel; None where that is not known."""
+    known = [place for place in places if place is not None]
+    if not places or len(known) < len(places):
         return None
-    return np.array([[place.left, float(place.is_at_target)] for place in places])
+    return np.array([[place.left, float(place.is_at_target), float(place.is_inside)] for place in known])
 
 
 def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[tuple[str, Surface]]:

@@ -26,21 +26,12 @@ from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building, checking
 from guidewire.runs.key_table import read_key_table
 from guidewire.sessions.session import SessionError, session_of
+from guidewire.viewer.cases import SCENES, title_of
 from guidewire.viewer.export import modules_of, pack, page_of_packed
 from guidewire.viewer.live import rules
 from guidewire.viewer.parts import PAGE, three
 from guidewire.viewer.server import page_files
 
-SCENES = {    # of params: title and sentence
-    "insertion": ("Arch", "A simple wire, pushed into a branch of an aortic arch."),
-    "insertion-accurate": ("Arch, nitinol wire", "A nitinol wire of 0.8 mm with a soft bent tip in the same arch."),
-    "sheath": ("Forked artery", "A wire of 0.36 mm out of its sheath: turn the bent tip to choose a branch."),
-    "catheter": ("Catheter in a bend", "A 5 F catheter over a 0.035 inch wire: the key I selects one of them."),
-    "catheter-branch": ("Catheter into a branch", "Catheter to the ostium, wire into the branch, catheter after it."),
-    "catheter-sheath": ("Catheter in a forked artery", "A 5 F catheter over a 0.035 inch wire, both out of a sheath."),
-    "microcatheter": ("Siphon", "A microcatheter over a 0.014 inch wire, out of a guide catheter through a siphon."),
-    "guide-catheter": ("Three instruments", "A microcatheter over a wire in a guide catheter."),
-}
 _WORKER = ("worker.js", "run.js", "channels.js", "steered.js")
 _PLAIN = (".js",)    # of the framework: a browser loads modules as they are
 _SHOW = "show.json"
@@ -128,7 +119,8 @@ def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]]
     (folder / "texts.json.gz").write_bytes(pack(block))
     wire = json.loads((ROOT / "params" / "sheath.json").read_text(encoding="utf-8"))
     own = {key: value for key, value in wire.items() if key not in _PLACED}    # the wire of a mesh that is dropped
-    show = {"isLive": True, "recordings": 0, "site": {"rules": rules(choices), "scenes": listed, "wire": own}}
+    show = {"isLive": True, "recordings": 0, "site": {
+        "rules": {**rules(choices), "titles": {scene.file: scene.title for scene in scenes}}, "scenes": listed, "wire": own}}
     (folder / _SHOW).write_text(json.dumps(show), encoding="utf-8")
 
 
@@ -157,8 +149,8 @@ def _read(file: Path) -> _Scene:
         if name.startswith(".."):
             raise PreparationError(f"{file}: names {name}: a site takes files of the scene's own folder and below")
         files["params/" + Path(name).as_posix()] = Path(one)
-    title, sentence = SCENES.get(file.stem, (file.stem.replace("-", " "), ""))
-    return _Scene(f"params/{file.name}", title, sentence, files, picture)
+    _, sentence = SCENES.get(file.stem, ("", ""))
+    return _Scene(f"params/{file.name}", title_of(file), sentence, files, picture)
 
 
 def _named(value: Any) -> Iterator[Path]:

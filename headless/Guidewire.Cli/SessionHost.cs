@@ -17,6 +17,7 @@ namespace Guidewire.Cli
         private readonly SessionState _state = new SessionState();
         private byte[] _bytes = Array.Empty<byte>();
         private RunPictures? _pictures;
+        private readonly AgentRequest _agent = new AgentRequest();
         private readonly List<Vector3d[]> _centrelines = new List<Vector3d[]>();
 
         /// <param name="stopRequested">Asked before every step.</param>
@@ -47,6 +48,9 @@ namespace Guidewire.Cli
                 case "describe":
                     Describe(answer);
                     return;
+                case "agent":
+                    _agent.Answer(Opened(), request, answer);
+                    return;
                 case "walls":
                     answer["walls"] = Convert.ToBase64String(Walls(request.Middle, request.Reach));
                     return;
@@ -73,7 +77,7 @@ namespace Guidewire.Cli
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
                         "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"places\", \"walls\","
-                            + " \"change\", \"reset\", \"save\", \"restore\"");
+                            + " \"agent\", \"change\", \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -175,6 +179,10 @@ namespace Guidewire.Cli
             {
                 TakeCentrelines(positions);
             }
+            if (_pictures.Contrast != session.Contrast?.Flow)
+            {
+                _pictures.Contrast = session.Contrast?.Flow;
+            }
             _pictures.Draw(_centrelines, view, grey);
         }
 
@@ -227,16 +235,25 @@ namespace Guidewire.Cli
             SimulationSession session = Opened();
             _pictures ??= new RunPictures(session.Parameters);
             answer["millimetresPerUnit"] = _pictures.MillimetresPerUnit;
-            answer["instruments"] = new JArray(_pictures.Instruments.Select((instrument, k) => new JObject
+            var instruments = new JArray();
+            for (int k = 0; k < _pictures.Instruments.Count; k++)
             {
-                ["title"] = session.TitleOf(k),
-                ["name"] = session.NameOf(k),
-                ["key"] = SimulationSession.KeyOf(k),
-                ["choices"] = new JArray(session.ChoicesOf(k)),
-                ["radii"] = new JArray(instrument.Radii),
-                ["innerRadii"] = new JArray(instrument.InnerRadii),
-                ["attenuations"] = new JArray(instrument.Attenuations),
-            }));
+                ImagedInstrument instrument = _pictures.Instruments[k];
+                var described = new JObject
+                {
+                    ["title"] = session.TitleOf(k),
+                    ["name"] = session.NameOf(k),
+                    ["key"] = SimulationSession.KeyOf(k),
+                    ["choices"] = new JArray(session.ChoicesOf(k)),
+                    ["radii"] = new JArray(instrument.Radii),
+                    ["innerRadii"] = new JArray(instrument.InnerRadii),
+                    ["attenuations"] = new JArray(instrument.Attenuations),
+                };
+                AddLoads(session.Parameters, k, described);
+                instruments.Add(described);
+            }
+            answer["instruments"] = instruments;
+            answer["cells"] = AgentRequest.Cells(session.Contrast?.Flow, _pictures.MillimetresPerUnit);
             answer["target"] = session.RouteToTarget();
             answer["patient"] = session.Parameters.Scene.PatientAxes is PatientAxes axes ? new JObject
             {
@@ -245,6 +262,20 @@ namespace Guidewire.Cli
                 ["head"] = Vector(axes.Head),
             }
             : null;
+        }
+
+        // The loads at which an instrument of a material bows out, N; nothing of one with gains.
+        private static void AddLoads(SimulationParameters parameters, int instrument, JObject described)
+        {
+            if (MethodTable.Of(parameters.Method.Solver).TakesMaterial)
+            {
+                SceneParameters scene = parameters.Scene;
+                Catheter? catheter = instrument == 0 ? null : scene.Catheters[instrument - 1];
+                MaterialParameters material = catheter?.Material ?? parameters.Material;
+                described["tipLoad"] = BucklingLoad.OfTip(material, catheter?.Length ?? scene.GuidewireLength,
+                    scene.MetresPerUnit);
+                described["shaftLoad"] = BucklingLoad.OfShaft(material);
+            }
         }
 
         // Where the wire is in its vessel, of as many states as there are positions: rows as of the array "lumen".

@@ -12,19 +12,22 @@ export const UNKNOWN = { left: [0, 1, 0], chest: [1, 0, 0], head: [0, 0, 1] };
 export class CArm {
   /**
    * @param {number} lao degrees @param {number} cranial degrees @param {Point} centre units
-   * @param {number} field side of the picture, units @param {number} pixels of a side @param {Patient} patient
+   * @param {number} field shorter side of the picture, units @param {number} columns of pixels @param {Patient} patient
+   * @param {number} rows
    */
-  constructor(lao, cranial, centre, field, pixels, patient = UNKNOWN) {
+  constructor(lao, cranial, centre, field, columns, patient = UNKNOWN, rows = columns) {
     const [a, b] = [lao, cranial].map((angle) => (angle * Math.PI) / 180);
     this.centre = centre;
-    this.pixels = pixels;
+    this.columns = columns;
+    this.rows = rows;
     /** Pixels per unit. */
-    this.scale = pixels / field;
+    this.scale = Math.min(columns, rows) / field;
     const { left, chest, head } = patient;
     const level = chest.map((value, k) => Math.cos(a) * value + Math.sin(a) * left[k]);
-    this._towards = level.map((value, k) => Math.cos(b) * value + Math.sin(b) * head[k]);
-    this._up = level.map((value, k) => Math.cos(b) * head[k] - Math.sin(b) * value);
-    this._right = left.map((value, k) => Math.cos(a) * value - Math.sin(a) * chest[k]);
+    this.head = head;
+    this.towards = level.map((value, k) => Math.cos(b) * value + Math.sin(b) * head[k]);
+    this.up = level.map((value, k) => Math.cos(b) * head[k] - Math.sin(b) * value);
+    this.right = left.map((value, k) => Math.cos(a) * value - Math.sin(a) * chest[k]);
   }
 
   /**
@@ -35,10 +38,16 @@ export class CArm {
     const x = this.scale * (points[at] - this.centre[0]);
     const y = this.scale * (points[at + 1] - this.centre[1]);
     const z = this.scale * (points[at + 2] - this.centre[2]);
-    out[0] = 0.5 * this.pixels + x * this._right[0] + y * this._right[1] + z * this._right[2];
-    out[1] = 0.5 * this.pixels - (x * this._up[0] + y * this._up[1] + z * this._up[2]);
-    out[2] = x * this._towards[0] + y * this._towards[1] + z * this._towards[2];
+    out[0] = 0.5 * this.columns + x * this.right[0] + y * this.right[1] + z * this.right[2];
+    out[1] = 0.5 * this.rows - (x * this.up[0] + y * this.up[1] + z * this.up[2]);
+    out[2] = x * this.towards[0] + y * this.towards[1] + z * this.towards[2];
     return out;
+  }
+
+  /** The point that is seen at x, y and z in pixels. @param {number} x @param {number} y @param {number} z */
+  place(x, y, z) {
+    const [a, b] = [x - 0.5 * this.columns, 0.5 * this.rows - y];
+    return this.centre.map((value, k) => value + (a * this.right[k] + b * this.up[k] + z * this.towards[k]) / this.scale);
   }
 
   /**

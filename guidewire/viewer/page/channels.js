@@ -78,14 +78,14 @@ export function makeChannels(rules, parameters, state, hasWalls, measured) {
   if (hasWalls) {
     const forces = state.contactForces ?? new Float64Array(x.length);
     const ofCatheters = catheters.map((k) => state[`contactForces${k}`] ?? new Float64Array(0));
-    const sum = [0, 0, 0];
-    for (const own of [forces, ...ofCatheters]) own.forEach((value, i) => { sum[i % 3] += value; });
+    const sizesOf = (/** @type {Float64Array} */ own) => rows(own).map((i) => Math.sqrt(dot(own, i, i)));
     add("contactForces", "", force, "vector", forces);
-    add("contactForce", "contact force", force, "sphere", rows(forces).map((i) => Math.sqrt(dot(forces, i, i))));
+    add("contactForce", "contact force", force, "sphere", sizesOf(forces));
     catheters.forEach((k, i) => add(`contactForces${k}`, "", force, "vector", ofCatheters[i]));
-    add("wallForce", "force of all walls", force, "frame", [Math.sqrt(sum[0] ** 2 + sum[1] ** 2 + sum[2] ** 2)]);
+    add("wallForce", "all wall forces added up", force, "frame",
+      [[forces, ...ofCatheters].flatMap(sizesOf).reduce((sum, size) => sum + size, 0)]);
   }
-  if (state.lumen && !Number.isNaN(state.lumen[5])) add("lumen", "", "", "frame", [state.lumen[5], state.lumen[1]]);
+  if (state.lumen) add("lumen", "", "", "frame", [state.lumen[5], state.lumen[1], state.lumen[0]]);
   const hub = (/** @type {string} */ key) => state.hub?.[HUB[key]] ?? NaN;
   const hubName = (/** @type {string} */ key) => key[0].toUpperCase() + key.slice(1);
   for (const [key, [label, unit, isSigned]] of Object.entries(rules.hub)) {

@@ -5,7 +5,8 @@
  * @typedef {import("./recording.js").Recorded} Recorded
  * @typedef {object} Connection
  * @property {(message: Record<string, any>) => void} send
- * @property {((message: import("./live.js").Status | ArrayBuffer) => void)} onmessage status, or a frame
+ * @property {((message: import("./live.js").Status | import("./injector.js").Told | ArrayBuffer) => void)} onmessage status,
+ *     contrast, or a frame
  * @property {((reason: string) => void)} onclose nobody simulates any more
  * @property {(opened: number) => Promise<Recorded | null>} recording of the scene that was opened last
  * @property {(instrument: number) => Promise<{ok: boolean, text: string}>} steered its drive table, or why there is none
@@ -106,6 +107,7 @@ export class WorkerConnection {
       this._isReady = true;
       this.onmessage(data.status);
     }
+    if (data.agent) this.onmessage(data);
     if (data.tables) this._asked.splice(0).forEach((answer) => answer(data));
     if (data.gone) this.onclose(data.gone);
   }

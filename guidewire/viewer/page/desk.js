@@ -1,20 +1,22 @@
 // @ts-check
 import { Dial, Gauge } from "./gauges.js";
 import { byId, make } from "./panel.js";
-import { LIMITS, Score, largestForce } from "./score.js";
+import { Score, apart, largestForce, limitsOf, newtons } from "./score.js";
+import { placeName } from "./target.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
 const MILLIMETRES_A_TURN = 100; // of the dial of insertion
+const MOST_EVENTS = 3; // that are shown
 
 /** What an operator looks at beside the pictures: forces, insertion and turn, the target, the instruments. */
 export class Desk {
   constructor() {
     /** @type {Recording | null} */
     this._recording = null;
-    this._peaks = { hub: 0, wall: 0 };
     this._held = 0; // instrument whose hub is read off
-    this._first = 0; // z of the first node along the drive, where nothing is read off at the hub
+    /** Whether the score goes on while one looks back. */
+    this.isLive = false;
   }
 
   /** @param {Recording[]} recordings the first one is read off */
@@ -22,30 +24,48 @@ export class Desk {
     const [recording] = recordings;
     this._recording = recording;
     this.score = new Score(recording);
-    const hub = recording.channels.get("hubForce");
-    const wall = recording.channels.get("contactForce");
-    this._hub = new Gauge("force at the hub", hub?.unit === "N" ? LIMITS.hubForce : null);
-    this._wall = new Gauge("largest wall force", wall?.unit === "N" ? LIMITS.wallForce : null);
     this._insertion = new Dial("insertion", (millimetres) => (2 * Math.PI * millimetres) / MILLIMETRES_A_TURN);
     this._turn = new Dial("turn", (turn) => turn);
     const target = recording.described?.target;
     this._left = make("output", {});
     this._routeDone = make("i", {});
+    this._events = make("div", { className: "card", id: "events", hidden: true });
+    this._gauges = make("div", { id: "gauges" });
     const card = make("div", { className: "card" },
-      ...(target ? [make("div", { className: "line" }, make("span", {}, `to ${target.name}`), this._left),
+      ...(target ? [make("div", { className: "line" }, make("span", {}, `to ${placeName(target.name)}`), this._left),
         make("div", { className: "route" }, this._routeDone)]
-        : [make("div", { className: "line" }, make("span", {}, "tip went"), this._left)]));
+        : [make("div", { className: "line" }, make("span", {}, "tip from its start"), this._left)]));
     this._legend = make("div", { className: "card", id: "legend" }, ...recordings.flatMap((one) =>
       one.instruments.map((instrument) => make("div", {}, swatch(instrument.colour),
         recordings.length > 1 ? `${instrument.name}, ${one.title}` : instrument.name))));
-    byId("desk").replaceChildren(this._hub.element, this._wall.element,
-      make("div", { className: "dials" }, this._insertion.element, this._turn.element), card, this._legend);
+    byId("desk").replaceChildren(this._gauges,
+      make("div", { className: "dials" }, this._insertion.element, this._turn.element), card, this._events, this._legend);
     byId("scoreReading").hidden = !target;
+    this._makeGauges();
+  }
+
+  /** Gauges with the bands of the held instrument. */
+  _makeGauges() {
+    const recording = this._recording;
+    if (!recording) return;
+    const limits = limitsOf(recording, this._held);
+    const wire = limitsOf(recording, 0);
+    const isForce = recording.channels.get("hubForce")?.unit === "N";
+    this._hub = new Gauge("force at the hub", isForce && limits ? limits.hub : null);
+    this._wall = new Gauge("largest wall force", isForce && wire ? wire.wall : null);
+    const basis = isForce && limits && wire ? [make("p", { className: "basis" },
+      `Red: 5 cm of shaft bow out at ${newtons(limits.hub[1])}; twice the ${newtons(wire.wall[0])} at which the wire's tip buckles.`)]
+      : [];
+    this._gauges?.replaceChildren(this._hub.element, this._wall.element, ...basis);
   }
 
   /** Reads off at the hub of another instrument. @param {number} instrument which the hand holds; -1: none */
   hold(instrument) {
-    this._held = Math.max(instrument, 0);
+    const held = Math.max(instrument, 0);
+    if (held !== this._held) {
+      this._held = held;
+      this._makeGauges();
+    }
     [...(this._legend?.children ?? [])].forEach((line, k) =>
       line.classList.toggle("held", k === instrument && this._legend.children.length > 1));
   }
@@ -55,7 +75,7 @@ export class Desk {
     const recording = this._recording;
     if (!recording || !this.score) return;
     const hub = this._held && recording.channels.has(`hub${this._held}Force`) ? `hub${this._held}` : "hub";
-    this.score.show(frame);
+    if (!this.isLive || !this.score.has(frame)) this.score.show(frame);
     const at = (/** @type {string} */ name) =>
       (recording.channels.has(name) ? recording.at(name, frame)[0] : NaN);
     const unitOf = (/** @type {string} */ name) => recording.channels.get(name)?.unit ?? "";
@@ -63,35 +83,34 @@ export class Desk {
     this._wall?.show(largestForce(recording, frame), unitOf("contactForce"),
       recording.channels.get("contactForce")?.largest ?? 0);
     const millimetres = recording.millimetres;
+    const x = recording.at("positions", frame);
+    const [tip, base] = this.score.begun;
     const inserted = recording.channels.has(`${hub}Insertion`) ? 1000 * at(`${hub}Insertion`)
-      : millimetres * moved(recording, frame, 0);
+      : millimetres * apart(x.subarray(0, 3), base);
     this._insertion?.show(inserted, `${inserted.toFixed(1)}\nmm`);
     const turn = at(`${hub}Turn`);
     this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);
-    const clock = byId("clock");
-    clock.textContent = `${at("time").toFixed(1)} s`;
+    byId("clock").textContent = `${at("time").toFixed(1)} s`;
     byId("score").textContent = String(this.score.points);
+    this._showEvents();
     if (!this._left || !this._routeDone) return;
     if (recording.described?.target) {
       const { left, reachedAt, best } = this.score;
-      this._left.textContent = Number.isNaN(reachedAt) ? `${(millimetres * left).toFixed(0)} mm`
-        : `reached at ${reachedAt.toFixed(1)} s`;
+      this._left.textContent = Number.isFinite(reachedAt) ? `reached at ${reachedAt.toFixed(1)} s`
+        : `${(millimetres * left).toFixed(0)} mm`;
       this._routeDone.style.width = `${100 * best}%`;
-    } else {
-      const spheres = recording.channel("positions").width / 3;
-      this._left.textContent = `${(millimetres * moved(recording, frame, spheres - 1)).toFixed(0)} mm`;
-    }
+    } else this._left.textContent = `${(millimetres * apart(x.subarray(-3), tip)).toFixed(0)} mm`;
   }
-}
 
-/**
- * How far a node is from where the recording begins, units.
- * @param {Recording} recording @param {number} frame @param {number} node
- */
-function moved(recording, frame, node) {
-  const from = recording.at("positions", 0).subarray(3 * node, 3 * node + 3);
-  const to = recording.at("positions", frame).subarray(3 * node, 3 * node + 3);
-  return Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]);
+  _showEvents() {
+    const mishaps = this.score?.mishaps ?? [];
+    if (!this._events || this._events.dataset.count === String(mishaps.length)) return;
+    this._events.hidden = !mishaps.length;
+    this._events.dataset.count = String(mishaps.length);
+    this._events.replaceChildren(make("div", { className: "line" }, make("span", {}, "events"),
+      make("output", {}, String(mishaps.length))), ...mishaps.slice(-MOST_EVENTS).map(({ time, text }) =>
+      make("div", { className: "event" }, `${time.toFixed(1)} s: ${text}`)));
+  }
 }
 
 /** @param {string} colour */

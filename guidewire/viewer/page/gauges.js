@@ -1,6 +1,7 @@
 // @ts-check
 import { brief } from "./colours.js";
 import { make } from "./panel.js";
+import { newtons } from "./score.js";
 
 const BANDS = ["good", "caution", "stop"];
 const WORDS = ["normal", "caution", "too high"];
@@ -34,11 +35,9 @@ export class Gauge {
     const most = this._limits ? this._most : Math.max(peak, 1e-12);
     const size = Math.abs(value);
     const band = this._limits ? Number(size >= this._limits[0]) + Number(size >= this._limits[1]) : 0;
-    const text = value.toFixed(size < 10 ? 2 : 0);
-    const number = Number(text) === 0 ? text.replace("-", "") : text;
-    this._value.textContent = unit === "N" ? `${number} N` : number;
+    this._value.textContent = unit === "N" ? newtons(value) : brief(value, 3);
     this.element.title = unit === "N" ? "" : `unit: ${unit}`;
-    this._word.textContent = this._limits ? WORDS[band] : `largest ${brief(peak, 3)}`;
+    this._word.textContent = this._limits ? WORDS[band] : `largest ${unit === "N" ? newtons(peak) : brief(peak, 3)}`;
     this.element.dataset.band = BANDS[band];
     this._bar.style.width = `${Math.min(100, (100 * size) / most)}%`;
     this._peak.style.left = `${Math.min(100, (100 * peak) / most)}%`;

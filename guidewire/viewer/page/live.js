@@ -1,9 +1,14 @@
 // @ts-check
 import { brief } from "./colours.js";
+import { Controls } from "./controls.js";
+import { ask } from "./dialog.js";
+import { Injector } from "./injector.js";
 import { Model } from "./model.js";
 import { byId, make } from "./panel.js";
 import { Recording } from "./recording.js";
+import { rowsOf, save, showReport } from "./report.js";
 import { Steering } from "./steering.js";
+import { placeName } from "./target.js";
 
 /**
  * What is said of the run, as guidewire/viewer/live.py or run.js sends it.
@@ -17,6 +22,8 @@ import { Steering } from "./steering.js";
  * @property {number[]} paces
  * @property {string} scene
  * @property {string[]} scenes
+ * @property {string[]} titles of them, as cases
+ * @property {string} file of the scene, as `run` takes it
  * @property {string} outcome empty while the run goes on
  * @property {string} problem empty where there is none
  * @property {string} steered why what was steered cannot be saved; empty where it can
@@ -27,6 +34,9 @@ import { Steering } from "./steering.js";
  * @property {string[][]} named for each the names that can stand for it; empty where the method takes none
  * @property {string[]} chosen the name that each has; empty where it has none
  */
+
+const REMINDED = 2500; // ms
+const SLOW = 0.9; // of the chosen speed
 
 /** A run that goes on in the runner. Here are only keys and pictures. */
 export class Live {
@@ -39,6 +49,7 @@ export class Live {
     this._stage = stage;
     this._panel = panel;
     this._desk = desk;
+    desk.isLive = true;
     this._xray = xray;
     /** @type {Model | null} */
     this.model = null;
@@ -53,19 +64,24 @@ export class Live {
     /** Times from a key to the picture that shows what it did, ms. @type {number[]} */
     this.delays = [];
     this.steering = new Steering((push, turn) => this._tell(push, turn), (button) =>
-      this.send(button === "pause" ? { do: "pause", value: !this.status?.isPaused } : { do: "reset" }));
+      (button === "pause" ? this.pause(!this.status?.isPaused) : this.send({ do: "reset" })));
     /** The frame that is looked back at; null: the newest. @type {number | null} */
     this._back = null;
-    /** Whether a value was sent that the server has not answered. */
-    this._isSent = false;
+    this.injector = new Injector((message) => this.send(message));
+    this._controls = new Controls(this);
+    this._steeredAt = -REMINDED; // ms: when a hand last moved a paused wire
+    this._isReported = false;
     this._mark = 0;
     this._marks = new Map();
     this._newest = 0;
     stage.onDrawn = xray.onDrawn = () => this._shown();
     this._connection = connection;
-    connection.onmessage = (message) => (message instanceof ArrayBuffer ? this._take(message) : this._hear(message));
+    connection.onmessage = (message) => (message instanceof ArrayBuffer ? this._take(message)
+      : "agent" in message ? xray.fill(this.injector.take(message.agent)) : this._hear(message));
     connection.onclose = (reason) => panel.say([reason]);
-    document.addEventListener("visibilitychange", () => document.hidden && this.send({ do: "pause", value: true }));
+    document.addEventListener("visibilitychange", () => document.hidden && this.pause(true));
+    addEventListener("keyup", ({ key }) => key.toLowerCase() === "e" && this.injector.release());
+    addEventListener("pagehide", () => this._keep());
   }
 
   /** @param {Record<string, any>} message */
@@ -76,16 +92,47 @@ export class Live {
   /** @param {KeyboardEvent} event @returns {boolean} whether the key means something here */
   key(event) {
     if (this.steering.key(event)) byId("keys").hidden = true;
-    else if (event.key === " ") this.send({ do: "pause", value: !this.status?.isPaused });
+    else if (event.key === " ") this.pause(!this.status?.isPaused);
+    else if (event.key === "e") this.injector.press();
     else if (event.key === "n") this.send({ do: "step" });
-    else if (event.key === "i") this._holdNext();
+    else if (event.key === "i") this.holdNext();
     else if (event.key === "r") this.send({ do: "reset" });
     else return false;
     return true;
   }
 
+  /** @param {boolean} isPaused */
+  pause(isPaused) {
+    this.send({ do: "pause", value: isPaused });
+  }
+
+  /** Asks before a run that has begun is lost. @param {string} what takes its place @param {Record<string, any>} message
+   * that opens it @param {() => void} stay called where it does not */
+  async leave(what, message, stay = () => {}) {
+    this.steering.release();
+    const time = this.model?.recording.at("time", this.model.recording.count - 1)[0] ?? 0;
+    const answer = time === 0 ? "leave" : await ask(`${what}?`, [make("p", {},
+      `The run of ${brief(time, 3)} s ends with it. Steering and report can be saved before.`)], ["leave", "stay"]);
+    if (answer === "leave") this.send(message);
+    else stay();
+  }
+
+  /** What the score knows, for a page that is loaded anew. */
+  _keep() {
+    if (this._desk.score && this.status) {
+      sessionStorage.setItem(location.pathname, JSON.stringify({ opened: this._opened, ...this._desk.score.save() }));
+    }
+  }
+
+  /** @param {Recording} recording */
+  _recall(recording) {
+    const kept = JSON.parse(sessionStorage.getItem(location.pathname) ?? "null");
+    const isSame = kept?.opened === this._opened && kept.time <= recording.at("time", recording.count - 1)[0];
+    if (isSame && kept.time > 0) this._desk.score?.restore(kept);
+  }
+
   /** Puts the next instrument into the hand. */
-  _holdNext() {
+  holdNext() {
     const { held, instruments } = this.status ?? { held: 0, instruments: [""] };
     this.send({ do: "hold", instrument: (held + 1) % instruments.length });
   }
@@ -93,21 +140,38 @@ export class Live {
   /** @param {number} push @param {number} turn from -1 to 1 */
   _tell(push, turn) {
     this._marks.set(++this._mark, performance.now());
+    if ((push || turn) && this.status?.isPaused && !this.status.outcome) {
+      this._steeredAt = performance.now();
+      setTimeout(() => this._label(), REMINDED + 50);
+      this._label();
+    }
     this.send({ do: "hand", push, turn, mark: this._mark });
   }
 
   /** @param {Status} status */
   async _hear(status) {
     const isNew = this.status?.opened !== status.opened;
-    const wasHand = this.status?.hand;
+    const before = this.status;
     this.status = status;
     if (isNew) {
       const recorded = await this._connection.recording(status.opened);
       if (recorded) this._open(new Recording(recorded), status.opened);
     }
-    if (isNew || wasHand !== status.hand || status.hand) this._makeControls(status);
+    if (isNew || before?.hand !== status.hand || before?.isFree !== status.isFree || status.hand) {
+      this._controls.make(status);
+      this._label();
+    }
     this._desk.hold(status.isSteered ? status.held : -1);
+    this._watch(status.isSteered ? status.held : 0);
     this._panel.say([status.problem, status.outcome, ...(this.model?.recording.warnings ?? [])].filter(Boolean));
+  }
+
+  /** Keeps the tip of an instrument in view. @param {number} instrument */
+  _watch(instrument) {
+    if (!this.model || this.model.watched === instrument) return;
+    this.model.watched = instrument;
+    this._stage.ask();
+    this._xray.ask();
   }
 
   /** @param {Recording} recording @param {number} opened number of its scene */
@@ -121,7 +185,11 @@ export class Live {
     this._stage.set([[this.model]]);
     this._panel.set([this.model], false);
     this._desk.set([recording]);
+    this.injector.set(recording);
+    this._xray.fill(null);
+    this._recall(recording);
     this._back = null;
+    this._isReported = Number.isFinite(this._desk.score?.reachedAt);
     this.show();
     if (before !== recording.title) this._xray.set([this.model]);
     else this._xray.keep([this.model]);
@@ -145,6 +213,34 @@ export class Live {
     this.model.frame = recording.count - 1;
     this.show();
     this._label();
+    if (!this._isReported && Number.isFinite(this._desk.score?.reachedAt)) this._succeed();
+  }
+
+  /** The target is reached: the run pauses, and its report is shown. */
+  async _succeed() {
+    this._isReported = true;
+    this.steering.release();
+    this.pause(true);
+    const answer = await this.report();
+    if (answer === "start anew") this.send({ do: "reset" });
+    else if (answer === "go on") this.pause(false);
+  }
+
+  /** Shows what the case came to. @returns {Promise<string>} what is to be done then */
+  async report() {
+    const { score } = this._desk;
+    if (!this.model || !score) return "";
+    const { recording } = this.model;
+    const isDone = Number.isFinite(score.reachedAt);
+    const name = placeName(recording.described?.target?.name ?? "");
+    return showReport(rowsOf(recording, score, { case: this.title, beam: score.time, pictures: this._xray.drawn,
+      contrast: this.injector.injected }), isDone ? `${name} reached` : "report", isDone ? ["start anew", "go on"] : ["close"]);
+  }
+
+  /** The case as it is called. */
+  get title() {
+    const { scenes = [], titles = [], scene = "" } = this.status ?? {};
+    return titles[scenes.indexOf(scene)] ?? nameOf(scene);
   }
 
   /** Shows the newest frame with what is chosen beside it. */
@@ -160,6 +256,12 @@ export class Live {
       slider.max = String(recording.count - 1);
       slider.value = String(frame);
     }
+  }
+
+  /** The newest frame, and the one that is looked at. */
+  get frames() {
+    const newest = (this.model?.recording.count ?? 1) - 1;
+    return { newest, shown: this._back ?? newest };
   }
 
   /** Looks back, at a frame that is kept. @param {number} frame */
@@ -185,17 +287,31 @@ export class Live {
     const rate = recording.at("realTime", frame)[0];
     this._stage.label(0, `t = ${brief(time)} s   step ${step}${
       Number.isFinite(rate) ? `\n${brief(stepTime, 3)} ms a step: ${brief(rate, 3)} times real time` : ""}`);
-    byId("title").textContent = nameOf(recording.title);
+    const target = recording.described?.target;
+    byId("title").textContent = target ? `${this.title}, to ${placeName(target.name)}` : this.title;
     byId("mood").textContent = this._mood();
+    this._note(rate);
+  }
+
+  /** Says beside the pictures what an operator may not see elsewhere. @param {number} rate times faster than real time */
+  _note(rate) {
+    const { isPaused, pace = 1, hand, outcome, isSteered } = this.status ?? {};
+    const isReminded = isPaused && performance.now() - this._steeredAt < REMINDED;
+    const isSlow = !isPaused && rate < SLOW * Math.min(pace, 1);
+    const note = byId("note");
+    note.classList.toggle("loud", Boolean(isReminded));
+    note.textContent = this._back !== null ? "looking back" : outcome ? "ended"
+      : !hand ? "" : isReminded ? "paused: nothing moves until \"go on\" (space)" : isPaused ? "paused"
+      : isSlow ? `slower than real time: ${brief(rate, 2)} x` : isSteered ? "" : "moved by its file's drive";
   }
 
   /** Whether there is no runner any more. @param {Status} status */
-  _isGone(status) {
+  isGone(status) {
     return status.problem !== "" && !Object.keys(status.values).length;
   }
 
   /** Saves what was steered as files of the browser, one for each instrument. */
-  async _save() {
+  async saveSteering() {
     if (!this.status) return;
     const { instruments, chosen, named } = this.status;
     const files = instruments.map((_, k) => (k === 0 ? "steered.csv" : `steered-${k}.csv`));
@@ -205,9 +321,7 @@ export class Live {
         this._panel.say([`nothing was saved: ${text}`]);
         return;
       }
-      const link = make("a", { href: URL.createObjectURL(new Blob([text], { type: "text/csv" })), download: file });
-      link.click();
-      URL.revokeObjectURL(link.href);
+      save(file, text, "text/csv");
     }
     const keys = files.map((file, k) => {
       const own = k === 0 ? "" : `catheters[${k - 1}].`;
@@ -215,82 +329,18 @@ export class Live {
         + (named.length && chosen[k] ? `--set ${own}instrument=${chosen[k]} ` : "");
     }).join("");
     const steps = this.model ? this.model.recording.at("step", this.model.recording.count - 1)[0] : 0;
-    this._panel.say([`steered.csv: repeat it with 'run ${this.status.scene} ${keys}--set maxSimulationSteps=${steps} `
-      + "--set deltaThreshold=0'"]);
+    this._panel.tell([`${files.join(", ")}: put ${files.length > 1 ? "them" : "it"} where you start guidewire.py, and repeat the run there with`,
+      `python3 guidewire.py run ${this.status.file} ${keys}--set maxSimulationSteps=${steps} --set deltaThreshold=0`]);
   }
 
   _mood() {
     if (!this.status) return "";
     if (this._back !== null) return "looking back";
     if (this.status.outcome) return "ended";
-    if (this._isGone(this.status)) return "the simulation has ended unexpectedly: start anew";
+    if (this.isGone(this.status)) return "the simulation has ended unexpectedly: start anew";
     if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
     if (this.status.isPaused) return "paused";
     return this.status.isSteered ? "" : "moved by its file's drive";
-  }
-
-  /** @param {Status} status */
-  _makeControls(status) {
-    const button = (/** @type {string} */ text, /** @type {object} */ message) =>
-      make("button", { onclick: () => this.send(message) }, text);
-    const held = (/** @type {string} */ text, /** @type {string} */ key, /** @type {string} */ cap) =>
-      make("button", { className: "drive", onpointerdown: () => this.steering.hold(key),
-        onpointerup: () => this.steering.release(), onpointerleave: () => this.steering.release() },
-      text, " ", make("kbd", {}, cap));
-    const pad = make("div", { id: "pad" }, make("span", {}, "push"), make("span", {}, "pull"));
-    pad.setAttribute("role", "application");
-    pad.setAttribute("aria-label", "touch: up pushes, down pulls, sideways turns");
-    this.steering.listen(pad);
-    const save = make("button", { id: "save", onclick: () => this._save(), title: status.steered
-      || "the table repeats the motion: key driveFile" }, "save steering");
-    save.disabled = status.steered !== "";
-    const newest = (this.model?.recording.count ?? 1) - 1;
-    const back = make("input", { type: "range", id: "back", min: 0, step: 1, max: newest, value: this._back ?? newest,
-      oninput: () => this.lookBack(Number(back.value)) });
-    back.setAttribute("aria-label", "look back");
-    const scenes = make("select", { id: "scenes", onchange: () => this.send({ do: "open", scene: scenes.value }) },
-      ...status.scenes.map((scene) =>
-        make("option", { value: scene, selected: scene === status.scene }, nameOf(scene))));
-    const paces = make("select", { id: "pace", onchange: () => this.send({ do: "pace", value: Number(paces.value) }) },
-      ...status.paces.map((pace) =>
-        make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));
-    scenes.setAttribute("aria-label", "scene");
-    paces.setAttribute("aria-label", "speed");
-    const hold = make("button", { id: "hold", onclick: () => this._holdNext(), title: "the steered instrument" },
-      status.instruments[status.held] ?? "", " ", make("kbd", {}, "I"));
-    const isOurs = status.hand;
-    const isOver = status.outcome !== "" || this._isGone(status);
-    byId("bar").replaceChildren(...(isOurs ? [
-      ...(status.isSteered ? [pad, held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"),
-        held("turn right", "d", "D"), ...(status.instruments.length > 1 ? [hold] : [])] : []),
-      make("span", { className: "buttons" },
-        ...(isOver ? [] : [button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
-          button("step", { do: "step" })]),
-        button("start anew", { do: "reset" }), save, ...(status.isPaused && newest > 0 ? [back] : []),
-        button(status.isSteered ? "file's drive" : "interactive",
-          { do: "open", scene: status.scene, hand: !status.isSteered }), paces, scenes),
-    ] : status.isFree ? [button("take control", { do: "take" })]
-      : [make("span", {}, "another page is steering; when it is closed you can take over")]));
-    const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
-    if (typed && !this._isSent) return; // a value that is being typed
-    this._isSent = false;
-    byId("controls").replaceChildren(...(isOurs ? status.named.map((names, k) => {
-      const select = make("select", { onchange: () => this.send({ do: "name", instrument: k, name: select.value }) },
-        ...[...(status.chosen[k] ? [] : [""]), ...names].map((name) =>
-          make("option", { value: name, selected: name === status.chosen[k], disabled: name === "" }, name)));
-      return make("label", {}, k === 0 ? "instrument" : `catheter${status.named.length > 2 ? ` ${k}` : ""}`, select);
-    }) : []), ...(isOurs ? Object.entries(status.values).map(([key, value]) => {
-      const set = () => {
-        this._isSent = true; // the answer puts what is in force into the field, also where the value is refused
-        this.send({ do: "set", key, value: key in status.choices ? input.value : Number(input.value) });
-      };
-      const input = key in status.choices
-        ? make("select", { onchange: set }, ...status.choices[key].map((word) =>
-          make("option", { value: word, selected: word === value }, word)))
-        : make("input", { type: "number", step: "any", value, onchange: set });
-      return make("label", {}, key, input);
-    }) : []));
-    this._label();
   }
 }
 
@@ -300,7 +350,7 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, continue"], ["N", "one step"],
-  ["R", "start anew"], ["I", "select the next instrument"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
-  ["touch", "the round pad: up pushes, sideways turns"],
+  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, go on"], ["N", "one step"],
+  ["R", "start anew"], ["I", "select the next instrument"], ["E", "inject contrast"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
+  ["round pad", "up pushes, down pulls, sideways turns"],
 ]);

@@ -1,5 +1,6 @@
 // @ts-check
 /** @typedef {import("./recording.js").Wall} Wall */
+/** @typedef {(pixel: number, depth: number, sign: number) => void} Take */
 
 /**
  * How far the ray through each pixel's middle goes inside a vessel, as LumenThickness of the core: the sum over the
@@ -21,25 +22,43 @@ export class Lumen {
    * @param {import("./carm.js").CArm} arm @param {Float32Array} thickness row by row
    */
   add(arm, thickness) {
+    const sum = new Float64Array(thickness.length);
+    this._project(arm, (pixel, depth, sign) => { sum[pixel] += sign * depth; });
+    for (let i = 0; i < sum.length; i++) thickness[i] += Math.max(0, sum[i]) / arm.scale;
+  }
+
+  /**
+   * Notes where rays pass the wall: pixels, depths (pixels' sides, towards the detector), and 1 where a ray from the
+   * detector goes in, else -1.
+   * @param {import("./carm.js").CArm} arm @param {{pixels: number[], depths: number[], signs: number[]}} found grows
+   */
+  cross(arm, { pixels, depths, signs }) {
+    this._project(arm, (pixel, depth, sign) => {
+      pixels.push(pixel);
+      depths.push(depth);
+      signs.push(sign);
+    });
+  }
+
+  /** @param {import("./carm.js").CArm} arm @param {Take} take */
+  _project(arm, take) {
     const point = [0, 0, 0];
     for (let i = 0; i < this._vertices.length; i += 3) {
       arm.project(this._vertices, i, point);
       this._projected.set(point, i);
     }
-    const sum = new Float64Array(thickness.length);
     for (let t = 0; t < this._triangles.length; t += 3) {
-      addTriangle(this._projected, 3 * this._triangles[t], 3 * this._triangles[t + 1], 3 * this._triangles[t + 2], sum,
-        arm.pixels);
+      addTriangle(this._projected, 3 * this._triangles[t], 3 * this._triangles[t + 1], 3 * this._triangles[t + 2], take,
+        arm.columns, arm.rows);
     }
-    for (let i = 0; i < sum.length; i++) thickness[i] += Math.max(0, sum[i]) / arm.scale;
   }
 }
 
 /**
  * @param {Float64Array} p @param {number} a @param {number} b @param {number} c where corners stand
- * @param {Float64Array} sum @param {number} pixels
+ * @param {Take} take @param {number} columns @param {number} rows
  */
-function addTriangle(p, a, b, c, sum, pixels) {
+function addTriangle(p, a, b, c, take, columns, rows) {
   const area = (p[b] - p[a]) * (p[c + 1] - p[a + 1]) - (p[c] - p[a]) * (p[b + 1] - p[a + 1]);
   if (area === 0) return;
   const slopeX = ((p[b + 2] - p[a + 2]) * (p[c + 1] - p[a + 1]) - (p[c + 2] - p[a + 2]) * (p[b + 1] - p[a + 1])) / area;
@@ -53,16 +72,16 @@ function addTriangle(p, a, b, c, sum, pixels) {
   if (isBefore(b, a)) [a, b] = [b, a];
   const crossing = (/** @type {number} */ upper, /** @type {number} */ lower, /** @type {number} */ y) =>
     p[upper] + ((y - p[upper + 1]) / (p[lower + 1] - p[upper + 1])) * (p[lower] - p[upper]);
-  const endRow = Math.min(pixels, Math.ceil(p[c + 1] - 0.5));
+  const endRow = Math.min(rows, Math.ceil(p[c + 1] - 0.5));
   for (let row = Math.max(0, Math.ceil(p[a + 1] - 0.5)); row < endRow; row++) {
     const y = row + 0.5;
     const one = crossing(a, c, y);
     const other = y < p[b + 1] ? crossing(a, b, y) : crossing(b, c, y);
     const first = Math.max(0, Math.ceil(Math.min(one, other) - 0.5));
-    const end = Math.min(pixels, Math.ceil(Math.max(one, other) - 0.5));
+    const end = Math.min(columns, Math.ceil(Math.max(one, other) - 0.5));
     let depth = anchorZ + slopeX * (first + 0.5 - anchorX) + slopeY * (y - anchorY);
-    for (let k = row * pixels + first; k < row * pixels + end; k++) {
-      sum[k] += sign * depth;
+    for (let k = row * columns + first; k < row * columns + end; k++) {
+      take(k, depth, sign);
       depth += slopeX;
     }
   }

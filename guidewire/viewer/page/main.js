@@ -12,6 +12,19 @@ import { Xray } from "./xray.js";
 const stage = new Stage(byId("picture"), byId("panes"));
 const desk = new Desk();
 const xray = new Xray();
+if (!stage.isDrawn) {
+  document.body.dataset.views = "xray";
+  byId("notice").textContent = "No WebGL 2 in this browser: the X-ray picture is drawn plainly, and there is no 3D picture.";
+  byId("notice").hidden = false;
+}
+byId("together").onclick = () => {
+  const isTogether = byId("together").getAttribute("aria-pressed") !== "true";
+  byId("together").setAttribute("aria-pressed", String(isTogether));
+  if (isTogether) stage.look(xray.arm);
+};
+const isTogether = () => byId("together").getAttribute("aria-pressed") === "true";
+xray.onTurned = () => isTogether() && stage.look(xray.arm);
+stage.onTurned = (towards) => isTogether() && xray.lookFrom(towards);
 /** @type {Replay | Live | null} */
 let shown = null;
 const panel = new Panel(stage, () => shown?.show());
@@ -29,6 +42,7 @@ if (what.isLive) {
   shown = new Replay(stage, panel, desk, xray, bytes.map((one) => new Recording(unpackRecording(one))));
 }
 
+const NO_KEYS = ["round pad", "gamepad", "X-ray", "3D"];
 const keys = byId("keys");
 const showHelp = (/** @type {boolean} */ isShown) => {
   keys.hidden = !isShown;
@@ -36,11 +50,12 @@ const showHelp = (/** @type {boolean} */ isShown) => {
 };
 keys.replaceChildren(
   make("h2", {}, what.isLive ? "You steer the wire at its hub" : "A replay"),
-  make("table", {}, ...[...(what.isLive ? LIVE_KEYS : REPLAY_KEYS), ["X-ray", "drag turns the C-arm, wheel zooms"],
+  make("table", {}, ...[...(what.isLive ? LIVE_KEYS : REPLAY_KEYS), ["X-ray", "drag turns the C-arm, wheel or + and − zoom"],
     ["3D", "drag orbits, wheel zooms"], ["V", "both views, X-ray, 3D"], ["C", "colour of the wire"],
-    ["F, T", "contact forces; keep the tip in view"], ["H", "this list"]].map(([key, text]) => make("tr", {},
-    make("td", {}, ...key.split(", ").flatMap((part, k) => [k ? ", " : "", make("kbd", {}, part)])),
-    make("td", {}, text)))),
+    ["F, T", "contact forces; keep the tip in view"], ["H", "this list"]].map(([key, text]) =>
+    make("tr", { className: NO_KEYS.includes(key) ? "" : "byKey" },
+      make("td", {}, ...key.split(", ").flatMap((part, k) => [k ? ", " : "", make("kbd", {}, part)])),
+      make("td", {}, text)))),
   make("button", { onclick: () => showHelp(false) }, "got it"));
 showHelp(what.isLive);
 byId("hint").textContent = what.isLive ? "W push, S pull, A and D turn, space pause, H help" : "space play, H help";
@@ -69,9 +84,16 @@ byId("theme").onclick = () => setTheme(document.documentElement.dataset.theme ==
 /** Degrees of LAO and cranial by key. @type {Record<string, [number, number]>} */
 const ARM = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] };
 const toggles = /** @type {Record<string, string>} */ ({ f: "arrows", t: "follow" });
+/** What takes keys itself: fields, and an open card. @param {EventTarget | null} target */
+const takesKeys = (target) => (target instanceof HTMLInputElement && !["range", "checkbox", "file"].includes(target.type))
+  || byId("card").open;
+// A list gives the focus back; while it has it, keys steer, but those that open it.
+addEventListener("change", ({ target }) => target instanceof HTMLSelectElement && target.blur());
 addEventListener("keydown", (event) => {
-  const isTyped = event.target instanceof HTMLInputElement && event.target.type !== "range";
-  if (isTyped || event.target instanceof HTMLSelectElement || event.ctrlKey || event.metaKey) return;
+  if (takesKeys(event.target) || event.ctrlKey || event.metaKey) return;
+  if (event.target instanceof HTMLSelectElement && ["Enter", " ", "F4", "Tab"].includes(event.key)) return;
+  if (event.target instanceof HTMLSelectElement && event.altKey) return;
+  if (event.target instanceof HTMLSelectElement && event.key.length === 1) event.preventDefault();
   if (event.target instanceof HTMLButtonElement) event.target.blur(); // or the space bar would press it again
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const pressed = key === event.key ? event : new KeyboardEvent("keydown", { key, repeat: event.repeat });

@@ -54,6 +54,8 @@ export class Model {
     /** Units of a point of the screen, where the camera looks. */
     this.unitsPerPoint = 0;
     this.frame = 0;
+    /** Instrument whose tip pictures keep in view. */
+    this.watched = 0;
     this._drawnThickness = 1;
     /** @type {number | undefined} */
     this._shared = undefined;
@@ -133,9 +135,14 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
       points];
   }
 
-  /** The place of the last sphere, units. */
+  /** The place of the wire's last sphere, units. */
   get tip() {
-    return this.recording.at("positions", this.frame).slice(-3);
+    return this.centreline(0).slice(-3);
+  }
+
+  /** The place that pictures keep in view, units: the tip of the held instrument. */
+  get watchedTip() {
+    return this.centreline(this.watched).slice(-3);
   }
 
   /** Lets go of what the picture's memory holds of it. */

@@ -63,6 +63,13 @@ export class Panel {
   /** @param {string[]} lines what a user has to know */
   say(lines) {
     byId("said").textContent = lines.join("\n");
+    byId("said").classList.remove("good");
+  }
+
+  /** @param {string[]} lines of what went well */
+  tell(lines) {
+    this.say(lines);
+    byId("said").classList.add("good");
   }
 
   _showThickness() {

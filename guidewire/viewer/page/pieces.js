@@ -7,6 +7,8 @@
  * @property {number[]} radii of each element, units
  * @property {number[]} innerRadii units
  * @property {number[]} attenuations 1/unit
+ * @property {number} [tipLoad] N: where its last 10 mm bow out, pressed at the tip
+ * @property {number} [shaftLoad] N: where 50 mm of its shaft bow out between fingers and valve
  */
 
 /** Numbers of a piece that the shader takes. */
@@ -39,7 +41,7 @@ export class Pieces {
       const end = arm.project(x, 3 * j + 3, [0, 0, 0]);
       const r = instrument.radii[j] * arm.scale;
       const mu = instrument.attenuations[j] / arm.scale;
-      if (mu > 0 && !isOutside(from, end, r, arm.pixels)) {
+      if (mu > 0 && !isOutside(from, end, r, arm)) {
         const pieces = isBentAt(x, j) || isBentAt(x, j + 1) ? PER_BENT_ELEMENT : 1;
         let start = from;
         for (let k = 1; k <= pieces; k++) {
@@ -82,11 +84,11 @@ export class Pieces {
   }
 }
 
-/** @param {number[]} from @param {number[]} to @param {number} r @param {number} pixels */
-function isOutside(from, to, r, pixels) {
+/** @param {number[]} from @param {number[]} to @param {number} r @param {import("./carm.js").CArm} arm */
+function isOutside(from, to, r, { columns, rows }) {
   const slack = 0.3 * Math.hypot(to[0] - from[0], to[1] - from[1], to[2] - from[2]) + 2 * r + 2;
-  return Math.max(from[0], to[0]) < -slack || Math.min(from[0], to[0]) > pixels + slack
-    || Math.max(from[1], to[1]) < -slack || Math.min(from[1], to[1]) > pixels + slack;
+  return Math.max(from[0], to[0]) < -slack || Math.min(from[0], to[0]) > columns + slack
+    || Math.max(from[1], to[1]) < -slack || Math.min(from[1], to[1]) > rows + slack;
 }
 
 /** @param {ArrayLike<number>} x @param {number} i */

@@ -29,6 +29,7 @@
  * @property {Wall[]} walls
  * @property {[number[], number[]] | null} sheath where it ends, and where it is seen to begin, units
  * @property {{millimetresPerUnit: number, target: import("./target.js").Route | null,
+ *     cells: {middles: number[], radii: number[]} | null,
  *     patient: import("./carm.js").Patient | null,
  *     instruments: (import("./pieces.js").Instrument & {title: string})[]} | null} described what pictures need to know
  *

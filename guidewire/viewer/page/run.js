@@ -52,7 +52,7 @@ export class Run {
     this._problem = this._outcome = "";
     /** @type {Message} */
     this._named = {};
-    this._isGoing = false;
+    this._isGoing = this._isAgent = false;
     this._ports = new MessageChannel();
     this._ports.port1.onmessage = () => this._go();
   }
@@ -87,6 +87,10 @@ export class Run {
         break;
       case "hold":
         if (this._held) this._held.held = message.instrument;
+        break;
+      case "inject":
+        this._tellAgent(this._program.ask({ session: "agent", amount: message.amount, rate: message.rate,
+          ...(message.instrument === null ? { inlet: true } : { hub: message.instrument }) }));
         break;
       case "pause":
         this._isPaused = message.value;
@@ -138,6 +142,7 @@ export class Run {
   /** The run is at its start. @param {Message} answer @param {number} held */
   _begin(answer, held) {
     this._problem = "";
+    this._isAgent = false;
     this._isPaused = !this._isSteered; // a wire that waits for a hand is at rest
     this._held = new HeldInstruments(this._rules.steered, this._parameters ?? {}, this._described.instruments,
       this._isSteered, held);
@@ -168,6 +173,12 @@ export class Run {
       this._problem = !named ? error.message.replace(/^command line: /, "")
         : named === key ? `${asked} is not allowed: ${needs}` : `${asked} does not go with ${named}, which ${needs}`;
     }
+  }
+
+  /** Says where contrast agent is. @param {Message} answer */
+  _tellAgent({ agent, injected, held, isActive, isInjecting }) {
+    this._isAgent = isActive;
+    this._tell({ agent: { parts: agent, injected, held, isActive, isInjecting } });
   }
 
   _mayStep() {
@@ -211,6 +222,7 @@ export class Run {
     const channels = numbers[2] || numbers.length !== size ? this._take(this._program.ask({ session: "state" }))
       : this._channels(numbers[0], numbers[1], split(this._layout, numbers));
     held.add(push, turn, numbers[0], this._state);
+    if (this._isAgent) this._tellAgent(this._program.ask({ session: "agent" }));
     this._largest = largestShown(channels).map((value, k) => Math.max(value, this._largest[k] ?? 0));
     if (this._onTheWay < mostInFlight) {
       this._onTheWay++;
@@ -264,6 +276,11 @@ export class Run {
     if (!(error instanceof Refusal)) this._parameters = null;
   }
 
+  /** @param {string} scene */
+  _titleOf(scene) {
+    return this._rules.titles?.[scene] ?? scene.replace(/^.*\//, "").replace(/\.json$/, "").replaceAll("-", " ");
+  }
+
   _say() {
     const { changed, choices, paces } = this._rules;
     const parameters = this._parameters ?? {};
@@ -271,7 +288,8 @@ export class Run {
       .map((/** @type {string} */ key) => [key, parameters[key]]));
     this._tell({ status: {
       hand: true, isFree: false, isPaused: this._isPaused, isSteered: this._isSteered, opened: this._opened,
-      scene: this._scene, scenes: this._scenes, problem: this._problem, values,
+      scene: this._scene, scenes: this._scenes, titles: this._scenes.map((scene) => this._titleOf(scene)),
+      file: this._scene, problem: this._problem, values,
       choices: Object.fromEntries(Object.entries(choices).filter(([key]) => key in values)),
       pace: this._pace, paces, outcome: this._outcome,
       ...(this._held?.status() ?? { held: 0, instruments: [], chosen: [], named: [], steered: "no run is open" }),

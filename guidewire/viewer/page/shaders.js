@@ -11,7 +11,7 @@ precision highp float;
 layout(location = 0) in vec4 placing; // x, y, direction
 layout(location = 1) in vec4 extent;  // length, extent of the tilted end, part that is a strip, outer radius
 layout(location = 2) in vec4 matter;  // inner radius, depth per chord, even depth, free ends
-uniform float pixels;
+uniform vec2 pixels;
 flat out vec4 place;
 flat out vec4 size;
 flat out vec4 wall;
@@ -24,7 +24,7 @@ void main() {
   float along = (gl_VertexID & 1) == 0 ? -beyond : extent.x + beyond;
   float side = (gl_VertexID & 2) == 0 ? -across : across;
   vec2 at = placing.xy + along * placing.zw + side * vec2(-placing.w, placing.z);
-  gl_Position = vec4(2.0 * at.x / pixels - 1.0, 1.0 - 2.0 * at.y / pixels, 0.0, 1.0);
+  gl_Position = vec4(2.0 * at.x / pixels.x - 1.0, 1.0 - 2.0 * at.y / pixels.y, 0.0, 1.0);
 }`;
 
 /** Optical depth of a piece in a pixel: StripProfile and InstrumentShadow of the core. */
@@ -32,7 +32,7 @@ export const STRIP = `#version 300 es
 precision highp float;
 const int PARTS = 6;
 const float HALF_PI = 1.5707963;
-uniform float pixels;
+uniform vec2 pixels;
 flat in vec4 place;
 flat in vec4 size;
 flat in vec4 wall;
@@ -89,7 +89,7 @@ float across(float distance, float one, float other) {
   return -log(max(1.0 - taken, 1e-12));
 }
 void main() {
-  vec2 at = vec2(gl_FragCoord.x, pixels - gl_FragCoord.y) - place.xy;
+  vec2 at = vec2(gl_FragCoord.x, pixels.y - gl_FragCoord.y) - place.xy;
   float along = dot(at, place.zw);
   float full = across(at.y * place.z - at.x * place.w, max(abs(place.w), 1e-3), max(abs(place.z), 1e-3));
   float begins = smoothed(along, size.y);

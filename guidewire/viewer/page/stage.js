@@ -23,6 +23,7 @@ const COARSE = 0.5; // points of walls a point of the picture, while the camera 
 const AT_REST = 200; // ms after which it does not
 const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
 const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
+const STEEPEST = Math.PI / 6; // of the view from the head's side: as far as a C-arm tilts
 const EASE = 0.2; // of the distance that the camera follows in a picture
 
 /**
@@ -91,15 +92,16 @@ export class Stage {
     this._labels = labels;
     ColorManagement.enabled = false; // colours are what the screen shows, in layers as on their own
     this._isSlow = isDrawnBySoftware();
-    this._renderer = new WebGLRenderer({ canvas, antialias: !this._isSlow });
-    this._renderer.outputColorSpace = LinearSRGBColorSpace;
-    this._renderer.setScissorTest(true);
-    this._renderer.autoClear = false;
+    /** Null where there is no WebGL. @type {any} */
+    this._renderer = makeRenderer(canvas, !this._isSlow);
     this._flat = new Camera();
     this._camera = new PerspectiveCamera(40, 1, 0.1, 1000);
-    this._camera.up.set(0, 1, 0);
-    this._controls = new OrbitControls(this._camera, canvas);
-    this._controls.addEventListener("change", () => this.ask());
+    this._camera.up.set(0, 0, 1);
+    this._controls = this._control();
+    /** Towards whoever looks, of unit length; as the X-ray picture's detector. */
+    this._towards = new Vector3(1, 0, 0);
+    /** Told where the picture is turned by hand. @type {(towards: number[]) => void} */
+    this.onTurned = () => {};
     this._light = new DirectionalLight(0xffffff, 2.2);
     this._light.layers.enableAll();
     /** @type {Pane[]} */
@@ -109,7 +111,7 @@ export class Stage {
     this._isRequested = false;
     this._rest = 0; // timer
     this.followsTip = true;
-    this._isFollowing = false;
+    this._isFollowing = this._isTurning = false;
     /** Pictures drawn so far. */
     this.drawn = 0;
     /** Told after every picture. @type {() => void} */
@@ -117,6 +119,46 @@ export class Stage {
     /** Told where wires are drawn thicker or thinner, since the camera went nearer or farther. @type {() => void} */
     this.onThickness = () => {};
     new ResizeObserver(() => this.ask()).observe(canvas);
+  }
+
+  /** Whether anything can be drawn here. */
+  get isDrawn() {
+    return this._renderer !== null;
+  }
+
+  /** The mouse's hold of the camera; it takes what is above from the camera once. */
+  _control() {
+    const controls = new OrbitControls(this._camera, this._canvas);
+    controls.addEventListener("change", () => this.ask());
+    controls.addEventListener("start", () => this._towards.copy(this._camera.position).sub(controls.target).normalize());
+    controls.addEventListener("change", () => {
+      const towards = this._camera.position.clone().sub(controls.target).normalize();
+      if (!this._isTurning && towards.distanceTo(this._towards) > 1e-6) this.onTurned(towards.toArray());
+      this._towards.copy(towards);
+    });
+    [controls.minPolarAngle, controls.maxPolarAngle] = [STEEPEST, Math.PI - STEEPEST];
+    return controls;
+  }
+
+  /** Looks as a C-arm does, at what it looks at now. @param {import("./carm.js").CArm | null} arm */
+  look(arm) {
+    if (!arm) return;
+    const { target } = this._controls;
+    const away = this._camera.position.distanceTo(target) || 1;
+    const above = new Vector3().fromArray(arm.head);
+    if (above.distanceTo(this._camera.up) > 1e-6) {
+      this._camera.up.copy(above);
+      this._controls.dispose();
+      const before = target.clone();
+      this._controls = this._control();
+      this._controls.target.copy(before);
+    }
+    this._towards.fromArray(arm.towards);
+    this._camera.position.copy(this._controls.target).addScaledVector(this._towards, away);
+    this._isTurning = true;
+    this._controls.update();
+    this._isTurning = false;
+    this.ask();
   }
 
   /** Says what is shown. @param {Model[][]} panes the runs of each pane */
@@ -158,9 +200,11 @@ export class Stage {
     const aspect = this._canvas.clientWidth / Math.max(this._panes.length, 1) / Math.max(this._canvas.clientHeight, 1);
     const half = 0.5 * size * (this.followsTip ? CLOSE_UP : 1);
     const distance = half / Math.sin(Math.atan(upward * Math.min(aspect || 1, 1)));
-    if (this.followsTip) this._controls.target.fromArray(this._models[0].tip);
-    this._camera.position.copy(this._controls.target).addScaledVector(new Vector3(-0.96, 0.28, 0), distance);
+    if (this.followsTip) this._controls.target.fromArray(this._models[0].watchedTip);
+    this._camera.position.copy(this._controls.target).addScaledVector(this._towards, distance);
+    this._isTurning = true;
     this._controls.update();
+    this._isTurning = false;
     this.ask();
   }
 
@@ -177,7 +221,7 @@ export class Stage {
   _draw() {
     const width = this._canvas.clientWidth;
     const height = this._canvas.clientHeight;
-    if (!width || !height || !this._panes.length) return;
+    if (!width || !height || !this._panes.length || !this._renderer) return;
     const before = this._renderer.getSize(new Vector2()); // set anew it costs as much as a picture
     if (width !== before.x || height !== before.y) this._renderer.setSize(width, height, false);
     if (this.followsTip) this._follow();
@@ -249,7 +293,7 @@ export class Stage {
 
   /** Moves the camera where the tip is about to leave the picture: not in each, as walls are drawn anew then. */
   _follow() {
-    const shift = new Vector3().fromArray(this._models[0].tip).sub(this._controls.target);
+    const shift = new Vector3().fromArray(this._models[0].watchedTip).sub(this._controls.target);
     if (!Number.isFinite(shift.x)) return;
     const away = this._camera.position.distanceTo(this._controls.target);
     const shown = 2 * away * Math.tan((0.5 * this._camera.fov * Math.PI) / 180);
@@ -276,6 +320,20 @@ function outOfSheath(sheath) {
   const along = exit.clone().sub(new Vector3().fromArray(sheath[1])).normalize();
   const least = along.dot(exit) - 1e-6 * (1 + exit.length());
   return (point) => along.dot(point) >= least;
+}
+
+/** @param {HTMLCanvasElement} canvas @param {boolean} antialias @returns {WebGLRenderer | null} null without WebGL */
+function makeRenderer(canvas, antialias) {
+  try {
+    const renderer = new WebGLRenderer({ canvas, antialias });
+    renderer.outputColorSpace = LinearSRGBColorSpace;
+    renderer.setScissorTest(true);
+    renderer.autoClear = false;
+    return renderer;
+  } catch (error) {
+    console.info(`no 3D picture: ${error}`);
+    return null;
+  }
 }
 
 /** Whether no graphics card draws here: smooth edges then cost as much as all else. */

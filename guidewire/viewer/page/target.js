@@ -12,12 +12,17 @@
 /**
  * How far the wire is from its target along the vessel, as the run itself counts it: outside of the lumen nothing is
  * gained.
- * @param {Route} route @param {ArrayLike<number>} lumen of a frame: units to the target, and whether it is reached
- * @returns {{left: number, fraction: number, isReached: boolean}} units; part of the route that is done, from 0 to 1
+ * @param {number} first units to the target as the run began
+ * @param {ArrayLike<number>} lumen of a frame: units to the target, and whether it is reached
+ * @returns {{left: number, fraction: number, isReached: boolean}} units; part of the way that is done, from 0 to 1
  */
-export function progress(route, lumen) {
-  const whole = route.distances[route.distances.length - 1] || 1;
+export function progress(first, lumen) {
   const isReached = lumen[1] > 0;
   const left = isReached ? 0 : lumen[0];
-  return { left, fraction: Math.max(0, Math.min(1, 1 - left / whole)), isReached };
+  return { left, fraction: isReached ? 1 : Math.max(0, Math.min(1, 1 - left / (first || 1))), isReached };
+}
+
+/** A place of a vessel as one calls it: ends without a name are outlets. @param {string} name */
+export function placeName(name) {
+  return name.replace(/^rim (\d+)$/i, "outlet $1");
 }

@@ -1,11 +1,13 @@
 // @ts-check
-import { Fluoroscopy, plainLook } from "./fluoroscopy.js";
+import { Fluoroscopy } from "./fluoroscopy.js";
+import { plainLook } from "./look.js";
 import { byId, make } from "./panel.js";
+import { PlainFluoroscopy } from "./plain.js";
 
 /** @typedef {import("./model.js").Model} Model */
 /** @typedef {import("./carm.js").Point} Point */
 
-const PIXELS = 512;
+const PIXELS = 512; // of a square picture; others have as many in all
 const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30", 30, 0], ["RAO 30", -30, 0],
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
 /** The same of a patient whose axes are unknown. */
@@ -21,13 +23,7 @@ const MOST_CRANIAL = 60;
 export class Xray {
   constructor() {
     const canvas = byId("fluoroscopy");
-    /** @type {Fluoroscopy | null} */
-    this.fluoroscopy = null;
-    try {
-      this.fluoroscopy = new Fluoroscopy(canvas, PIXELS);
-    } catch (error) {
-      console.info(`no fluoroscopy: ${error}`);
-    }
+    this.fluoroscopy = makeFluoroscopy(canvas);
     /** @type {Model[]} */
     this._models = [];
     /** How the patient lies; null where it is unknown. @type {import("./carm.js").Patient | null} */
@@ -38,12 +34,15 @@ export class Xray {
     this.drawn = 0;
     /** Told after every picture. @type {() => void} */
     this.onDrawn = () => {};
+    /** Told where the C-arm was turned. @type {() => void} */
+    this.onTurned = () => {};
     this._isRequested = false;
     this._zoom = 1;
     /** @type {Point | undefined} */
     this._middle = undefined;
     document.body.dataset.xray = "none";
     this._makeTools();
+    new ResizeObserver(() => this._fill()).observe(byId("xray"));
     canvas.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
       if (event.buttons) this.turnArm(-DEGREES_A_POINT * event.movementX, DEGREES_A_POINT * event.movementY);
     });
@@ -56,15 +55,17 @@ export class Xray {
   /** @param {Model[]} models each with a recording */
   set(models) {
     this._models = models.filter(({ recording }) => recording.described);
-    const isShown = this.fluoroscopy !== null && this._models.length > 0;
-    document.body.dataset.xray = isShown ? "shown" : "none";
-    if (!this.fluoroscopy || !isShown) return;
+    document.body.dataset.xray = this._models.length > 0 ? "shown" : "none";
+    if (!this._models.length) return;
     const [{ recording }] = this._models;
     this.fluoroscopy.look = { ...plainLook(), ...WORN };
     this._patient = recording.described?.patient ?? null;
-    this.fluoroscopy.set(recording.walls, recording.box, recording.millimetres, this._patient);
+    this.fluoroscopy.set(recording.walls, recording.box, recording.millimetres, this._patient,
+      recording.described?.cells ?? null);
     this._makeTools();
     this._zoom = 1;
+    this._fill();
+    this.onTurned();
     this.ask();
   }
 
@@ -75,16 +76,47 @@ export class Xray {
     this.ask();
   }
 
+  /** @param {Float64Array | null} parts of the blood in each cell that is contrast agent */
+  fill(parts) {
+    this.fluoroscopy.parts = parts;
+    this.ask();
+  }
+
+  /** Where the picture is taken from; null where there is none. */
+  get arm() {
+    return this._models.length ? this.fluoroscopy.arm : null;
+  }
+
+  /** Gives the picture the shape of its pane. */
+  _fill() {
+    const { clientWidth: width, clientHeight: height } = byId("xray");
+    if (!width || !height) return;
+    const shape = Math.sqrt(width / height);
+    if (this.fluoroscopy.resize(Math.round(PIXELS * shape), Math.round(PIXELS / shape))) this.ask();
+  }
+
   /** Turns the C-arm. @param {number} lao degrees @param {number} cranial */
   turnArm(lao, cranial) {
-    if (!this.fluoroscopy) return;
     const { look } = this.fluoroscopy;
     this.point(look.lao + lao, look.cranial + cranial);
   }
 
   /** @param {number} lao degrees @param {number} cranial */
   point(lao, cranial) {
-    if (!this.fluoroscopy) return;
+    this._turn(lao, cranial);
+    this.onTurned();
+  }
+
+  /** Turns the C-arm to where another picture is seen from. @param {number[]} towards whoever looks, of unit length */
+  lookFrom(towards) {
+    const { left, chest, head } = this.fluoroscopy.patient;
+    const [toLeft, toChest, toHead] = [left, chest, head].map((axis) =>
+      axis.reduce((sum, value, k) => sum + value * towards[k], 0));
+    this._turn(Math.atan2(toLeft, toChest) * (180 / Math.PI), Math.asin(Math.max(-1, Math.min(1, toHead))) * (180 / Math.PI));
+  }
+
+  /** @param {number} lao degrees @param {number} cranial */
+  _turn(lao, cranial) {
     this.fluoroscopy.look.lao = ((((lao + 180) % 360) + 360) % 360) - 180;
     this.fluoroscopy.look.cranial = Math.max(-MOST_CRANIAL, Math.min(MOST_CRANIAL, cranial));
     this.ask();
@@ -107,15 +139,16 @@ export class Xray {
   }
 
   _draw() {
-    if (!this.fluoroscopy || !this._models.length) return;
+    if (!this._models.length) return;
     const { look } = this.fluoroscopy;
-    const [{ recording, tip }] = this._models;
+    const [{ recording, watchedTip }] = this._models;
     look.centre = null;
     look.field = null;
-    const whole = (PIXELS / this.fluoroscopy.arm.scale) * recording.millimetres;
+    const { columns, rows, scale } = this.fluoroscopy.arm;
+    const whole = (Math.min(columns, rows) / scale) * recording.millimetres;
     look.field = this._zoom * Math.min(whole, this._isClose ? CLOSE_UP : WIDEST);
     if (look.field < whole) {
-      look.centre = this._kept(/** @type {Point} */ ([...tip]), look.field / recording.millimetres);
+      look.centre = this._kept(/** @type {Point} */ ([...watchedTip]), look.field / recording.millimetres);
     }
     look.seed = this._frames++;
     this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.drawnInstruments.map((instrument, k) =>
@@ -138,7 +171,6 @@ export class Xray {
   }
 
   _label() {
-    if (!this.fluoroscopy) return;
     const { lao, cranial, field } = this.fluoroscopy.look;
     const angle = (/** @type {number} */ value, /** @type {string[]} */ names) =>
       `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;
@@ -154,13 +186,12 @@ export class Xray {
     const mark = byId("reticle");
     mark.hidden = !target;
     if (!target) return;
-    const [x, y] = this.fluoroscopy.arm.project(target.points[target.points.length - 1], 0, [0, 0, 0]);
+    const { arm } = this.fluoroscopy;
+    const [x, y] = arm.project(target.points[target.points.length - 1], 0, [0, 0, 0]);
     const canvas = byId("fluoroscopy");
-    const box = canvas.getBoundingClientRect();
-    const around = byId("xray").getBoundingClientRect();
-    mark.hidden = !(x > 0 && x < PIXELS && y > 0 && y < PIXELS);
-    mark.style.transform = `translate(${box.left - around.left + (x / PIXELS) * box.width}px, ${
-      box.top - around.top + (y / PIXELS) * box.height}px)`;
+    mark.hidden = !(x > 0 && x < arm.columns && y > 0 && y < arm.rows);
+    mark.style.transform = `translate(${(x / arm.columns) * canvas.clientWidth}px, ${
+      (y / arm.rows) * canvas.clientHeight}px)`;
   }
 
   _makeTools() {
@@ -170,9 +201,9 @@ export class Xray {
       this._middle = undefined;
       this.ask();
     } }, "tip close up");
-    close.setAttribute("aria-pressed", "false");
+    close.setAttribute("aria-pressed", String(this._isClose));
     const vessel = make("select", { id: "vessel", onchange: () => {
-      if (this.fluoroscopy) this.fluoroscopy.look.vessel = vessel.value;
+      this.fluoroscopy.look.vessel = vessel.value;
       this.ask();
     } }, ...[["roadmap", "road map"], ["contrast", "contrast"], ["none", "no contrast"]].map(([value, text]) =>
       make("option", { value }, text)));
@@ -186,5 +217,15 @@ export class Xray {
       Object.assign(button.dataset, { lao, cranial });
       return button;
     }), vessel, close, near, far);
+  }
+}
+
+/** @param {HTMLCanvasElement} canvas @returns {Fluoroscopy | PlainFluoroscopy} */
+function makeFluoroscopy(canvas) {
+  try {
+    return new Fluoroscopy(canvas, PIXELS);
+  } catch (error) {
+    console.info(`X-ray pictures without a shader: ${error}`);
+    return new PlainFluoroscopy(canvas, PIXELS);
   }
 }

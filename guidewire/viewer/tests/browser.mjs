@@ -15,6 +15,7 @@ const until = async (page, expression) => {
   throw new Error(`not within 2 minutes: ${expression}`);
 };
 const orders = {
+  init: (page, script) => page.addInitScript(script),
   open: (page, address) => page.goto(address),
   until,
   down: (page, key) => page.keyboard.down(key),

@@ -40,7 +40,7 @@ def browse():
     process = subprocess.Popen([node, str(script), str(modules.parent), browser], stdin=subprocess.PIPE,
                                stdout=subprocess.PIPE, text=True)
 
-    def follow(*steps, offline=False, size=(540, 345)):
+    def follow(*steps, offline=False, size=(720, 520)):
         process.stdin.write(json.dumps({"steps": steps, "offline": offline, "size": size}) + "\n")
         process.stdin.flush()
         answer = json.loads(process.stdout.readline())

@@ -106,7 +106,7 @@ def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(brow
             ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"], ["see", "document.getElementById('settings').open = true"], ["see", enter],
             ["until", "document.getElementById('said').textContent"], ["until", f"Number({field}.value) > 0"],
             ["see", "document.getElementById('said').textContent"], ["see", "viewer.shown.status.isPaused"],
-            ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"], size=(500, 320),
+            ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"], 
         )["seen"]
     assert seen[0].startswith("W push") and "H help" in seen[0]
     assert seen[3] == "timeStep = -1 is not allowed: needs a number > 0 (s)" and seen[4] is False
@@ -127,7 +127,7 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
                     str(tmp_path / "run")], check=True, capture_output=True)
     log = read_log(tmp_path / "run", "all")
     assert np.ptp(log.positions[-1][:, 1]) > 20, "the wire is bent"
-    take = ("(look) => { const x = viewer.xray.fluoroscopy; Object.assign(x.look, {lao: 0, cranial: 0, centre: null,"
+    take = ("(look) => { const x = viewer.xray.fluoroscopy; x.resize(512, 512); Object.assign(x.look, {lao: 0, cranial: 0, centre: null,"
             " field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, blur: 0, seed: 3}, look);"
             " const [model] = viewer.shown.models; const grey = x.grey(model.recording.instruments.map((one, k) =>"
             " [one, model.centreline(k)])); let text = ''; for (let k = 0; k < grey.length; k += 4096)"
@@ -135,7 +135,7 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
     with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):
         noisy = {**LOOKS[0], "noise": 0.05, "blur": 0.4}
         answer = browse(["open", address], DRAWN, ["see", "viewer.shown.go(99)"],
-                        *(["see", f"({take})({json.dumps(look)})"] for look in (*LOOKS, noisy)), size=(500, 320))
+                        *(["see", f"({take})({json.dumps(look)})"] for look in (*LOOKS, noisy)))
     pictures = [np.frombuffer(b64decode(grey), np.uint8).reshape(512, 512).astype(int) for grey in answer["seen"][1:]]
     with Session(tmp_path / "run" / "parameters.json", hand=False) as session:
         for look, picture in zip((*LOOKS, noisy), pictures):

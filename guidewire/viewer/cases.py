@@ -1,0 +1,24 @@
+"""What scenes are called where somebody practises on them."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+SCENES = {    # of params: title and sentence
+    "insertion": ("Arch", "A simple wire, pushed into a branch of an aortic arch."),
+    "insertion-accurate": ("Arch, nitinol wire", "A nitinol wire of 0.8 mm with a soft bent tip in the same arch."),
+    "sheath": ("Forked artery", "A wire of 0.36 mm out of its sheath: turn the bent tip to choose a branch."),
+    "catheter": ("Catheter in a bend", "A 5 F catheter over a 0.035 inch wire: the key I selects one of them."),
+    "catheter-branch": ("Catheter into a branch", "Catheter to the ostium, wire into the branch, catheter after it."),
+    "catheter-sheath": ("Catheter in a forked artery", "A 5 F catheter over a 0.035 inch wire, both out of a sheath."),
+    "microcatheter": ("Siphon", "A microcatheter over a 0.014 inch wire, out of a guide catheter through a siphon."),
+    "guide-catheter": ("Three instruments", "A microcatheter over a wire in a guide catheter."),
+}
+
+
+def title_of(file: Path) -> str:
+    """A parameter file as a case is called: by its place where its own name says nothing."""
+    if file.stem in SCENES:
+        return SCENES[file.stem][0]
+    name = file.resolve().parent.name if file.stem == "scene" else file.stem
+    return name.replace("-", " ").capitalize()

@@ -1,0 +1,137 @@
+// @ts-check
+import { CArm, UNKNOWN } from "./carm.js";
+import { LumenCells } from "./cells.js";
+import { Lumen } from "./lumen.js";
+
+/** @typedef {import("./carm.js").Point} Point */
+
+/**
+ * @typedef {object} Look
+ * @property {number} lao degrees; RAO is negative
+ * @property {number} cranial degrees; caudal is negative
+ * @property {Point | null} centre units; null: the middle of what is framed
+ * @property {number | null} field side of the picture, mm; null: all that is framed
+ * @property {"roadmap" | "contrast" | "none" | "injected"} vessel
+ * @property {number} contrast of what fills the vessel, 1/mm
+ * @property {number} agent of undiluted agent that was injected, 1/mm
+ * @property {number} background
+ * @property {number} noise deviation over brightness
+ * @property {number} seed
+ * @property {number} blur mm
+ */
+
+const AGENT = 0.23; // 1/mm: iodine of 300 mg/ml at 60 keV
+
+/** @returns {Look} */
+export const plainLook = () => ({
+  lao: 0, cranial: 0, centre: null, field: null, vessel: "roadmap", contrast: 0.1, agent: AGENT,
+  background: 0.75, noise: 0, seed: 0,
+  blur: 0,
+});
+/** Brightness over the background's, of what passes the contrast agent. */
+const VESSELS = {
+  none: () => 1,
+  injected: () => 1,
+  contrast: (/** @type {number} */ passed) => passed,
+  roadmap: (/** @type {number} */ passed) => 1 + 0.3 * (1 - passed),
+};
+
+/** What an X-ray picture shows, and from where; subclasses draw it. */
+export class View {
+  /** @param {HTMLCanvasElement} canvas */
+  constructor(canvas) {
+    this.canvas = canvas;
+    this.columns = this.rows = 0;
+    /** @type {Lumen[]} */
+    this._lumens = [];
+    /** Lowest and highest corner of what is framed, units. @type {[Point, Point]} */
+    this.box = [[0, 0, 0], [1, 1, 1]];
+    this.millimetres = 1; // of a unit
+    /** How the patient lies. @type {import("./carm.js").Patient} */
+    this.patient = UNKNOWN;
+    this.look = plainLook();
+    this._seen = this._shown = "";
+    /** @type {LumenCells | null} */
+    this._cells = null;
+    /** Part of the blood in each cell that is contrast agent; null: nothing was injected. @type {Float64Array | null} */
+    this.parts = null;
+    this._cellsSeen = "";
+    this._agent = new Float64Array(0);
+    /** Of the lumen along each ray, units; row by row from above. */
+    this._thickness = new Float32Array(0);
+    /** Brightness of background and vessel. */
+    this._brightness = new Float32Array(0);
+  }
+
+  /**
+   * Says what is seen.
+   * @param {import("./recording.js").Wall[]} walls @param {[Point, Point]} box what is framed, units
+   * @param {number} millimetres of a unit @param {import("./carm.js").Patient | null} [patient] null: unknown
+   * @param {{middles: number[], radii: number[]} | null} [cells] of the vessel's tree, units
+   */
+  set(walls, box, millimetres, patient = null, cells = null) {
+    this._cells = cells && new LumenCells(cells, box);
+    this.parts = null;
+    this.patient = patient ?? UNKNOWN;
+    this._lumens = walls.filter((wall) => wall.kind === "vessel").map((wall) => new Lumen(wall));
+    this.box = box;
+    this.millimetres = millimetres;
+    this._seen = this._shown = this._cellsSeen = "";
+  }
+
+  /** @param {number} columns of pixels @param {number} rows @returns {boolean} whether that is another size */
+  resize(columns, rows) {
+    if (columns === this.columns && rows === this.rows) return false;
+    [this.columns, this.rows, this.canvas.width, this.canvas.height] = [columns, rows, columns, rows];
+    this._thickness = new Float32Array(columns * rows);
+    this._brightness = new Float32Array(columns * rows);
+    this._agent = new Float64Array(columns * rows);
+    this._seen = this._shown = this._cellsSeen = "";
+    return true;
+  }
+
+  /** Where it is seen from. */
+  get arm() {
+    const { lao, cranial, centre, field } = this.look;
+    const [low, high] = this.box;
+    const middle = centre ?? /** @type {Point} */ (low.map((value, k) => 0.5 * (value + high[k])));
+    const side = field === null ? CArm.framing(lao, cranial, low, high, this.patient) : field / this.millimetres;
+    return new CArm(lao, cranial, middle, side, this.columns, this.patient, this.rows);
+  }
+
+  /** Computes the brightness of background and vessel where they are seen anew or otherwise. @param {CArm} arm
+   * @returns {boolean} whether it has changed */
+  _setBrightness(arm) {
+    const { lao, cranial, vessel, contrast, background } = this.look;
+    const seen = [lao, cranial, ...arm.centre, arm.scale].join();
+    if (seen !== this._seen) {
+      this._thickness.fill(0);
+      for (const lumen of this._lumens) lumen.add(arm, this._thickness);
+    }
+    const isFilled = this.parts !== null && this._cells !== null;
+    const shown = [seen, vessel, contrast, background, isFilled].join();
+    if (shown === this._shown && !isFilled) return false;
+    if (shown === this._shown && this.parts === this._partsShown) return false;
+    this._seen = seen;
+    this._shown = shown;
+    this._partsShown = this.parts;
+    const factor = VESSELS[vessel];
+    const attenuation = contrast * this.millimetres;
+    const { _brightness: brightness, _thickness: thickness } = this;
+    for (let i = 0; i < brightness.length; i++) brightness[i] = background * factor(Math.exp(-attenuation * thickness[i]));
+    if (isFilled) this._fill(arm, seen);
+    return true;
+  }
+
+  /** Darkens by the agent. @param {CArm} arm @param {string} seen */
+  _fill(arm, seen) {
+    if (!this._cells || !this.parts) return;
+    if (seen !== this._cellsSeen) this._cells.look(arm, this._lumens);
+    this._cellsSeen = seen;
+    this._cells.sum(this.parts, this._agent);
+    const attenuation = this.look.agent * this.millimetres;
+    for (let i = 0; i < this._agent.length; i++) {
+      if (this._agent[i] > 0) this._brightness[i] *= Math.exp(-attenuation * this._agent[i]);
+    }
+  }
+}

@@ -1,0 +1,232 @@
+"""The operator's desk in a real browser: what it does with keys, where it looks, what it says, and how it is laid out."""
+
+import asyncio
+import json
+import shlex
+import subprocess
+import sys
+import threading
+
+import numpy as np
+import pytest
+from aiohttp import ClientSession
+
+from guidewire.logs.logs import read_log
+from guidewire.prepare import ROOT
+from guidewire.viewer.tests.browsing import DRAWN
+from guidewire.viewer.tests.test_page_session import follow
+from guidewire.viewer.tests.test_view import serving
+from guidewire.viewer.tests.test_view_browser import HUB, STEERED
+
+STATUS = "viewer.shown.status"
+PAUSED = ["until", f"{STATUS}.isPaused"]
+SHEATH = str(ROOT / "params/sheath.json")
+
+
+def text(one):
+    return f"document.querySelector('{one}').textContent"
+
+
+def near_target(tmp_path, **more):
+    """A scene whose target is a few centimetres from its inlet."""
+    scene = json.loads((ROOT / "params/sheath.json").read_text())
+    scene["vessel"].update(file=str(ROOT / "params/meshes/artery.obj"),
+                           anatomy=str(ROOT / "guidewire/env/data/artery.json"))
+    del scene["vessel"]["openRims"], scene["guidewireOffset"]
+    (tmp_path / "scene.json").write_text(json.dumps({**scene, "sheath": {}, "inlet": 1, "target": [0, 0, 30], **more}))
+    return str(tmp_path / "scene.json")
+
+
+def test_lists_let_the_hand_steer_and_another_case_asks_first(browse, runner_command, tmp_path):
+    focus = "document.getElementById('scenes').focus()"
+    shown = "document.getElementById('scenes').value"
+    is_asked = "document.getElementById('card').open"
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", focus], ["down", "d"], ["see", STEERED], ["up", "d"], ["down", "s"],
+            ["see", STEERED], ["up", "s"], ["down", "w"], ["until", f"{HUB} > 0.01"], ["up", "w"],
+            ["see", f"[{shown}, {STATUS}.opened]"],
+            ["choose", ["#scenes", "default.json"]], ["until", is_asked], ["see", "document.activeElement.id"],
+            ["click", "stay"], ["see", f"[{shown}, {STATUS}.scene, {is_asked}]"],
+            ["down", "w"], ["see", STEERED], ["up", "w"],
+            ["choose", ["#scenes", "default.json"]], ["until", is_asked], ["click", "leave"],
+            ["until", f"{STATUS}.scene === 'default.json'"],
+        )["seen"]
+    assert seen[1:4] == [[0, 1], [-1, 0], ["sheath.json", 1]]
+    assert seen[4] != "scenes" and seen[5] == ["sheath.json", "sheath.json", False] and seen[6] == [1, 0]
+
+
+def test_both_pictures_have_the_head_above_turn_together_and_follow_the_held_instrument(browse, runner_command, tmp_path):
+    arm = "viewer.xray.fluoroscopy.arm"
+    camera = "viewer.stage._camera"
+    look = (f"[...{camera}.position.clone().sub(viewer.stage._controls.target).normalize().toArray(),"
+            f" ...{arm}.towards, ...{camera}.up.toArray(), ...{arm}.head]")
+    orbit = ("{ const { position } = viewer.stage._camera; const { target } = viewer.stage._controls;"
+             " position.set(target.x + 3, target.y + 40, target.z + 20); viewer.stage._controls.update(); }")
+    with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["click", "got it"], ["see", look], ["click", "LAO 30"], ["see", look], ["see", orbit], ["see", look],
+            ["click", "together"], ["click", "AP"], ["see", look],
+            ["press", "i"], ["until", f"{STATUS}.held === 1"],
+            ["see", "[[...viewer.shown.model.watchedTip], [...viewer.shown.model.centreline(1).slice(-3)]]"],
+        )["seen"]
+    for k in (0, 1, 3):
+        np.testing.assert_allclose(seen[k][:3], seen[k][3:6], atol=1e-6)
+        assert seen[k][6:9] == seen[k][9:]
+    assert seen[0][3:6] == pytest.approx([1, 0, 0]) and seen[1][4] == pytest.approx(0.5)
+    assert abs(seen[3][4]) > 0.8 and abs(seen[4][0] - seen[4][3]) > 0.5    # separated, the C-arm alone is turned
+    assert seen[5][0] == seen[5][1]
+
+
+def test_who_looks_on_is_told_when_the_run_is_free(browse, runner_command, tmp_path):
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        began = threading.Event()
+
+        async def hold():
+            async with ClientSession() as client, client.ws_connect(
+                    f"{address.replace('http', 'ws')}live", headers={"Origin": address.split("/", 3)[0] + "//" + address.split("/")[2]}
+            ) as socket:
+                assert json.loads((await socket.receive()).data)["hand"]
+                began.set()
+                await socket.receive()    # another page has come
+                await asyncio.sleep(3)
+
+        holder = threading.Thread(target=lambda: asyncio.run(hold()))
+        holder.start()
+        assert began.wait(30)
+        seen = browse(["open", address], DRAWN, ["until", f"{text('#bar')}.includes('take control')"],
+                      ["click", "take control"], ["until", f"{STATUS}.hand"], ["see", f"{STATUS}.isPaused"])["seen"]
+        holder.join(30)
+    assert seen == [True]
+
+
+def test_the_command_that_saving_prints_repeats_the_run(browse, runner_command, tmp_path):
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"], ["press", " "], PAUSED,
+            ["see", "viewer.shown.saveSteering()"], ["until", f"{text('#said')}.includes('guidewire.py run')"],
+            ["see", text("#said")], ["see", "fetch('steered.csv').then((answer) => answer.text())"],
+            ["see", "[...viewer.shown.model.tip]"])["seen"]
+    (tmp_path / "steered.csv").write_text(seen[2])
+    python, program, *words = shlex.split(seen[1].splitlines()[1])
+    assert (python, program) == ("python3", "guidewire.py")
+    done = subprocess.run([sys.executable, str(ROOT / program), *words, "--out", "again"], cwd=tmp_path, text=True,
+                          capture_output=True, check=False)
+    assert done.returncode == 0, done.stderr
+    assert read_log(tmp_path / "again", "all").positions[-1, -1].tolist() == seen[3]
+
+
+def test_without_webgl_there_is_a_line_and_the_x_ray_picture(browse, runner_command, tmp_path):
+    none = ("const real = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind,"
+            " ...more) { return kind.startsWith('webgl') ? null : real.call(this, kind, ...more); };"
+            " console.error = () => {};")
+    levels = ("(() => { const one = document.getElementById('fluoroscopy'); const { data } = one.getContext('2d')"
+              ".getImageData(0, 0, one.width, one.height); return [...new Set(data.filter((_, k) => k % 4 === 0))].length; })()")
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        seen = browse(["init", none], ["open", address], ["until", "globalThis.viewer?.xray.drawn > 0"], ["down", "w"],
+                      ["until", f"{HUB} > 0.01"], ["up", "w"], ["see", levels], ["see", text("#notice")],
+                      ["see", "getComputedStyle(document.getElementById('view')).display"])["seen"]
+    assert seen[0] > 20 and seen[1].startswith("No WebGL") and seen[2] == "none"
+
+
+def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner_command, tmp_path):
+    slow = "viewer.shown._note(0.4)"
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", f"{slow}; {text('#note')}"], ["press", " "], PAUSED, ["down", "w"],
+            ["see", f"[{text('#note')}, document.getElementById('note').className]"], ["up", "w"],
+            ["until", "!document.getElementById('note').className"], ["see", text("#note")],
+            ["see", f"{text('.basis')}"],
+            ["see", "[...document.querySelectorAll('.gauge')].map((one) => one.getAttribute('aria-valuemax'))"])["seen"]
+    assert seen[0] == "slower than real time: 0.4 x"
+    assert seen[1] == ['paused: nothing moves until "go on" (space)', "loud"] and seen[2] == "paused"
+    # Euler's loads of a wire of 0.36 mm: 60 GPa held at both ends of 5 cm, 6 GPa as a column of 1 cm.
+    inertia = np.pi * 1.8e-4 ** 4 / 4
+    shaft, tip = 4 * np.pi ** 2 * 60e9 * inertia / 0.05 ** 2, np.pi ** 2 * 6e9 * inertia / (4 * 0.01 ** 2)
+    assert f"{shaft:.2f} N" in seen[3] and f"{tip:.2f} N" in seen[3]
+    assert [float(most) for most in seen[4]] == pytest.approx([1.5 * shaft, 3 * tip])
+
+
+def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_command, tmp_path):
+    words = ("[...document.querySelectorAll('body *')].filter((one) => !one.children.length).map((one) =>"
+             " `${one.textContent} ${one.title} ${one.getAttribute('aria-label') ?? ''}`).join(' ')")
+    report = "document.getElementById('report')"
+    score = "viewer.shown._desk.score"
+    with serving(tmp_path, near_target(tmp_path), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["see", text("#score")], ["see", words],
+            ["see", f"window.kept = {STATUS}.opened"], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"], ["press", " "],
+            PAUSED, ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
+            ["open", address], DRAWN, ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
+            ["press", " "], ["until", f"!{STATUS}.isPaused"], ["down", "w"], ["until", "document.getElementById('card').open"],
+            ["up", "w"], PAUSED, ["see", f"{report}.innerText"], ["picture", str(tmp_path / "report.png")],
+            ["see", "window.saved = null; URL.createObjectURL = (blob) => { blob.text().then((one) => { saved = one; });"
+                    " return 'blob:none'; }; HTMLAnchorElement.prototype.click = function () { window.file = this.download; }"],
+            ["click", "save report"], ["until", "window.saved"], ["see", "[file, saved]"], ["click", "go on"],
+            ["until", f"!{STATUS}.isPaused"])["seen"]
+    assert seen[1] == "0" and "rim" not in seen[2] and "scene" not in seen[2].lower()
+    assert seen[4][0] > 10 and 0 < int(seen[4][2]) < 100
+    assert seen[5] == pytest.approx(seen[4]) or seen[5][:2] == pytest.approx(seen[4][:2])    # after a reload
+    for word in ("reached at", "radiation", "contrast", "largest wall force", "new attempts", "way of the tip", "events"):
+        assert word in seen[6]
+    assert seen[8][0] == "report.txt" and "score: " in seen[8][1]
+
+
+EVENTS = """
+import { Score } from "./score.js";
+const columns = { time: 1, positions: 6, contactForce: 2, curvature: 2, hubForce: 1, hubInsertion: 1, lumen: 3 };
+const channels = new Map(Object.entries(columns).map(([name, width]) =>
+  [name, { name, width, unit: name === "curvature" ? "rad/m" : "N" }]));
+const recording = { channels, instruments: [{ radii: [0.18, 0.18], tipLoad: 0.1, shaftLoad: 1 }], millimetres: 1,
+  count: data.frames.length, firstShown: () => 0,
+  at: (name, frame) => Float64Array.from(data.frames[frame][name]) };
+const score = new Score(recording);
+score.show(data.frames.length - 1);
+console.log(JSON.stringify({ ...score, _recording: 0 }));
+"""
+
+
+def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted():
+    def frame(time, tip, force=0.0, curvature=0.0, hub=0.0, insertion=0.0, left=50.0, inside=1.0):
+        return {"time": [time], "positions": [0, 0, 0, 0, 0, tip], "contactForce": [0.01, force], "curvature": [0, curvature],
+                "hubForce": [hub], "hubInsertion": [insertion], "lumen": [left, 0.0, inside]}
+
+    frames = [frame(0, 0, left=60, inside=0), frame(0.5, 10, force=0.15, insertion=0.01),
+              frame(1.0, 20, force=0.25, insertion=0.02), frame(1.5, 18, force=0.15, insertion=0.018),
+              frame(2.0, 10, force=0.25, insertion=0.01),    # still the same: it was not below the yellow band
+              frame(2.5, 10, curvature=475.0, insertion=0.01, hub=1.2), frame(3.0, 30, inside=0, insertion=0.03, left=30),
+              frame(3.5, 10, insertion=0.01), frame(9.0, 10, force=0.15, insertion=0.01)]
+    got = follow(EVENTS, frames=frames)
+    assert [(one["kind"], one["time"]) for one in got["mishaps"]] == [("wall", 1), ("hub", 2.5), ("kink", 2.5), ("left", 3)]
+    assert "8.6 % strain" in got["mishaps"][2]["text"]    # 475 rad/m times 0.18 mm
+    assert got["retries"] == 2 and got["path"] == pytest.approx(10 + 10 + 2 + 8 + 20 + 20)
+    assert (got["caution"], got["stop"]) == pytest.approx((1.0, 1.0))    # of the 5.5 s before the last frame nothing is known
+    assert got["best"] == pytest.approx(0.5) and got["wallForce"] == 0.25
+
+
+BOXES = """(() => { const box = (one) => { const { left, top, right, bottom } = document.querySelector(one).getBoundingClientRect();
+  return [left, top, right, bottom]; }; return Object.fromEntries(['#xray', '#fluoroscopy', '#pad', '.dials', '#bar', 'main']
+  .map((one) => [one, box(one)])); })()"""
+
+
+@pytest.mark.parametrize("size", [(390, 844), (844, 390), (1440, 900)])
+def test_picture_dials_and_buttons_are_where_hands_and_eyes_are(browse, runner_command, tmp_path, size):
+    rows = "[...document.querySelectorAll('#keys tr')].filter((one) => one.offsetHeight).map((one) => one.textContent)"
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        boxes, labels, helps, wide = browse(["open", address], DRAWN, ["see", BOXES], ["see", text("#pad")], ["see", rows],
+                                            ["see", "document.documentElement.scrollWidth"],
+                                            ["picture", str(tmp_path / "desk.png")], size=size)["seen"]
+    width, height = size
+    assert boxes["#fluoroscopy"] == boxes["#xray"] and wide <= width
+    left, top, right, bottom = boxes["#xray"]
+    dials = boxes[".dials"]
+    assert dials[1] >= 0 and dials[3] <= height and dials[0] >= 0 and dials[2] <= width
+    if size == (1440, 900):
+        assert any("W" in one for one in helps)
+        return
+    assert labels == "pushturn leftturn rightpull" and not any("space" in one for one in helps)
+    assert boxes["#pad"][3] <= height
+    if width > height:    # large, from above to below, and the thumb beside it
+        assert bottom - top >= 0.99 * height and right - left > 0.55 * width and boxes["#pad"][2] <= left
+    else:
+        assert boxes["#pad"][1] >= dials[3] and bottom - top > 0.4 * height
