@@ -1,6 +1,6 @@
 using System;
 using System.Buffers.Binary;
-using System.Collections.Generic;
+using System.Linq;
 using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json;
@@ -72,8 +72,7 @@ namespace Guidewire.Cli
         private static Vector3d Tip(SimulationSession session, int hub)
         {
             session.CheckHub(hub);
-            IReadOnlyList<Vector3d[]> lines = session.Simulation.Centrelines();
-            return lines[hub][lines[hub].Length - 1];
+            return session.Simulation.Centrelines().ElementAt(hub)[^1];
         }
 
         private static BloodFlow Read(JObject given)

@@ -14,7 +14,7 @@ namespace Guidewire.Core
     /// amounts add up.</remarks>
     public sealed class ContrastFlow
     {
-        private const double MostCourant = 0.5;    // part of a cell's blood that is exchanged in a part of a step
+        private const double MostCourant = 0.9;    // part of a cell's blood that is exchanged in a part of a step
         private const double PerMillilitre = 1e3;  // mm^3
 
         private readonly VesselCells _cells;
@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly double[] _part;           // c
         private readonly double[] _next;
         private readonly double[] _rates;          // flow through the face before each, ml/s
+        private readonly double[] _added;          // of them by injection, ml/s
         private readonly double[] _diagonal;
         private readonly bool[] _isBeyond;         // the place of injection
         private readonly bool[] _isEnd;
@@ -52,6 +53,7 @@ namespace Guidewire.Core
             _part = new double[n];
             _next = new double[n];
             _rates = new double[n];
+            _added = new double[n];
             _diagonal = new double[n];
             _isBeyond = new bool[n];
             _isEnd = new bool[n];
@@ -191,7 +193,9 @@ namespace Guidewire.Core
             double most = 0.0;
             for (int k = 0; k < Count; k++)
             {
-                most = Math.Max(most, (FlowBefore(k, inlet, injected) + (k == _place ? injected : 0.0)) / _volumes[k]);
+                _added[k] = _isBeyond[k] ? _cells.Shares[k] / _cells.Shares[_place] * injected : 0.0;
+                double flow = _cells.Shares[k] * inlet + _added[k] + (k == _place ? injected : 0.0);
+                most = Math.Max(most, flow / _volumes[k]);
             }
             int parts = Math.Max(1, (int)Math.Ceiling(most * seconds / MostCourant));
             for (int part = 0; part < parts; part++)
@@ -209,17 +213,12 @@ namespace Guidewire.Core
             IsActive = _left > 0.0 || Held > 1e-15 * Injected;
         }
 
-        private double FlowBefore(int cell, double inlet, double injected)
-        {
-            return _cells.Shares[cell] * (inlet + (_isBeyond[cell] ? injected / _cells.Shares[_place] : 0.0));
-        }
-
         private void Carry(double seconds, double injected)
         {
             double inlet = Inlet;
             for (int k = 0; k < Count; k++)
             {
-                _rates[k] = FlowBefore(k, inlet, injected);
+                _rates[k] = _cells.Shares[k] * inlet + _added[k];
                 _next[k] = _volumes[k] * _part[k];
             }
             for (int k = 0; k < Count; k++)

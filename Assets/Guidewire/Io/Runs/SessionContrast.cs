@@ -64,11 +64,32 @@ namespace Guidewire.Io
                     before.Add(k);
                 }
             }
-            double least = 1e-3 * inlet.Radius;   // at a closed end the last sphere may have none
+            double[] radii = Radii(anatomy, order, before);
             return new SessionContrast(new VesselTree(
                 order.ConvertAll(k => millimetres * anatomy.Points[k]).ToArray(),
-                order.ConvertAll(k => millimetres * Math.Max(anatomy.Radii[k], least)).ToArray(), before.ToArray()),
-                millimetres);
+                Array.ConvertAll(radii, radius => millimetres * radius), before.ToArray()), millimetres);
+        }
+
+        // Spheres within an end are smaller than the lumen there.
+        private static double[] Radii(Anatomy anatomy, List<int> order, List<int> before)
+        {
+            double[] radii = order.ConvertAll(k => anatomy.Radii[k]).ToArray();
+            double widest = radii.Max();
+            foreach (VesselEnd end in anatomy.Ends)
+            {
+                int last = order.IndexOf(end.Point);
+                for (int k = last; k >= 0 && Vector3d.Distance(anatomy.Points[order[k]], end.Centre) < 1.5 * end.Radius;
+                    k = before[k])
+                {
+                    radii[k] = Math.Max(radii[k], Math.Min(end.Radius, widest));
+                }
+            }
+            for (int k = 1; k < radii.Length && before[k] == k - 1
+                && Vector3d.Distance(anatomy.Points[order[k]], anatomy.Points[order[0]]) < 1.5 * radii[0]; k++)
+            {
+                radii[k] = Math.Max(radii[k], radii[0]);
+            }
+            return Array.ConvertAll(radii, radius => Math.Max(radius, 1e-3 * widest));
         }
     }
 }

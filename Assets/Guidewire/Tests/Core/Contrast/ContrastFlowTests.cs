@@ -52,7 +52,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(2.0, 1.0, null, 8.0)]
         [TestCase(1.5, 1.5, null, 1.0)]
-        [TestCase(2.0, 1.0, 3.0, 1.0 / 3.0)]
+        [TestCase(1.5, 1.5, 3.0, 1.0 / 3.0)]
         public void Branches_TakeTheirShare_ByTheirRadiiCubed_OrAsGiven(double one, double other, double? given,
             double ratio)
         {
