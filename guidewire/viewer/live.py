@@ -344,7 +344,7 @@ class LiveRun:
         state = session.state
         states = [state] if self._begun is None or self._begun.step == state.step else [self._begun, state]
         return Recording(
-            self._scene, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
+            title_of(self._scenes[self._scene]), "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
             self._channels(session, *states), name_walls(session.parameters, self._walls), self._sheath,
             self._largest, self._described,
         )

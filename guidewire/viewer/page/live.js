@@ -180,7 +180,8 @@ export class Live {
     for (const frame of this._early.filter(([, of]) => of === opened)) recording.append(frame.subarray(2));
     this._early = this._early.filter(([, of]) => of > opened);
     this.model?.dispose();
-    const before = this.model?.recording.title;
+    const isOther = this._shownScene !== this.status?.scene;
+    this._shownScene = this.status?.scene;
     this.model = new Model(recording);
     this._stage.set([[this.model]]);
     this._panel.set([this.model], false);
@@ -191,9 +192,9 @@ export class Live {
     this._back = null;
     this._isReported = Number.isFinite(this._desk.score?.reachedAt);
     this.show();
-    if (before !== recording.title) this._xray.set([this.model]);
+    if (isOther) this._xray.set([this.model]);
     else this._xray.keep([this.model]);
-    if (before !== recording.title) this._stage.frameAll(true);
+    if (isOther) this._stage.frameAll(true);
     this._label();
   }
 

@@ -152,7 +152,7 @@ export class Run {
     this._opened++;
     this._onTheWay = 0;
     this._tell({ opened: this._opened, recording: {
-      title: this._scene, outcome: "", warnings: this._warnings, facts: factsOf(this._parameters ?? {}),
+      title: this._titleOf(this._scene), outcome: "", warnings: this._warnings, facts: factsOf(this._parameters ?? {}),
       radius: radiusOf(this._parameters ?? {}), channels, walls: this._walls, sheath: this._sheath,
       described: this._described } });
   }

@@ -22,7 +22,7 @@ export function progress(first, lumen) {
   return { left, fraction: isReached ? 1 : Math.max(0, Math.min(1, 1 - left / (first || 1))), isReached };
 }
 
-/** A place of a vessel as one calls it: ends without a name are outlets. @param {string} name */
+/** A place of a vessel as one calls it: ends without a name are outlets, a point is the target. @param {string} name */
 export function placeName(name) {
-  return name.replace(/^rim (\d+)$/i, "outlet $1");
+  return name.startsWith("[") ? "the target" : name.replace(/^rim (\d+)$/i, "outlet $1");
 }

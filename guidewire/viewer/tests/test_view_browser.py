@@ -210,7 +210,7 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
             ["see", "viewer.shown.model.drawn.map((one) => [...one.tube.geometry.getAttribute('color').array.slice(-3)])"],
             ["press", "c"], ["press", "c"], ["press", " "], ["until", f"{status}.isPaused"],
             ["picture", str(tmp_path / "hands.png")],
-            ["see", "viewer.shown._save()"], ["until", f"{said}.includes('steered-1.csv')"], ["see", said],
+            ["see", "viewer.shown.saveSteering()"], ["until", f"{said}.includes('steered-1.csv')"], ["see", said],
             ["see", SLOW_ANSWERS], ["see", "viewer.shown.send({do: 'name', instrument: 0, name: 'wire-of-mine'})"],
             ["until", f"{status}.chosen[0] === 'wire-of-mine' && {HUB} === 0"],
             ["see", "document.getElementById('legend').textContent"],
