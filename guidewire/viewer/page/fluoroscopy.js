@@ -34,21 +34,46 @@ export class Fluoroscopy extends View {
     this._nothing = gl.createVertexArray();
     super.resize(pixels, pixels);
     this._images = imagesOf(gl, pixels, pixels);
+    /** What the mask was seen from. @type {string | null} */
+    this._maskSeen = null;
   }
 
   /** @param {number} columns of pixels @param {number} rows @returns {boolean} whether that is another size */
   resize(columns, rows) {
     if (!super.resize(columns, rows)) return false;
     const { _gl: gl } = this;
-    const { layer, depth, first, second } = this._images;
-    for (const image of [layer, depth.texture, first.texture, second.texture]) gl.deleteTexture(image);
-    for (const { frame } of [depth, first, second]) gl.deleteFramebuffer(frame);
+    const { layer, ...targets } = this._images;
+    gl.deleteTexture(layer);
+    for (const { texture: image, frame } of Object.values(targets)) {
+      gl.deleteTexture(image);
+      gl.deleteFramebuffer(frame);
+    }
+    this._maskSeen = null;
     this._images = imagesOf(gl, columns, rows);
     return true;
   }
 
+  /** Takes the picture that later ones are subtracted from. @param {[Instrument, ArrayLike<number>][]} instruments */
+  takeMask(instruments) {
+    const { look } = this;
+    this.look = { ...look, isSubtracted: false, blur: 0 };
+    this._draw(instruments, this._images.mask.frame);
+    this.look = look;
+    this._maskSeen = this._seen;
+  }
+
+  /** Whether the mask is of what is seen now. */
+  get hasMask() {
+    return this._maskSeen === this._seen;
+  }
+
   /** Draws. @param {[Instrument, ArrayLike<number>][]} instruments with the points of their centrelines, units */
   draw(instruments) {
+    this._draw(instruments, null);
+  }
+
+  /** @param {[Instrument, ArrayLike<number>][]} instruments @param {WebGLFramebuffer | null} mask takes brightness alone */
+  _draw(instruments, mask) {
     const { arm, look, _gl: gl } = this;
     this._setLayer(arm);
     this._pieces.clear();
@@ -63,9 +88,13 @@ export class Fluoroscopy extends View {
     gl.useProgram(this._compose);
     this._bind(this._compose, "layer", 0, this._images.layer);
     this._bind(this._compose, "depth", 1, this._images.depth.texture);
-    gl.uniform1i(gl.getUniformLocation(this._compose, "isLast"), blur > 0 ? 0 : 1);
+    gl.uniform1i(gl.getUniformLocation(this._compose, "isLast"), blur > 0 || mask ? 0 : 1);
+    this._bind(this._compose, "mask", 2, this._images.mask.texture);
+    const isSubtracted = look.isSubtracted && this.hasMask && !mask;
+    gl.uniform1f(gl.getUniformLocation(this._compose, "subtracted"), isSubtracted ? look.background : 0);
+    gl.uniform2i(gl.getUniformLocation(this._compose, "shift"), look.shift[0], -look.shift[1]);
     this._setNoise(this._compose);
-    this._cover(blur > 0 ? this._images.first.frame : null);
+    this._cover(mask ?? (blur > 0 ? this._images.first.frame : null));
     if (blur > 0) {
       const weights = gaussian(blur, Math.max(this.columns, this.rows));
       gl.useProgram(this._blurred);
@@ -191,5 +220,5 @@ function target(gl, columns, rows, format) {
 function imagesOf(gl, columns, rows) {
   const made = (/** @type {number} */ format) => target(gl, columns, rows, format);
   return { layer: texture(gl, columns, rows, gl.R32F), depth: made(gl.getExtension("EXT_float_blend") ? gl.R32F : gl.R16F),
-    first: made(gl.R32F), second: made(gl.R32F) };
+    first: made(gl.R32F), second: made(gl.R32F), mask: made(gl.R32F) };
 }

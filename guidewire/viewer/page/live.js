@@ -212,6 +212,7 @@ export class Live {
     if (recording.forgotten > before) this._desk.score?.forget(recording.forgotten - before);
     this._back = null;
     this.model.frame = recording.count - 1;
+    this._xray.beam.pass(recording.at("time", this.model.frame)[0]);
     this.show();
     this._label();
     if (!this._isReported && Number.isFinite(this._desk.score?.reachedAt)) this._succeed();
@@ -234,7 +235,7 @@ export class Live {
     const { recording } = this.model;
     const isDone = Number.isFinite(score.reachedAt);
     const name = placeName(recording.described?.target?.name ?? "");
-    return showReport(rowsOf(recording, score, { case: this.title, beam: score.time, pictures: this._xray.drawn,
+    return showReport(rowsOf(recording, score, { case: this.title, beam: this._xray.beam.seconds, pictures: this._xray.beam.pictures,
       contrast: this.injector.injected }), isDone ? `${name} reached` : "report", isDone ? ["start anew", "go on"] : ["close"]);
   }
 

@@ -11,13 +11,15 @@ import { Lumen } from "./lumen.js";
  * @property {number} cranial degrees; caudal is negative
  * @property {Point | null} centre units; null: the middle of what is framed
  * @property {number | null} field side of the picture, mm; null: all that is framed
- * @property {"roadmap" | "contrast" | "none" | "injected"} vessel
+ * @property {"roadmap" | "contrast" | "none" | "injected" | "map"} vessel
  * @property {number} contrast of what fills the vessel, 1/mm
  * @property {number} agent of undiluted agent that was injected, 1/mm
  * @property {number} background
  * @property {number} noise deviation over brightness
  * @property {number} seed
  * @property {number} blur mm
+ * @property {boolean} isSubtracted whether the mask is taken away
+ * @property {[number, number]} shift of the mask, pixels
  */
 
 const AGENT = 0.23; // 1/mm: iodine of 300 mg/ml at 60 keV
@@ -26,12 +28,13 @@ const AGENT = 0.23; // 1/mm: iodine of 300 mg/ml at 60 keV
 export const plainLook = () => ({
   lao: 0, cranial: 0, centre: null, field: null, vessel: "roadmap", contrast: 0.1, agent: AGENT,
   background: 0.75, noise: 0, seed: 0,
-  blur: 0,
+  blur: 0, isSubtracted: false, shift: [0, 0],
 });
 /** Brightness over the background's, of what passes the contrast agent. */
 const VESSELS = {
   none: () => 1,
   injected: () => 1,
+  map: () => 1, // of what was injected, as it was seen
   contrast: (/** @type {number} */ passed) => passed,
   roadmap: (/** @type {number} */ passed) => 1 + 0.3 * (1 - passed),
 };
@@ -57,6 +60,8 @@ export class View {
     this.parts = null;
     this._cellsSeen = "";
     this._agent = new Float64Array(0);
+    /** The most agent that each ray has passed while it was seen from here, units. */
+    this._peak = new Float64Array(0);
     /** Of the lumen along each ray, units; row by row from above. */
     this._thickness = new Float32Array(0);
     /** Brightness of background and vessel. */
@@ -86,6 +91,7 @@ export class View {
     this._thickness = new Float32Array(columns * rows);
     this._brightness = new Float32Array(columns * rows);
     this._agent = new Float64Array(columns * rows);
+    this._peak = new Float64Array(columns * rows);
     this._seen = this._shown = this._cellsSeen = "";
     return true;
   }
@@ -120,15 +126,37 @@ export class View {
     const { _brightness: brightness, _thickness: thickness } = this;
     for (let i = 0; i < brightness.length; i++) brightness[i] = background * factor(Math.exp(-attenuation * thickness[i]));
     if (isFilled) this._fill(arm, seen);
+    if (vessel === "map") this._map(seen);
     return true;
+  }
+
+  /** As a road map, brightens what was filled with agent at its most. @param {string} seen */
+  _map(seen) {
+    if (seen !== this._cellsSeen) return;
+    const attenuation = this.look.agent * this.millimetres;
+    for (let i = 0; i < this._peak.length; i++) {
+      if (this._peak[i] > 0) this._brightness[i] *= VESSELS.roadmap(Math.exp(-attenuation * this._peak[i]));
+    }
+  }
+
+  /** Whether there is a road map of what was injected, seen from here. */
+  get hasMap() {
+    return this._cellsSeen === this._seen && this._peak.some((value) => value > 0);
   }
 
   /** Darkens by the agent. @param {CArm} arm @param {string} seen */
   _fill(arm, seen) {
     if (!this._cells || !this.parts) return;
-    if (seen !== this._cellsSeen) this._cells.look(arm, this._lumens);
+    if (seen !== this._cellsSeen) {
+      this._cells.look(arm, this._lumens);
+      this._peak.fill(0);
+    }
     this._cellsSeen = seen;
     this._cells.sum(this.parts, this._agent);
+    for (let i = 0; i < this._agent.length; i++) {
+      if (this._agent[i] > this._peak[i]) this._peak[i] = this._agent[i];
+    }
+    if (this.look.vessel === "map") return; // the map takes the agent's place
     const attenuation = this.look.agent * this.millimetres;
     for (let i = 0; i < this._agent.length; i++) {
       if (this._agent[i] > 0) this._brightness[i] *= Math.exp(-attenuation * this._agent[i]);

@@ -51,7 +51,7 @@ const showHelp = (/** @type {boolean} */ isShown) => {
 keys.replaceChildren(
   make("h2", {}, what.isLive ? "You steer the wire at its hub" : "A replay"),
   make("table", {}, ...[...(what.isLive ? LIVE_KEYS : REPLAY_KEYS), ["X-ray", "drag turns the C-arm, wheel or + and − zoom"],
-    ["3D", "drag orbits, wheel zooms"], ["V", "both views, X-ray, 3D"], ["C", "colour of the wire"],
+    ["3D", "drag orbits, wheel zooms"], ["V", "both views, X-ray, 3D, biplane"], ["X", "pedal: beam on or off"], ["Shift + arrows", "move the table"], ["C", "colour of the wire"],
     ["F, T", "contact forces; keep the tip in view"], ["H", "this list"]].map(([key, text]) =>
     make("tr", { className: NO_KEYS.includes(key) ? "" : "byKey" },
       make("td", {}, ...key.split(", ").flatMap((part, k) => [k ? ", " : "", make("kbd", {}, part)])),
@@ -72,7 +72,7 @@ const showViews = (/** @type {string} */ which) => {
 for (const button of document.querySelectorAll("header button[data-views]")) {
   button.addEventListener("click", () => showViews(/** @type {HTMLElement} */ (button).dataset.views ?? "both"));
 }
-const VIEWS = ["both", "xray", "space"];
+const VIEWS = ["both", "xray", "space", "biplane"];
 const setTheme = (/** @type {string} */ theme) => {
   document.documentElement.dataset.theme = theme;
   byId("theme").textContent = theme === "light" ? "dark" : "light";
@@ -83,6 +83,7 @@ byId("theme").onclick = () => setTheme(document.documentElement.dataset.theme ==
 
 /** Degrees of LAO and cranial by key. @type {Record<string, [number, number]>} */
 const ARM = { ArrowLeft: [-5, 0], ArrowRight: [5, 0], ArrowUp: [0, 5], ArrowDown: [0, -5] };
+const TABLE = 0.01; // of the picture's side for 5 degrees of the other keys
 const toggles = /** @type {Record<string, string>} */ ({ f: "arrows", t: "follow" });
 /** What takes keys itself: fields, and an open card. @param {EventTarget | null} target */
 const takesKeys = (target) => (target instanceof HTMLInputElement && !["range", "checkbox", "file"].includes(target.type))
@@ -97,11 +98,16 @@ addEventListener("keydown", (event) => {
   if (event.target instanceof HTMLButtonElement) event.target.blur(); // or the space bar would press it again
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const pressed = key === event.key ? event : new KeyboardEvent("keydown", { key, repeat: event.repeat });
-  if (event.altKey && key.startsWith("Arrow")) {
+  if (event.shiftKey && key.startsWith("Arrow")) {
+    const [across, down] = ARM[key] ?? [0, 0];
+    xray.pan(-TABLE * across, TABLE * down);
+    event.preventDefault();
+  } else if (event.altKey && key.startsWith("Arrow")) {
     const [lao, cranial] = ARM[key] ?? [0, 0];
     xray.turnArm(lao, cranial);
     event.preventDefault();
   } else if (shown?.key(pressed)) event.preventDefault();
+  else if (key === "x") xray.beam.set(!xray.beam.isOn);
   else if (key === "c") panel.nextColour();
   else if (key === "h" || (key === "Escape" && !keys.hidden)) showHelp(keys.hidden);
   else if (key === "v") showViews(VIEWS[(VIEWS.indexOf(document.body.dataset.views ?? "both") + 1) % VIEWS.length]);

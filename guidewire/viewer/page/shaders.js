@@ -127,7 +127,10 @@ precision highp float;
 precision highp int;
 uniform highp sampler2D layer;
 uniform highp sampler2D depth;
+uniform highp sampler2D mask;
 uniform bool isLast;
+uniform float subtracted; // brightness where nothing has changed; 0: nothing is subtracted
+uniform ivec2 shift;      // of the mask
 out vec4 colour;
 ${GREY}
 void main() {
@@ -136,6 +139,9 @@ void main() {
   float through = texelFetch(depth, at, 0).r;
   float brightness = texelFetch(layer, ivec2(at.x, size.y - 1 - at.y), 0).r;
   if (through > 0.0) brightness *= exp(-through);
+  if (subtracted > 0.0) {
+    brightness *= subtracted / max(texelFetch(mask, clamp(at - shift, ivec2(0), size - 1), 0).r, 1e-4);
+  }
   colour = isLast ? grey(brightness, at, size) : vec4(brightness, 0.0, 0.0, 1.0);
 }`;
 

@@ -1,4 +1,6 @@
 // @ts-check
+import { Beam, Cine } from "./beam.js";
+import { SecondPlane } from "./biplane.js";
 import { Fluoroscopy } from "./fluoroscopy.js";
 import { plainLook } from "./look.js";
 import { byId, make } from "./panel.js";
@@ -14,7 +16,9 @@ const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30
 const PLAIN_VIEWS = VIEWS.map(([, lao, cranial]) => /** @type {[string, number, number]} */ (
   [cranial ? `tilted ${cranial}°` : `turned ${lao}°`, lao, cranial]));
 const DEGREES_A_POINT = 0.4; // of dragging
-const WIDEST = 180; // mm, as of a detector: where the vessel is larger the picture goes with the tip
+const WIDEST = 180; // mm, of the picture at first: where the vessel is larger the picture goes with the tip
+const FIELDS = [480, 320, 220, 150]; // mm, of a detector's magnifications
+const BARS = [1, 2, 5, 10, 20, 50, 100]; // mm, of the scale
 const CLOSE_UP = 80; // mm
 const WORN = { noise: 0.022 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
@@ -29,6 +33,15 @@ export class Xray {
     /** How the patient lies; null where it is unknown. @type {import("./carm.js").Patient | null} */
     this._patient = null;
     this._isClose = false;
+    /** Side of the picture that was chosen, mm; 0: as it fits. */
+    this._field = 0;
+    /** Where the table was moved to, units. @type {Point} */
+    this._table = [0, 0, 0];
+    this.beam = new Beam(() => this.ask());
+    this.cine = new Cine(byId("cine"));
+    this.second = new SecondPlane();
+    /** @type {{lao: number, cranial: number, field: number}[]} */
+    this._stored = [];
     this._frames = 0;
     /** Pictures drawn so far. */
     this.drawn = 0;
@@ -42,9 +55,13 @@ export class Xray {
     this._middle = undefined;
     document.body.dataset.xray = "none";
     this._makeTools();
+    this._makeArm();
     new ResizeObserver(() => this._fill()).observe(byId("xray"));
     canvas.addEventListener("pointermove", (/** @type {PointerEvent} */ event) => {
-      if (event.buttons) this.turnArm(-DEGREES_A_POINT * event.movementX, DEGREES_A_POINT * event.movementY);
+      if (!event.buttons) return;
+      const side = Math.min(canvas.clientWidth, canvas.clientHeight);
+      if (event.shiftKey || event.buttons === 4) this.pan(event.movementX / side, event.movementY / side);
+      else this.turnArm(-DEGREES_A_POINT * event.movementX, DEGREES_A_POINT * event.movementY);
     });
     canvas.addEventListener("wheel", (/** @type {WheelEvent} */ event) => {
       event.preventDefault();
@@ -60,8 +77,12 @@ export class Xray {
     const [{ recording }] = this._models;
     this.fluoroscopy.look = { ...plainLook(), ...WORN };
     this._patient = recording.described?.patient ?? null;
-    this.fluoroscopy.set(recording.walls, recording.box, recording.millimetres, this._patient,
-      recording.described?.cells ?? null);
+    /** @type {Parameters<Fluoroscopy["set"]>} */
+    const seen = [recording.walls, recording.box, recording.millimetres, this._patient, recording.described?.cells ?? null];
+    this.fluoroscopy.set(...seen);
+    this.second.set(...seen);
+    this.beam.restart();
+    this._table = [0, 0, 0];
     this._makeTools();
     this._zoom = 1;
     this._fill();
@@ -71,6 +92,7 @@ export class Xray {
 
   /** Shows the same scene from its start, from where it is seen now. @param {Model[]} models */
   keep(models) {
+    this.beam.restart();
     this._models = models.filter(({ recording }) => recording.described);
     this._middle = undefined;
     this.ask();
@@ -128,14 +150,38 @@ export class Xray {
     this.ask();
   }
 
-  /** Asks for a picture when the screen takes the next one. */
+  /** Moves the table. @param {number} across parts of the picture's side, to the right @param {number} down */
+  pan(across, down) {
+    const { arm } = this.fluoroscopy;
+    const side = Math.min(arm.columns, arm.rows) / arm.scale;
+    this._table = /** @type {Point} */ (this._table.map((value, k) =>
+      value + side * (down * arm.up[k] - across * arm.right[k])));
+    this.ask();
+  }
+
+  /** Asks for a picture when the screen takes the next one and the beam gives it. */
   ask() {
-    if (this._isRequested || !this._models.length || document.body.dataset.views === "space") return;
+    if (this._isRequested || !this._models?.length || document.body.dataset.views === "space") return;
+    byId("xray").classList.toggle("off", !this.beam.isOn);
+    const { wait } = this.beam;
+    if (wait === Infinity) {
+      this._label();
+      this.onDrawn(); // the last picture stays
+      return;
+    }
     this._isRequested = true;
-    requestAnimationFrame(() => {
+    setTimeout(() => requestAnimationFrame(() => {
       this._isRequested = false;
-      this._draw();
-    });
+      if (this.beam.isOn) this._draw();
+    }), wait);
+  }
+
+  /** Instruments with the points of their centrelines.
+   * @returns {[import("./pieces.js").Instrument, Float64Array][]} */
+  get _instruments() {
+    return this._models.flatMap((model) => model.recording.drawnInstruments.map((instrument, k) =>
+      k === 0 ? model.imagedWire(instrument)
+        : /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)])));
   }
 
   _draw() {
@@ -146,14 +192,19 @@ export class Xray {
     look.field = null;
     const { columns, rows, scale } = this.fluoroscopy.arm;
     const whole = (Math.min(columns, rows) / scale) * recording.millimetres;
-    look.field = this._zoom * Math.min(whole, this._isClose ? CLOSE_UP : WIDEST);
+    look.field = this._zoom * (this._field || Math.min(whole, this._isClose ? CLOSE_UP : WIDEST));
+    const [low, high] = this.fluoroscopy.box;
+    look.centre = /** @type {Point} */ (low.map((value, k) => 0.5 * (value + high[k])));
     if (look.field < whole) {
       look.centre = this._kept(/** @type {Point} */ ([...watchedTip]), look.field / recording.millimetres);
     }
+    look.centre = /** @type {Point} */ (look.centre.map((value, k) => value + this._table[k]));
     look.seed = this._frames++;
-    this.fluoroscopy.draw(this._models.flatMap((model) => model.recording.drawnInstruments.map((instrument, k) =>
-      k === 0 ? model.imagedWire(instrument)
-        : /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)]))));
+    const instruments = this._instruments;
+    this.fluoroscopy.draw(instruments);
+    this.cine.take(this.fluoroscopy.canvas);
+    this.beam.take(recording.at("time", this._models[0].frame)[0]);
+    this.second.draw(this.fluoroscopy, instruments);
     this._label();
     this.drawn++;
     this.onDrawn();
@@ -177,7 +228,11 @@ export class Xray {
     const [turned, tilted] = this._patient ? [["LAO", "RAO"], ["CRAN", "CAUD"]]
       : [["turned", "turned −"], ["tilted", "tilted −"]];
     byId("arm").textContent = `${angle(lao, turned)}  ${angle(cranial, tilted)}\n${Math.round(field ?? 0)} mm${
-      this._patient ? "" : ", axes unknown"}`;
+      this._patient ? "" : ", axes unknown"}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
+      this.beam.seconds.toFixed(1)} s`;
+    this._measure(field ?? 1);
+    const [left, up] = [byId("lao"), byId("cranial")];
+    if (left) [left.value, up.value] = [String(lao), String(cranial)];
     for (const button of byId("armTools").querySelectorAll("button[data-lao]")) {
       button.setAttribute("aria-pressed", String(Number(button.dataset.lao) === Math.round(lao)
         && Number(button.dataset.cranial) === Math.round(cranial)));
@@ -194,6 +249,66 @@ export class Xray {
       (y / arm.rows) * canvas.clientHeight}px)`;
   }
 
+  /** The bar of the scale. @param {number} field mm of the shorter side */
+  _measure(field) {
+    const { clientWidth, clientHeight } = byId("xray");
+    const points = Math.min(clientWidth, clientHeight) / field; // a mm
+    const length = BARS.filter((one) => one * points < 0.3 * clientWidth).at(-1) ?? BARS[0];
+    const [line, label] = byId("scaleBar").children;
+    line.style.width = `${length * points}px`;
+    label.textContent = `${length} mm`;
+  }
+
+  /** Sliders and stored views. */
+  _makeArm() {
+    const slider = (/** @type {string} */ id, /** @type {string} */ label, /** @type {number} */ most) => make("label", {},
+      `${label} `, make("input", { type: "range", id, min: -most, max: most, step: 1, value: 0,
+        oninput: () => this.point(Number(byId("lao").value), Number(byId("cranial").value)) }));
+    const stored = make("span", { className: "tools" });
+    const show = () => stored.replaceChildren(...this._stored.map((view, k) => make("button", { onclick: () => {
+      this._field = view.field;
+      this.point(view.lao, view.cranial);
+    } }, `view ${k + 1}`)));
+    const store = make("button", { id: "store", onclick: () => {
+      const { lao, cranial } = this.fluoroscopy.look;
+      this._stored = [...this._stored, { lao, cranial, field: this._field }].slice(-4);
+      show();
+    } }, "store view");
+    const home = make("button", { onclick: () => {
+      this._table = [0, 0, 0];
+      this.ask();
+    } }, "table back");
+    byId("carmTools").replaceChildren(slider("lao", "left and right", 180), slider("cranial", "cranial and caudal", MOST_CRANIAL),
+      make("p", { className: "tools" }, store, home, stored), make("p", { className: "basis" },
+        "Shift and dragging, or Shift and arrows, move the table."));
+  }
+
+  /** Buttons of subtraction and of the mask. */
+  _subtraction() {
+    const { fluoroscopy } = this;
+    if (!(fluoroscopy instanceof Fluoroscopy)) return [];
+    const shifts = [0, 1].map((axis) => {
+      const field = make("input", { type: "number", min: -20, max: 20, step: 1, value: 0, title: "pixel shift of the mask",
+        oninput: () => {
+          fluoroscopy.look.shift[axis] = Number(field.value) || 0;
+          this.ask();
+        } });
+      field.setAttribute("aria-label", `pixel shift of the mask, ${axis ? "down" : "right"}`);
+      field.hidden = true;
+      return field;
+    });
+    const subtract = make("button", { id: "subtract", onclick: () => {
+      fluoroscopy.look.isSubtracted = !fluoroscopy.look.isSubtracted;
+      fluoroscopy.look.shift = [0, 0];
+      if (fluoroscopy.look.isSubtracted) fluoroscopy.takeMask(this._instruments);
+      subtract.setAttribute("aria-pressed", String(fluoroscopy.look.isSubtracted));
+      for (const field of shifts) [field.hidden, field.value] = [!fluoroscopy.look.isSubtracted, "0"];
+      this.ask();
+    }, title: "takes a mask now, and shows what has changed since" }, "subtract");
+    subtract.setAttribute("aria-pressed", "false");
+    return [subtract, ...shifts];
+  }
+
   _makeTools() {
     const close = make("button", { id: "close", onclick: () => {
       this._isClose = !this._isClose;
@@ -205,18 +320,25 @@ export class Xray {
     const vessel = make("select", { id: "vessel", onchange: () => {
       this.fluoroscopy.look.vessel = vessel.value;
       this.ask();
-    } }, ...[["roadmap", "road map"], ["contrast", "contrast"], ["none", "no contrast"]].map(([value, text]) =>
+    } }, ...[["roadmap", "drawn road map"], ["contrast", "filled vessel"], ["none", "no contrast"],
+      ...(this._models[0]?.recording.described?.cells ? [["map", "road map of the injection"]] : [])].map(([value, text]) =>
       make("option", { value }, text)));
     vessel.setAttribute("aria-label", "vessel");
     const near = make("button", { onclick: () => this.zoom(1 / 1.25) }, "+");
     near.setAttribute("aria-label", "nearer");
     const far = make("button", { onclick: () => this.zoom(1.25) }, "−");
     far.setAttribute("aria-label", "farther");
-    byId("armTools").replaceChildren(...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
+    const fields = make("select", { id: "field", onchange: () => {
+      this._field = Number(fields.value);
+      this._zoom = 1;
+      this.ask();
+    } }, make("option", { value: 0 }, "fit"), ...FIELDS.map((field) => make("option", { value: field }, `${field} mm`)));
+    fields.setAttribute("aria-label", "field of view");
+    byId("armTools").replaceChildren(this.beam.button, this.beam.rates, ...this._subtraction(), this.cine.element,...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
       const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
       Object.assign(button.dataset, { lao, cranial });
       return button;
-    }), vessel, close, near, far);
+    }), vessel, fields, close, near, far);
   }
 }
 

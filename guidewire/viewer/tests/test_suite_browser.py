@@ -1,0 +1,90 @@
+"""The page as a fluoroscopy suite: contrast on command, subtraction, road map, pedal, cine loop, table, two planes."""
+
+import json
+from base64 import b64decode
+
+import numpy as np
+import pytest
+
+from guidewire.sessions.session import Session
+from guidewire.viewer import live
+from guidewire.viewer.tests.browsing import DRAWN
+from guidewire.viewer.tests.test_desk_browser import PAUSED, STATUS, near_target, text
+from guidewire.viewer.tests.test_view import serving
+from guidewire.viewer.tests.test_view_browser import HUB
+
+VIEW = "viewer.xray.fluoroscopy"
+INJECTED = "viewer.shown.injector.injected"
+GREY = ("((grey) => { let text = ''; for (let k = 0; k < grey.length; k += 4096)"
+        f" text += String.fromCharCode(...grey.subarray(k, k + 4096)); return btoa(text); }})({VIEW}.grey(viewer.xray._instruments))")
+LOOKS = (
+    {"lao": 0, "cranial": 0}, {"lao": 30, "cranial": 20, "field": 200, "centre": [0, 0, 100]},
+    {"lao": -80, "cranial": -35, "field": 60, "centre": [0, 0, 120]}, {"lao": 90, "cranial": 0, "field": 330, "centre": [0, 0, 150]},
+)
+
+
+def levels(grey):
+    return np.frombuffer(b64decode(grey), np.uint8).reshape(512, 512).astype(int)
+
+
+def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_path):
+    scene = near_target(tmp_path)
+    with Session(scene, hand=True, native=False, **live._ENDLESS) as session:
+        wire = session.step(push=40.0, steps=20).positions
+        session.inject(3.0, 4.0, None)
+        parts = session.agent(0.9).parts
+        cores = [session.picture(pixels=512, vessel="injected", contrast=0.23, **{
+            "field_of_view" if name == "field" else name: value for name, value in look.items()}).astype(int) for look in LOOKS]
+    take = (f"(look) => {{ const x = {VIEW}; x.resize(512, 512); x.parts = Float64Array.from({parts.tolist()});"
+            " Object.assign(x.look, {centre: null, field: null, vessel: 'injected', agent: 0.23, background: 0.75,"
+            " noise: 0, blur: 0}, look);"
+            f" viewer.shown.model.recording.at('positions', 0).set({wire.ravel().tolist()}); return {GREY}; }}")
+    with serving(tmp_path, scene, with_three=True) as (address, _):
+        seen = browse(["open", address], DRAWN, ["press", " "], PAUSED,
+                      *(["see", f"({take})({json.dumps(look)})"] for look in LOOKS))["seen"]
+    for look, grey, core in zip(LOOKS, seen, cores, strict=True):
+        assert np.ptp(core) > 60, "agent is seen"
+        assert np.abs(levels(grey) - core).max() <= 2, look
+
+
+def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped(browse, runner_command, tmp_path):
+    darkest = "Math.min(...viewer.xray.fluoroscopy._brightness)"
+    still = f"{VIEW}.look.noise = 0"
+    with serving(tmp_path, near_target(tmp_path, target=[0, 0, 150]), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]], ["see", still],
+            ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.01"], ["up", "w"],
+            ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
+            ["press", "e"], ["until", f"{INJECTED} > 1"], ["see", darkest], ["see", text("#contrast output")],
+            ["until", f"{VIEW}.hasMap"], ["press", " "], PAUSED,
+            ["see", f"viewer.xray.fluoroscopy.resize(512, 512); {GREY}"],
+            ["see", f"{VIEW}.look.isSubtracted = false; {GREY}"], ["see", f"{VIEW}.look.vessel = 'none'; {VIEW}.parts = null; {GREY}"],
+            ["press", " "], ["until", f"!{STATUS}.isPaused"], ["choose", ["#vessel", "map"]],
+            ["until", "Math.max(...viewer.xray.fluoroscopy._brightness) > 0.8"],
+            ["see", "viewer.shown.report().then(() => {}) && document.getElementById('report').innerText"],
+            ["picture", str(tmp_path / "map.png")], size=(1000, 700))["seen"]
+    assert seen[2] == pytest.approx(0.75) and seen[3] < 0.6
+    assert float(seen[4].split()[0]) > 1
+
+
+def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
+    drawn = "viewer.xray.drawn"
+    arm = f"[...{VIEW}.arm.centre]"
+    with serving(tmp_path, near_target(tmp_path, target=[0, 0, 150]), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["click", "got it"], ["down", "w"], ["until", f"{drawn} > 5"],
+            ["click", "record cine"], ["until", "viewer.xray.cine.count > 3"], ["up", "w"],
+            ["press", "x"], ["see", "!viewer.xray.beam.isOn"], ["see", f"window.before = {drawn}"],
+            ["down", "w"], ["until", f"{HUB} > 0.03"], ["up", "w"], ["see", f"{drawn} - before"],
+            ["see", text("#arm")], ["see", "viewer.xray.beam.seconds < viewer.shown._desk.score.time - 0.2"],
+            ["click", "cine loop"], ["see", "[!document.getElementById('cine').hidden, viewer.xray.cine.count]"],
+            ["click", "cine loop"], ["press", "x"], ["until", f"{drawn} > before"],
+            ["see", f"window.centre = {arm}"], ["press", "Shift+ArrowRight"], ["until", f"String({arm}) !== String(centre)"],
+            ["choose", ["#field", "150"]], ["until", f"{VIEW}.look.field === 150"], ["see", text("#scaleBar span")],
+            ["click", "biplane"], ["until", "viewer.xray.second._fluoroscopy"], ["see", text("#secondArm")],
+            ["see", "document.getElementById('carm').open = true"], ["click", "LAO 30"], ["click", "store view"], ["click", "AP"],
+            ["click", "view 1"], ["see", f"{VIEW}.look.lao"], ["picture", str(tmp_path / "planes.png")],
+            size=(1000, 700))["seen"]
+    assert seen[1] is True and seen[3] == 0 and "last image" in seen[4] and seen[5]
+    assert seen[6][0] and seen[6][1] > 3
+    assert seen[8] == "20 mm" and seen[9].startswith("second plane, LAO 90") and seen[11] == 30
