@@ -89,7 +89,7 @@ export class Fluoroscopy extends View {
     this._bind(this._compose, "layer", 0, this._images.layer);
     this._bind(this._compose, "depth", 1, this._images.depth.texture);
     gl.uniform1i(gl.getUniformLocation(this._compose, "isLast"), blur > 0 || mask ? 0 : 1);
-    this._bind(this._compose, "mask", 2, this._images.mask.texture);
+    this._bind(this._compose, "mask", 2, (mask ? this._images.first : this._images.mask).texture);
     const isSubtracted = look.isSubtracted && this.hasMask && !mask;
     gl.uniform1f(gl.getUniformLocation(this._compose, "subtracted"), isSubtracted ? look.background : 0);
     gl.uniform2i(gl.getUniformLocation(this._compose, "shift"), look.shift[0], -look.shift[1]);

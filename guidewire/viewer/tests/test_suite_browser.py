@@ -50,7 +50,7 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
 def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped(browse, runner_command, tmp_path):
     darkest = "Math.min(...viewer.xray.fluoroscopy._brightness)"
     still = f"{VIEW}.look.noise = 0"
-    with serving(tmp_path, near_target(tmp_path, target=[0, 0, 150]), with_three=True) as (address, _):
+    with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]], ["see", still],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.01"], ["up", "w"],
@@ -70,7 +70,7 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
 def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     drawn = "viewer.xray.drawn"
     arm = f"[...{VIEW}.arm.centre]"
-    with serving(tmp_path, near_target(tmp_path, target=[0, 0, 150]), with_three=True) as (address, _):
+    with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["click", "got it"], ["down", "w"], ["until", f"{drawn} > 5"],
             ["click", "record cine"], ["until", "viewer.xray.cine.count > 3"], ["up", "w"],
