@@ -44,7 +44,7 @@ def browse():
         process.stdin.write(json.dumps({"steps": steps, "offline": offline, "size": size}) + "\n")
         process.stdin.flush()
         answer = json.loads(process.stdout.readline())
-        assert answer["troubles"] == []
+        assert answer["troubles"] == [], answer["troubles"]
         return answer
 
     yield follow
