@@ -54,9 +54,25 @@ class HeldInstruments:
 
     def add(self, number: int, push: float, turn: float, steps: int, state: State) -> None:
         """Note a call that asked for so many steps with so much push (units) and turn (rad) of one hub in each."""
-        for k, steered in enumerate(self.steered):
-            steered.add(push if k == number else 0.0, turn if k == number else 0.0, steps, state,
-                        self._insertion_of(k, state))
+        self.add_all([(push, turn) if k == number else (0.0, 0.0) for k in range(len(self.steered))], steps, state)
+
+    def add_all(self, moves: Sequence[tuple[float, float]], steps: int, state: State) -> None:
+        """The same of all hubs, as of `moves`."""
+        for k, (steered, (push, turn)) in enumerate(zip(self.steered, moves)):
+            steered.add(push, turn, steps, state, self._insertion_of(k, state))
+
+    @property
+    def second(self) -> int | None:
+        """Which instrument the other hand holds: the one after the held; None where there is one alone."""
+        return (self.held + 1) % len(self._instruments) if len(self._instruments) > 1 else None
+
+    def moves(self, hand: tuple[float, float], other: tuple[float, float]) -> list[tuple[float, float]]:
+        """What is asked of each hub in a step, units and rad, by both hands, such that tables can say it."""
+        moves = [(0.0, 0.0)] * len(self._instruments)
+        moves[self.held] = self.in_a_step(*hand)
+        if self.second is not None:
+            moves[self.second] = self.in_a_step(*other)
+        return moves
 
     def _insertion_of(self, number: int, state: State) -> float | None:
         """Of a hub that other hubs may stop and no force limit, m."""

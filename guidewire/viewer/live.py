@@ -15,7 +15,7 @@ import os
 import re
 import time
 import warnings
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
@@ -43,6 +43,7 @@ _FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where t
 _LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
 _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
 _LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
+_REST = (0.0, 0.0)
 _PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
 _MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; further ones are left out
 _SMOOTHING = 0.1               # weight of the newest request in the step time shown
@@ -103,7 +104,7 @@ class LiveRun:
         self._opened = 0
         self._is_paused = True
         self._steps_asked = 0
-        self._push = self._turn = 0.0
+        self._hands = [_REST, _REST]    # push and turn from -1 to 1: of the held instrument, and of the next one
         self._mark = 0
         self._problem = ""
         self._cost = 0.0  # s of wall time a step, smoothed
@@ -145,16 +146,16 @@ class LiveRun:
             mark = self._mark
             instruments = self._instruments
             hub = instruments.held
-            push, turn = instruments.in_a_step(PUSH_SPEED * self._push * dt, TURN_SPEED * self._turn * dt)
+            moves = instruments.moves(*((PUSH_SPEED * push * dt, TURN_SPEED * turn * dt) for push, turn in self._hands))
             began = time.monotonic()
             try:
-                state = await self._in_thread(lambda: session.step(push * steps, turn * steps, steps, hub))
+                state = await self._in_thread(lambda: _step(session, moves, steps, hub))
                 if self._agent is not None and self._agent.is_active:
                     agent = await self._in_thread(session.agent)
                     if self._session is session:
                         await self._tell_agent(agent)
                 if self._session is session:
-                    instruments.add(hub, push, turn, steps, state)
+                    instruments.add_all(moves, steps, state)
             except SessionError as error:
                 if self._session is session:
                     await self._fail(error)
@@ -205,7 +206,7 @@ class LiveRun:
             if self._hand is page:
                 self._hand = None
                 self._is_paused = True
-                self._push = self._turn = 0.0
+                self._hands = [_REST, _REST]
             await self._tell()
 
     async def close(self) -> None:
@@ -238,10 +239,11 @@ class LiveRun:
         return True
 
     async def _do_hand(self, message: Mapping[str, Any]) -> None:
-        push, turn, mark = float(message["push"]), float(message["turn"]), int(message["mark"])
-        if not (abs(push) <= 1.0 and abs(turn) <= 1.0):
+        hands = [(float(message["push"]), float(message["turn"])),
+                 (float(message.get("otherPush", 0.0)), float(message.get("otherTurn", 0.0)))]
+        if not all(abs(one) <= 1.0 for hand in hands for one in hand):
             raise ValueError("steering takes push and turn from -1 to 1")
-        self._push, self._turn, self._mark = push, turn, mark
+        self._hands, self._mark = hands, int(message["mark"])
 
     async def _do_hold(self, message: Mapping[str, Any]) -> None:
         self._instruments.hold(message["instrument"])
@@ -454,6 +456,14 @@ def _start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
         except SessionError:
             pass  # what is wrong with the file itself is said below
     return Session(scene, hand=False, native=False, **named)
+
+
+def _step(session: Session, moves: Sequence[tuple[float, float]], steps: int, hub: int) -> State:
+    """Steps with so much push (units) and turn (rad) of each hub in each; where one hand rests, of the held one."""
+    if all(move == _REST for k, move in enumerate(moves) if k != hub):
+        push, turn = moves[hub]
+        return session.step(push * steps, turn * steps, steps, hub)
+    return session.step([push * steps for push, _ in moves], [turn * steps for _, turn in moves], steps)
 
 
 _NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)

@@ -30,17 +30,13 @@ namespace Guidewire.Browser
             return request.Length == 0 ? Session.Problem : Session.Ask(request);
         }
 
-        /// <summary>Makes steps, with so much push (units) and turn (rad) in each, and gives the state: steps done
-        /// since the start, time (s), 0 or 1 where the run has ended, prediction error (units), and the arrays of an
-        /// answer in their order.</summary>
-        /// <param name="hub">Whose hub they move: 0 the wire's, k that of catheter k.</param>
+        /// <summary>Makes steps, and gives the state: steps done since the start, time (s), 0 or 1 where the run has
+        /// ended, prediction error (units), and the arrays of an answer in their order.</summary>
+        /// <param name="motion">Push (units) and turn (rad) in each step of each hub, the wire's first.</param>
         /// <returns>False where the steps were refused or failed.</returns>
         [JSExport]
-        internal static bool Step(double push, double turn, int hub, int steps)
+        internal static bool Step(double[] motion, int steps)
         {
-            Span<double> motion = stackalloc double[2 * (hub + 1)];
-            motion[^2] = push;
-            motion[^1] = turn;
             if (!Session.Step(motion, steps, _numbers.AsSpan(0, Head)))
             {
                 return false;

@@ -46,7 +46,7 @@ export class Controls {
       ...(status.isSteered ? [this._pad(), ...this._drives(),
         ...(status.instruments.length > 1 ? [this._hold(status)] : [])] : []),
       make("span", { className: "buttons" },
-        ...(status.isSteered && !isOver ? [live.injector.button] : []), ...(isOver ? [] : [this._button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
+        ...(status.isSteered && !isOver ? [live.injector.button, this._fine()] : []), ...(isOver ? [] : [this._button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
           second(this._button("step", { do: "step" }))]),
         this._button("start anew", { do: "reset" }),
         make("button", { id: "reporting", onclick: () => live.report() }, "report"),
@@ -74,6 +74,13 @@ export class Controls {
         onpointerup: () => steering.release(), onpointerleave: () => steering.release() },
       text, " ", make("kbd", {}, cap));
     return [held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"), held("turn right", "d", "D")];
+  }
+
+  _fine() {
+    const fine = make("button", { id: "fine", onclick: () => this._live.refine(), title: "a fifth of the speed" }, "fine ",
+      make("kbd", {}, "G"));
+    fine.setAttribute("aria-pressed", String(this._live.steering.isFine));
+    return fine;
   }
 
   /** @param {Status} status */

@@ -15,6 +15,10 @@ export class Desk {
     /** @type {Recording | null} */
     this._recording = null;
     this._held = 0; // instrument whose hub is read off
+    /** Told where somebody turns the dial: rad that the hub is to have. @type {(turn: number) => void} */
+    this.onDial = () => {};
+    /** Of the hub that is read off, rad. */
+    this.turn = 0;
     /** Whether the score goes on while one looks back. */
     this.isLive = false;
   }
@@ -26,6 +30,7 @@ export class Desk {
     this.score = new Score(recording);
     this._insertion = new Dial("insertion", (millimetres) => (2 * Math.PI * millimetres) / MILLIMETRES_A_TURN);
     this._turn = new Dial("turn", (turn) => turn);
+    if (this.isLive) this._turn.listen(() => this.turn, (turn) => this.onDial(turn));
     const target = recording.described?.target;
     this._left = make("output", {});
     this._routeDone = make("i", {});
@@ -89,6 +94,7 @@ export class Desk {
       : millimetres * apart(x.subarray(0, 3), base);
     this._insertion?.show(inserted, `${inserted.toFixed(1)}\nmm`);
     const turn = at(`${hub}Turn`);
+    this.turn = turn;
     this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);
     byId("clock").textContent = `${at("time").toFixed(1)} s`;
     byId("score").textContent = String(this.score.points);

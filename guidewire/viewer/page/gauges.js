@@ -60,6 +60,30 @@ export class Dial {
     this._label = label;
   }
 
+  /** Lets a hand turn it, as a torque device. @param {() => number} now rad @param {(turn: number) => void} turned told
+   * where it is to be */
+  listen(now, turned) {
+    const face = /** @type {HTMLElement} */ (this.element.firstChild);
+    face.classList.add("turned");
+    face.title = "drag to turn";
+    let [before, aim] = [0, 0];
+    const angle = (/** @type {PointerEvent} */ { clientX, clientY }) => {
+      const { left, top, width, height } = face.getBoundingClientRect();
+      return Math.atan2(clientX - left - width / 2, top + height / 2 - clientY);
+    };
+    face.addEventListener("pointerdown", (event) => {
+      face.setPointerCapture(event.pointerId);
+      [before, aim] = [angle(event), now()];
+    });
+    face.addEventListener("pointermove", (event) => {
+      if (!event.buttons) return;
+      const here = angle(event);
+      aim += Math.atan2(Math.sin(here - before), Math.cos(here - before));
+      before = here;
+      turned(aim);
+    });
+  }
+
   /** @param {number} value @param {string} text */
   show(value, text) {
     this.element.hidden = !Number.isFinite(value);

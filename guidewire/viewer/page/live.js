@@ -63,8 +63,8 @@ export class Live {
     this._early = [];
     /** Times from a key to the picture that shows what it did, ms. @type {number[]} */
     this.delays = [];
-    this.steering = new Steering((push, turn) => this._tell(push, turn), (button) =>
-      (button === "pause" ? this.pause(!this.status?.isPaused) : this.send({ do: "reset" })));
+    this.steering = new Steering((...hands) => this._tell(...hands), (button) => this._press(button));
+    desk.onDial = (turn) => this.steering.aim(turn);
     /** The frame that is looked back at; null: the newest. @type {number | null} */
     this._back = null;
     this.injector = new Injector((message) => this.send(message));
@@ -89,10 +89,30 @@ export class Live {
     this._connection.send(message);
   }
 
+  /** @param {string} button of a gamepad */
+  _press(button) {
+    if (button === "pause") this.pause(!this.status?.isPaused);
+    else if (button === "reset") this.send({ do: "reset" });
+    else if (button === "hold") this.holdNext();
+    else if (button === "fine") this.refine();
+    else if (button === "beam") this._xray.beam.set(!this._xray.beam.isOn);
+    else {
+      this.injector.press();
+      this.injector.release();
+    }
+  }
+
+  /** Steers finely, or no longer. */
+  refine() {
+    this.steering.refine(!this.steering.isFine);
+    byId("fine")?.setAttribute("aria-pressed", String(this.steering.isFine));
+  }
+
   /** @param {KeyboardEvent} event @returns {boolean} whether the key means something here */
   key(event) {
     if (this.steering.key(event)) byId("keys").hidden = true;
     else if (event.key === " ") this.pause(!this.status?.isPaused);
+    else if (event.key === "g") this.refine();
     else if (event.key === "e") this.injector.press();
     else if (event.key === "n") this.send({ do: "step" });
     else if (event.key === "i") this.holdNext();
@@ -137,15 +157,16 @@ export class Live {
     this.send({ do: "hold", instrument: (held + 1) % instruments.length });
   }
 
-  /** @param {number} push @param {number} turn from -1 to 1 */
-  _tell(push, turn) {
+  /** @param {number} push @param {number} turn from -1 to 1 @param {number} otherPush of the next instrument
+   * @param {number} otherTurn */
+  _tell(push, turn, otherPush, otherTurn) {
     this._marks.set(++this._mark, performance.now());
-    if ((push || turn) && this.status?.isPaused && !this.status.outcome) {
+    if ((push || turn || otherPush || otherTurn) && this.status?.isPaused && !this.status.outcome) {
       this._steeredAt = performance.now();
       setTimeout(() => this._label(), REMINDED + 50);
       this._label();
     }
-    this.send({ do: "hand", push, turn, mark: this._mark });
+    this.send({ do: "hand", push, turn, otherPush, otherTurn, mark: this._mark });
   }
 
   /** @param {Status} status */
@@ -212,6 +233,7 @@ export class Live {
     if (recording.forgotten > before) this._desk.score?.forget(recording.forgotten - before);
     this._back = null;
     this.model.frame = recording.count - 1;
+    this.steering.follow(this._desk.turn);
     this._xray.beam.pass(recording.at("time", this.model.frame)[0]);
     this.show();
     this._label();
@@ -352,7 +374,7 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["space", "pause, go on"], ["N", "one step"],
-  ["R", "start anew"], ["I", "select the next instrument"], ["E", "inject contrast"], ["gamepad", "left stick steers, A pauses, Y starts anew"],
+  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
+  ["R", "start anew"], ["I", "select the next instrument"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam"],
   ["round pad", "up pushes, down pulls, sideways turns"],
 ]);

@@ -7,7 +7,8 @@
  * @typedef {Record<string, any>} Message
  * @typedef {object} Program what simulates
  * @property {(request: Message) => Message} ask
- * @property {(push: number, turn: number, hub: number, steps: number) => Float64Array} step the head and all arrays
+ * @property {(motion: number[], steps: number) => Float64Array} step push (units) and turn (rad) of each hub in each of
+ *     some steps: the head and all arrays
  * @property {() => Uint8Array} walls
  */
 import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./channels.js";
@@ -47,7 +48,9 @@ export class Run {
     this._isPaused = true;
     this._isSteered = false;
     this._stepsAsked = 0;
-    this._push = this._turn = this._mark = this._cost = this._onTheWay = this._due = 0;
+    /** Push and turn from -1 to 1, of the held instrument, and of the next one. */
+    this._hands = [[0, 0], [0, 0]];
+    this._mark = this._cost = this._onTheWay = this._due = 0;
     this._pace = 1;
     this._problem = this._outcome = "";
     /** @type {Message} */
@@ -83,7 +86,8 @@ export class Run {
   _do(message) {
     switch (message.do) {
       case "hand":
-        [this._push, this._turn, this._mark] = [message.push, message.turn, message.mark];
+        this._hands = [[message.push, message.turn], [message.otherPush ?? 0, message.otherTurn ?? 0]];
+        this._mark = message.mark;
         break;
       case "hold":
         if (this._held) this._held.held = message.instrument;
@@ -213,15 +217,16 @@ export class Run {
     steps = 2 ** Math.floor(Math.log2(steps)); // parts of push and turn by a power of two are exact
     this._stepsAsked = Math.max(0, this._stepsAsked - steps);
     const held = /** @type {HeldInstruments} */ (this._held);
-    const [push, turn] = held.inAStep(pushSpeed * this._push * dt, turnSpeed * this._turn * dt);
+    const [hand, other] = this._hands.map(([push, turn]) => [pushSpeed * push * dt, turnSpeed * turn * dt]);
+    const moves = held.moves(hand, other);
     const began = performance.now();
-    const numbers = this._program.step(push, turn, held.held, steps);
+    const numbers = this._program.step(moves.flat(), steps);
     const cost = (performance.now() - began) / 1000 / steps;
     this._cost = this._cost === 0 ? cost : this._cost + smoothing * (cost - this._cost);
     const size = this._layout.reduce((sum, [, count]) => sum + count, HEAD);
     const channels = numbers[2] || numbers.length !== size ? this._take(this._program.ask({ session: "state" }))
       : this._channels(numbers[0], numbers[1], split(this._layout, numbers));
-    held.add(push, turn, numbers[0], this._state);
+    held.addAll(moves, numbers[0], this._state);
     if (this._isAgent) this._tellAgent(this._program.ask({ session: "agent" }));
     this._largest = largestShown(channels).map((value, k) => Math.max(value, this._largest[k] ?? 0));
     if (this._onTheWay < mostInFlight) {

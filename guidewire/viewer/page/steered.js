@@ -111,12 +111,29 @@ export class HeldInstruments {
   /** Notes a call. @param {number} push @param {number} turn in each step @param {number} step after it
    * @param {import("./channels.js").State} state */
   add(push, turn, step, state) {
+    this.addAll(this.steered.map((_, k) => (k === this.held ? [push, turn] : [0, 0])), step, state);
+  }
+
+  /** Which instrument the other hand holds: the one after the held; -1 where there is one alone. */
+  get second() {
+    return this._instruments.length > 1 ? (this.held + 1) % this._instruments.length : -1;
+  }
+
+  /** What is asked of each hub in a step, units and rad, by both hands. @param {number[]} hand @param {number[]} other */
+  moves(hand, other) {
+    return this._instruments.map((_, k) => (k === this.held ? this.inAStep(hand[0], hand[1])
+      : k === this.second ? this.inAStep(other[0], other[1]) : [0, 0]));
+  }
+
+  /** Notes a call of all hubs. @param {number[][]} moves push and turn of each in each step @param {number} step after it
+   * @param {import("./channels.js").State} state */
+  addAll(moves, step, state) {
     const catheters = this._parameters.catheters ?? [];
     this.steered.forEach((one, k) => {
       const own = k === 0 ? this._parameters : catheters[k - 1];
       const isFree = !catheters.length || own.hubForceLimit;
       const reached = isFree ? null : (k === 0 ? state.hub : state[`catheter${k}`])[0];
-      one.add(k === this.held ? push : 0, k === this.held ? turn : 0, step, reached);
+      one.add(moves[k][0], moves[k][1], step, reached);
     });
   }
 

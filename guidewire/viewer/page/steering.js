@@ -1,17 +1,23 @@
 // @ts-check
-/** Key to [what it drives, which way]. @type {Record<string, ["push" | "turn", number]>} */
+/** Key to [what it drives, which way]; the second four drive the other instrument.
+ * @type {Record<string, ["push" | "turn" | "otherPush" | "otherTurn", number]>} */
 const DRIVES = {
   w: ["push", 1], ArrowUp: ["push", 1], s: ["push", -1], ArrowDown: ["push", -1],
   d: ["turn", 1], ArrowRight: ["turn", 1], a: ["turn", -1], ArrowLeft: ["turn", -1],
+  u: ["otherPush", 1], j: ["otherPush", -1], l: ["otherTurn", 1], k: ["otherTurn", -1],
 };
+const FINE = 0.2; // of the speed
+const REACH = 0.6; // rad from an aim, from which on one turns more slowly
+const NEAR = 0.01; // rad
 const DEAD_ZONE = 0.15; // of a stick's travel
 const STEPS = 50; // of a stick from 0 to 1: a message is sent where it is at another
-const PAD_BUTTONS = { 0: "pause", 3: "reset" };
+const PAD_BUTTONS = { 0: "pause", 1: "inject", 2: "fine", 3: "reset", 4: "hold", 5: "beam" };
 
-/** What keys, held buttons, a touch pad and a gamepad ask for: push and turn from -1 to 1. */
+/** What keys, held buttons, a touch pad, a dial and a gamepad ask for: push and turn of both hands from -1 to 1. */
 export class Steering {
   /**
-   * @param {(push: number, turn: number) => void} onChange called where that has changed
+   * @param {(push: number, turn: number, otherPush: number, otherTurn: number) => void} onChange called where that has
+   *     changed
    * @param {(button: string) => void} pressed "pause" or "reset" of a gamepad
    */
   constructor(onChange, pressed) {
@@ -20,7 +26,13 @@ export class Steering {
     /** @type {Set<string>} */
     this._held = new Set();
     this._touch = [0, 0];
-    this._pad = [0, 0];
+    this._pad = [0, 0, 0, 0];
+    this._dial = 0;
+    /** Turn of the hub that a dial asks for, rad; null: none. @type {number | null} */
+    this._aim = null;
+    /** Whether all goes slowly. */
+    this.isFine = false;
+    this.otherPush = this.otherTurn = 0;
     /** @type {Set<number>} */
     this._padButtons = new Set();
     this.push = 0;
@@ -45,9 +57,31 @@ export class Steering {
     this._update();
   }
 
+  /** @param {boolean} isFine whether all goes slowly */
+  refine(isFine) {
+    this.isFine = isFine;
+    this._update();
+  }
+
+  /** Turns until the hub is there. @param {number | null} turn rad; null: no farther */
+  aim(turn) {
+    this._aim = turn;
+    if (turn === null) this.follow(NaN);
+  }
+
+  /** Goes on towards the aim. @param {number} turn of the hub now, rad */
+  follow(turn) {
+    const left = this._aim === null ? 0 : this._aim - turn;
+    if (Math.abs(left) < NEAR) this._aim = null;
+    this._dial = this._aim === null ? 0 : limited(left / REACH);
+    this._update();
+  }
+
   /** Lets go of everything. */
   release() {
     this._held.clear();
+    this._aim = null;
+    this._dial = 0;
     this._touch = [0, 0];
     this._update();
   }
@@ -86,7 +120,7 @@ export class Steering {
       const value = pad?.axes[axis] ?? 0;
       return Math.abs(value) < DEAD_ZONE ? 0 : Math.round(limited(value) * STEPS) / STEPS;
     };
-    this._pad = [-stick(1), stick(0)];
+    this._pad = [-stick(1), stick(0), -stick(3), stick(2)];
     this._update();
     for (const [index, name] of Object.entries(PAD_BUTTONS)) {
       const isDown = pad?.buttons[Number(index)]?.pressed ?? false;
@@ -97,13 +131,15 @@ export class Steering {
   }
 
   _update() {
-    const keys = { push: 0, turn: 0 };
+    const keys = { push: 0, turn: 0, otherPush: 0, otherTurn: 0 };
     for (const key of this._held) keys[DRIVES[key][0]] += DRIVES[key][1];
-    const push = limited(Math.sign(keys.push) + this._touch[0] + this._pad[0]);
-    const turn = limited(Math.sign(keys.turn) + this._touch[1] + this._pad[1]);
-    if (push === this.push && turn === this.turn) return;
-    [this.push, this.turn] = [push, turn];
-    this._onChange(push, turn);
+    const speed = this.isFine ? FINE : 1;
+    const [push, turn, otherPush, otherTurn] = [Math.sign(keys.push) + this._touch[0] + this._pad[0],
+      Math.sign(keys.turn) + this._touch[1] + this._pad[1] + this._dial / speed, Math.sign(keys.otherPush) + this._pad[2],
+      Math.sign(keys.otherTurn) + this._pad[3]].map((value) => speed * limited(value));
+    if (push === this.push && turn === this.turn && otherPush === this.otherPush && otherTurn === this.otherTurn) return;
+    Object.assign(this, { push, turn, otherPush, otherTurn });
+    this._onChange(push, turn, otherPush, otherTurn);
   }
 }
 

@@ -40,8 +40,8 @@ function programOf(exports) {
   };
   return {
     ask: (request) => read(exports.Ask(JSON.stringify(request))),
-    step: (push, turn, hub, steps) => {
-      if (!exports.Step(push, turn, hub, steps)) read(exports.Ask(""));
+    step: (motion, steps) => {
+      if (!exports.Step(motion, steps)) read(exports.Ask(""));
       return numbers;
     },
     walls: () => exports.Walls(),

@@ -1,17 +1,20 @@
 """The page as a fluoroscopy suite: contrast on command, subtraction, road map, pedal, cine loop, table, two planes."""
 
 import json
+import subprocess
 from base64 import b64decode
 
 import numpy as np
 import pytest
 
+from guidewire.logs.logs import read_log
+from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 from guidewire.viewer import live
 from guidewire.viewer.tests.browsing import DRAWN
 from guidewire.viewer.tests.test_desk_browser import PAUSED, STATUS, near_target, text
 from guidewire.viewer.tests.test_view import serving
-from guidewire.viewer.tests.test_view_browser import HUB
+from guidewire.viewer.tests.test_view_browser import GAMEPAD, HUB, HUB_OF_CATHETER
 
 VIEW = "viewer.xray.fluoroscopy"
 INJECTED = "viewer.shown.injector.injected"
@@ -54,8 +57,8 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
             ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]], ["see", f"{VIEW}.look.noise = 0"],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
             ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
-            ["press", "e"], ["until", f"{INJECTED} > 1"], ["see", darkest], ["see", text("#contrast output")],
-            ["press", " "], PAUSED, ["until", f"{VIEW}.hasMap"], ["see", GREY],
+            ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
+            ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")], ["see", GREY],
             ["see", f"{VIEW}.look.isSubtracted = false; {GREY}"], ["see", f"window.agent = {VIEW}.parts; {VIEW}.parts = null; {GREY}"],
             ["see", f"{VIEW}.look.vessel = 'map'; {GREY}"], ["picture", str(tmp_path / "map.png")],
             ["click", "report"], ["see", "document.getElementById('report').innerText"], size=(1000, 700))["seen"]
@@ -90,3 +93,34 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     assert seen[0] is True and seen[2] == 0 and "last image" in seen[3] and seen[4]
     assert seen[5][0] and seen[5][1] > 3
     assert seen[7] == "20 mm" and seen[8].startswith("second plane, LAO 90") and seen[10] == 30
+
+
+def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repeated(browse, runner_command, tmp_path):
+    turn = HUB.replace("hubInsertion", "hubTurn")
+    drag = ("{ const face = document.querySelector('.dial .turned'); const { left, top, width, height } ="
+            " face.getBoundingClientRect(); face.setPointerCapture = () => {}; const at = (kind, x, y) => face.dispatchEvent("
+            "new PointerEvent(kind, {clientX: left + x * width, clientY: top + y * height, buttons: 1, bubbles: true}));"
+            " at('pointerdown', 0.5, 0.1); at('pointermove', 0.8, 0.2); at('pointermove', 0.9, 0.5); }")
+    steered = "['steered.csv', 'steered-1.csv'].map((file) => fetch(file).then((answer) => answer.text()))"
+    with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["click", "got it"], ["down", "w"], ["down", "u"],
+            ["until", f"{HUB} > 0.008 && {HUB_OF_CATHETER} > 0.006"], ["up", "u"], ["up", "w"],
+            ["see", f"[{HUB}, {HUB_OF_CATHETER}]"], ["see", GAMEPAD], ["see", "pad.axes[3] = -0.5"],
+            ["until", "viewer.shown.steering.otherPush === 0.5"], ["until", f"{HUB_OF_CATHETER} > 0.012"],
+            ["see", "pad.axes[3] = 0"], ["until", "viewer.shown.steering.otherPush === 0"], ["press", "g"], ["down", "w"],
+            ["see", "viewer.shown.steering.push"], ["up", "w"], ["press", "g"],
+            ["see", drag], ["until", f"Math.abs({turn} - Math.PI / 2) < 0.02"], ["until", "viewer.shown.steering.turn === 0"],
+            ["press", " "], PAUSED, ["see", f"Promise.all({steered})"], ["see", "[...viewer.shown.model.tip]"],
+            ["see", "viewer.shown.model.recording.at('step', viewer.shown.model.recording.count - 1)[0]"], size=(1000, 700))["seen"]
+    wire, catheter = seen[0]
+    assert wire > 0.008 and catheter > 0.006 and seen[3] == pytest.approx(0.2)
+    tables, tip, step = seen[5:8]
+    words = []
+    for k, table in enumerate(tables):
+        (tmp_path / f"{k}.csv").write_text(table)
+        own = "" if k == 0 else f"catheters[{k - 1}]."
+        words += [f"-{own}driveFile", str(tmp_path / f"{k}.csv"), f"-{own}insertionSpeed", "0"]
+    subprocess.run([*runner_command, "-parameters", str(ROOT / "params/catheter-branch.json"), "-out", str(tmp_path / "run"),
+                    *words, "-maxSimulationSteps", str(int(step)), "-deltaThreshold", "0"], check=True, capture_output=True)
+    assert read_log(tmp_path / "run", "all").positions[-1, -1].tolist() == tip
