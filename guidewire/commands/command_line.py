@@ -123,6 +123,10 @@ def parse(argv: list[str]) -> argparse.Namespace:
     fluoroscopy.add_argument("--field", type=above_zero, metavar="MM", help="side of the picture (the whole vessel)")
     fluoroscopy.add_argument("--vessel", choices=("roadmap", "contrast", "none"), help="how the vessel is shown "
                                                                                        "(roadmap)")
+    fluoroscopy.add_argument("--inject", type=finite, nargs=3, metavar=("S", "ML", "ML/S"), help="contrast agent where the "
+                             "blood comes in, from a time on; the vessel needs a centreline (vessel.anatomy)")
+    fluoroscopy.add_argument("--subtract", action="store_true", help="what has changed since the first picture")
+    fluoroscopy.add_argument("--road-map", action="store_true", help="of the injection, when half of it is gone")
     fluoroscopy.add_argument("--pixels", type=positive, metavar="N", help="of a side (512)")
     fluoroscopy.add_argument("--noise", type=finite, metavar="F", help="standard deviation of the noise over "
                                                                        "brightness (0.03)")

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 from PIL import Image, ImageDraw
 
+from guidewire.commands.angiography import Angiography
 from guidewire.logs.logs import LogError, PositionLog
 from guidewire.logs.runs import PARAMETERS_NAME, Run
 from guidewire.prepare import PreparationError
@@ -29,9 +30,10 @@ def check(arguments: argparse.Namespace) -> None:
         if wrong:
             raise PreparationError(f"--{wrong[0]} is for drawn pictures: --fluoroscopy takes --lao, --cranial, --field")
     else:
-        wrong = [name for name in _OWN if getattr(arguments, name) is not None]
+        wrong = [name for name in (*_OWN, "inject") if getattr(arguments, name) is not None]
+        wrong += [name for name in ("subtract", "road_map") if getattr(arguments, name)]
         if wrong:
-            raise PreparationError(f"--{wrong[0]} is for X-ray pictures: add --fluoroscopy")
+            raise PreparationError(f"--{wrong[0].replace('_', '-')} is for X-ray pictures: add --fluoroscopy")
 
 
 def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: bool,
@@ -57,14 +59,15 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
     try:
         with session_of(run.folder / PARAMETERS_NAME) as session:
             is_known = session.describe()["patient"] is not None
+            angiography = Angiography(session, arguments)
             for k in chosen:
                 if not np.isfinite(log.positions[k]).all():
                     raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite")
                 centre = log.positions[k][-1].tolist() if arguments.follow else arguments.target
                 side = field or (_FOLLOWED if arguments.follow else None)
                 nodes = [log.positions[k], *(positions[k] for positions in log.catheters)]
-                grey = session.picture_of(nodes, centre=centre, field_of_view=side, seed=int(log.steps[k]),
-                                          **view)
+                grey = angiography.picture(nodes, float(log.time[k]),
+                                           {"centre": centre, "field_of_view": side, "seed": int(log.steps[k]), **view})
                 images.append(_with_caption(grey, view, log.time[k], is_known))
                 tell(len(images), len(chosen))
     except SessionError as error:

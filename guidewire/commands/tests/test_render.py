@@ -4,7 +4,7 @@ import json
 
 import numpy as np
 import pytest
-from PIL import Image
+from PIL import Image, ImageSequence
 
 from guidewire.commands import commands, drawn
 from guidewire.logs.runs import read_run
@@ -135,3 +135,22 @@ def test_walls_are_asked_for_with_three_numbers_and_a_number(runner_command, mid
             session.walls(middle, reach)
         wall = session.walls()[0]
     assert len(wall.vertices) == 4 and np.ptp(wall.vertices, axis=0).max() > 0.0
+
+
+def test_a_film_shows_an_injection_what_has_changed_and_its_road_map(make_run, tmp_path):
+    scene = json.loads((ROOT / "params" / "sheath.json").read_text())
+    meshes = ROOT / "params" / "meshes"
+    scene["vessel"].update(file=str(meshes / "artery.obj"), anatomy=str(meshes / "artery.anatomy.json"))
+    folder = make_run(**{**scene, "maxSimulationSteps": 60, "logEvery": 4})
+    films = {}
+    for name, words in (("agent", ()), ("subtracted", ("--subtract",)), ("map", ("--road-map",))):
+        assert draw(folder, "--fluoroscopy", "--inject", 0.3, 3, 4, *words, "--frames", 8, "--pixels", 96, "--noise", 0,
+                    "--blur", 0, "--vessel", "none", "--out", tmp_path / f"{name}.gif") == 0
+        with Image.open(tmp_path / f"{name}.gif") as film:
+            films[name] = [np.asarray(one.convert("L")).astype(int) for one in ImageSequence.Iterator(film)]
+    agent = [int((grey < 150).sum()) for grey in films["agent"]]
+    assert agent[0] == 0 and max(agent) > 30 and agent[-1] < max(agent)    # it comes, and goes
+    assert np.abs(films["subtracted"][0][:80] - 191).max() <= 3    # nothing has changed yet: the wire is not seen
+    assert (films["map"][-1][:80] > 195).sum() > 30 and (films["map"][-1][:80] < 150).sum() < max(agent) / 2
+    with pytest.raises(PreparationError, match="add --fluoroscopy"):
+        draw(folder, "--inject", 0, 1, 1)

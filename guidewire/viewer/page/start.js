@@ -62,7 +62,7 @@ function nameOf(file) {
  * is added. @param {OwnFile[]} files @param {Record<string, any>} wire */
 function sceneAmong(files, wire) {
   const all = files.map(({ path }) => path).filter((path) =>
-    path.endsWith(".json") && !/(^|\/)(instruments\/|anatomy\.json$)/.test(path));
+    path.endsWith(".json") && !/(^|\/)(instruments\/.*|[^/]*anatomy\.json$)/.test(path));
   const scene = all.find((path) => /(^|\/)scene\.json$/.test(path)) ?? all[0];
   if (scene) return scene;
   const mesh = files.find(({ path }) => /\.(obj|stl)$/.test(path));
