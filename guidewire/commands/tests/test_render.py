@@ -147,10 +147,10 @@ def test_a_film_shows_an_injection_what_has_changed_and_its_road_map(make_run, t
         assert draw(folder, "--fluoroscopy", "--inject", 0.3, 3, 4, *words, "--frames", 8, "--pixels", 96, "--noise", 0,
                     "--blur", 0, "--vessel", "none", "--out", tmp_path / f"{name}.gif") == 0
         with Image.open(tmp_path / f"{name}.gif") as film:
-            films[name] = [np.asarray(one.convert("L")).astype(int) for one in ImageSequence.Iterator(film)]
+            films[name] = [np.asarray(one.convert("L")).astype(int)[:74] for one in ImageSequence.Iterator(film)]
     agent = [int((grey < 150).sum()) for grey in films["agent"]]
     assert agent[0] == 0 and max(agent) > 30 and agent[-1] < max(agent)    # it comes, and goes
-    assert np.abs(films["subtracted"][0][:80] - 191).max() <= 3    # nothing has changed yet: the wire is not seen
-    assert (films["map"][-1][:80] > 195).sum() > 30 and (films["map"][-1][:80] < 150).sum() < max(agent) / 2
+    assert np.abs(films["subtracted"][0] - 191).max() <= 3    # nothing has changed yet: the wire is not seen
+    assert (films["map"][-1] > 195).sum() > 30 and (films["map"][-1] < 150).sum() < max(agent) / 2
     with pytest.raises(PreparationError, match="add --fluoroscopy"):
         draw(folder, "--inject", 0, 1, 1)

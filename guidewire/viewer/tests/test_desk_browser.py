@@ -34,7 +34,7 @@ def near_target(tmp_path, **more):
     scene["vessel"].update(file=str(ROOT / "params/meshes/artery.obj"),
                            anatomy=str(ROOT / "guidewire/env/data/artery.json"))
     del scene["vessel"]["openRims"], scene["guidewireOffset"]
-    (tmp_path / "scene.json").write_text(json.dumps({**scene, "sheath": {}, "inlet": 1, "target": [0, 0, 30], **more}))
+    (tmp_path / "scene.json").write_text(json.dumps({**scene, "sheath": {}, "inlet": 1, "target": [0, 0, 90], **more}))
     return str(tmp_path / "scene.json")
 
 
