@@ -39,9 +39,9 @@ export class Beam {
     this._changed();
   }
 
-  /** ms until the next picture is due; Infinity: never. */
+  /** ms until the next picture is due, where there is a beam. */
   get wait() {
-    return this.isOn ? Math.max(0, this._last + 1000 / this._rate - performance.now()) : Infinity;
+    return Math.max(0, this._last + 1000 / this._rate - performance.now());
   }
 
   /** A picture is taken. @param {number} time s of the run */

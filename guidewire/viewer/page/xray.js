@@ -164,15 +164,14 @@ export class Xray {
     if (this._isRequested || !this._models?.length || document.body.dataset.views === "space") return;
     byId("xray").classList.toggle("off", !this.beam.isOn);
     const { wait } = this.beam;
-    if (wait === Infinity) {
-      this._label();
-      this.onDrawn(); // the last picture stays
-      return;
-    }
     this._isRequested = true;
     setTimeout(() => requestAnimationFrame(() => {
       this._isRequested = false;
       if (this.beam.isOn) this._draw();
+      else {
+        this._label();
+        this.onDrawn(); // the last picture stays
+      }
     }), wait);
   }
 

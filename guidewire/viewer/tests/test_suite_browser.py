@@ -56,17 +56,21 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
         seen = browse(
             ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]], ["see", f"{VIEW}.look.noise = 0"],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
-            ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
+            ["press", " "], PAUSED, ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
+            ["press", " "], ["until", f"!{STATUS}.isPaused"],
             ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
-            ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")], ["see", GREY],
-            ["see", f"{VIEW}.look.isSubtracted = false; {GREY}"], ["see", f"window.agent = {VIEW}.parts; {VIEW}.parts = null; {GREY}"],
+            ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")],
+            # Mask, agent and wire of one moment.
+            ["see", f"{{ const x = {VIEW}; window.agent = x.parts; x.parts = null; x.takeMask(viewer.xray._instruments);"
+                    " x.parts = agent; }"], ["see", GREY],
+            ["see", f"{VIEW}.look.isSubtracted = false; {GREY}"], ["see", f"{VIEW}.parts = null; {GREY}"],
             ["see", f"{VIEW}.look.vessel = 'map'; {GREY}"], ["picture", str(tmp_path / "map.png")],
             ["click", "report"], ["see", "document.getElementById('report').innerText"], size=(1000, 700))["seen"]
     assert seen[1] == pytest.approx(0.75) and seen[2] < 0.6
     assert float(seen[3].split()[0]) > 1 and "ml" in seen[-1]
-    subtracted, full, empty, mapped = (levels(grey) for grey in seen[4:8])
+    subtracted, full, empty, mapped = (levels(grey) for grey in seen[5:9])
     assert empty.min() < 185 and full.min() < 150, "the wire, and agent"
-    assert np.abs(subtracted - 191.25 * full / empty).max() <= 2.5    # what has not changed is gone: the wire, too
+    assert np.abs(subtracted - 191.25 * full / empty).max() <= 2.5    # what has not changed is gone, the wire, too
     assert subtracted[full == empty].min() >= 190
     agent = full < 0.9 * empty
     assert (mapped[agent & (empty > 185)] > 195).all() and (mapped < 180).any()    # brighter, and the wire over it
@@ -81,7 +85,7 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
             ["click", "record cine"], ["until", "viewer.xray.cine.count > 3"], ["up", "w"],
             ["press", "x"], ["see", "!viewer.xray.beam.isOn"], ["see", f"window.before = {drawn}"],
             ["down", "w"], ["until", f"{HUB} > 0.03"], ["up", "w"], ["see", f"{drawn} - before"],
-            ["see", text("#arm")], ["see", "viewer.xray.beam.seconds < viewer.shown._desk.score.time - 0.2"],
+            ["see", text("#arm")], ["until", "viewer.xray.beam.seconds < viewer.shown._desk.score.time - 0.2"], ["see", "!viewer.xray.beam.isOn"],
             ["click", "cine loop"], ["see", "[!document.getElementById('cine').hidden, viewer.xray.cine.count]"],
             ["click", "cine loop"], ["press", "x"], ["until", f"{drawn} > before"],
             ["see", f"window.centre = {arm}"], ["press", "Shift+ArrowRight"], ["until", f"String({arm}) !== String(centre)"],
@@ -114,8 +118,8 @@ def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repea
             ["press", " "], PAUSED, ["see", f"Promise.all({steered})"], ["see", "[...viewer.shown.model.tip]"],
             ["see", "viewer.shown.model.recording.at('step', viewer.shown.model.recording.count - 1)[0]"], size=(1000, 700))["seen"]
     wire, catheter = seen[0]
-    assert wire > 0.008 and catheter > 0.006 and seen[3] == pytest.approx(0.2)
-    tables, tip, step = seen[5:8]
+    assert wire > 0.008 and catheter > 0.006 and seen[4] == pytest.approx(0.2)
+    tables, tip, step = seen[6:9]
     words = []
     for k, table in enumerate(tables):
         (tmp_path / f"{k}.csv").write_text(table)
