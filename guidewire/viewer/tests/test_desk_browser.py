@@ -157,7 +157,7 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
         seen = browse(
             ["open", address], DRAWN, ["see", text("#score")], ["see", words],
             ["see", f"window.kept = {STATUS}.opened"], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"], ["press", " "],
-            PAUSED, ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
+            PAUSED, ["see", "new Promise((go) => { setTimeout(go, 1500); })"], ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
             ["open", address], DRAWN, ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"], ["down", "w"], ["until", "document.getElementById('card').open"],
             ["up", "w"], PAUSED, ["see", f"{report}.innerText"], ["picture", str(tmp_path / "report.png")],
@@ -166,11 +166,11 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
             ["click", "save report"], ["until", "window.saved"], ["see", "[file, saved]"], ["see", "document.querySelector('#card .on').click()"],
             ["until", f"!{STATUS}.isPaused"])["seen"]
     assert seen[0] == "0" and not re.findall(r".{20}(?:\brim\b|scene).{20}", seen[1].lower())
-    assert seen[3][0] > 10 and 0 < int(seen[3][2]) < 100
-    assert seen[4][:2] == pytest.approx(seen[3][:2]) and seen[4][2] == seen[3][2]    # after a reload
+    assert seen[4][0] > 10 and 0 < int(seen[4][2]) < 100
+    assert seen[5][:2] == pytest.approx(seen[4][:2]) and seen[5][2] == seen[4][2]    # after a reload
     for word in ("reached at", "radiation", "contrast", "largest wall force", "new attempts", "way of the tip", "events"):
-        assert word in seen[5]
-    assert seen[7][0] == "report.txt" and "score: " in seen[7][1]
+        assert word in seen[6]
+    assert seen[8][0] == "report.txt" and "score: " in seen[8][1]
 
 
 EVENTS = """
