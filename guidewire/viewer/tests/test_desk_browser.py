@@ -167,7 +167,9 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
             ["until", f"!{STATUS}.isPaused"])["seen"]
     assert seen[0] == "0" and not re.findall(r".{20}(?:\brim\b|scene).{20}", seen[1].lower())
     assert seen[4][0] > 10 and 0 < int(seen[4][2]) < 100
-    assert seen[5][:2] == pytest.approx(seen[4][:2]) and seen[5][2] == seen[4][2]    # after a reload
+    # After a reload the same, and frames that a busy page was not sent.
+    assert seen[5][1] == pytest.approx(seen[4][1]) and int(seen[5][2]) >= int(seen[4][2])
+    assert seen[4][0] - 1e-6 <= seen[5][0] < seen[4][0] + 20
     for word in ("reached at", "radiation", "contrast", "largest wall force", "new attempts", "way of the tip", "events"):
         assert word in seen[6]
     assert seen[8][0] == "report.txt" and "score: " in seen[8][1]
