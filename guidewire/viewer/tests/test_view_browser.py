@@ -106,7 +106,7 @@ def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(brow
             ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"], ["see", "document.getElementById('settings').open = true"], ["see", enter],
             ["until", "document.getElementById('said').textContent"], ["until", f"Number({field}.value) > 0"],
             ["see", "document.getElementById('said').textContent"], ["see", "viewer.shown.status.isPaused"],
-            ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"], 
+            ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"],
         )["seen"]
     assert seen[0].startswith("W push") and "H help" in seen[0]
     assert seen[3] == "timeStep = -1 is not allowed: needs a number > 0 (s)" and seen[4] is False
