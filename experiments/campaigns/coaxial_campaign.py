@@ -1,9 +1,9 @@
-"""A wire in a catheter pushed, pulled and turned at random at both hubs in anatomies, judged from logs by an independent
-search.
+"""A wire in a catheter pushed, pulled and turned at random at both hubs in anatomies, judged from logs by an
+independent search.
 
 ``python3 -m experiments.campaigns.coaxial_campaign FOLDER ... --runs 20 --keep DIR`` takes folders that
-``guidewire.py anatomy`` wrote; each has so many runs. A seed draws the instruments, the inlet, friction, and a drive for
-each hub.
+``guidewire.py anatomy`` wrote; each has so many runs. A seed draws the instruments, the inlet, friction, and a drive
+for each hub.
 """
 
 from __future__ import annotations
@@ -52,7 +52,8 @@ def draw(vessel: Vessel, seed: int, folder: Path) -> Path:
         Path(name).write_text("time,insertion,rotation\n" + "".join(
             f"{at:.4f},{1e-3 * insertion:.6f},{turn:.5f}\n" for at, insertion, turn in rows))
     scene = {
-        "solver": "direct", "instrument": wire, "guidewireLength": float(length), "numberRodElements": int(length / _BODY),
+        "solver": "direct", "instrument": wire, "guidewireLength": float(length),
+        "numberRodElements": int(length / _BODY),
         "catheters": [{"instrument": catheter, "start": _BEHIND, "length": _BODY * count, "elements": count,
                        "driveFile": names[1]}],
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "driveFile": names[0],
@@ -162,7 +163,8 @@ def main(arguments: Sequence[str]) -> int:
                 farthest = max(farthest, walk.distance)
                 claimed += bool(walk.claims)
                 if walk.claims or walk.outcome != "finished":
-                    print(f"{walk.vessel} {walk.seed} {walk.outcome}: {'; '.join(walk.claims) or walk.reason}", flush=True)
+                    print(f"{walk.vessel} {walk.seed} {walk.outcome}: {'; '.join(walk.claims) or walk.reason}",
+                          flush=True)
             broken += claimed
             ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
             print(f"{place.name}: {ends}; {claimed} break a claim; farthest {farthest:.0f} mm", flush=True)

@@ -1,9 +1,9 @@
 """Two commands without an option, from files as scanners have them to a wire at its target, judged by the truth.
 
 ``python3 -m experiments.campaigns.patient_campaign --out DIR [--only WORD] [FILE ...]`` writes twenty vessels
-(`patient_files`), takes other FILEs as well, and calls ``anatomy FILE`` and ``steer scene.json`` for each, in a folder of
-its own. Where ``anatomy`` asks for the unit it is given. Each line of its table says what came of one file: right in its
-axes, its unit and its place, and whether the wire is at the target.
+(`patient_files`), takes other FILEs as well, and calls ``anatomy FILE`` and ``steer scene.json`` for each, in a folder
+of its own. Where ``anatomy`` asks for the unit it is given. Each line of its table says what came of one file: right in
+its axes, its unit and its place, and whether the wire is at the target.
 """
 
 from __future__ import annotations
@@ -33,8 +33,8 @@ _INSIDE = 1.0  # of an end's radius: nothing of the truth nearer to it is looked
 
 @dataclass(frozen=True)
 class Row:
-    """Of one file: what is wrong with it, one phrase each; whether its unit was asked for; the refusal in one line; whether
-    the wire came to the target; failed attempts; seconds."""
+    """Of one file: what is wrong with it, one phrase each; whether its unit was asked for; the refusal in one line;
+    whether the wire came to the target; failed attempts; seconds."""
 
     name: str
     wrong: list[str]
@@ -122,7 +122,8 @@ def _false_success(vessel: Path, summary: dict) -> list[str]:
 
 
 def _call(words: list[str], folder: Path) -> subprocess.CompletedProcess:
-    return subprocess.run([sys.executable, str(ROOT / "guidewire.py"), *words], cwd=folder, capture_output=True, text=True)
+    return subprocess.run([sys.executable, str(ROOT / "guidewire.py"), *words], cwd=folder, capture_output=True,
+                          text=True)
 
 
 def _last(text: str) -> str:

@@ -42,7 +42,8 @@ def _lines(kind: str, number: int, seed: int) -> list[np.ndarray]:
     return [np.column_stack([tube.points, tube.radii]) for tube in tubes_of(kind, number, seed)[0]]
 
 
-def _mesh(kind: str, number: int, seed: int, is_closed: bool = False, scale: float = 1.0, stenosis: float | None = None):
+def _mesh(kind: str, number: int, seed: int, is_closed: bool = False, scale: float = 1.0,
+          stenosis: float | None = None):
     def made(file: Path) -> Patient:
         mesh, _, _ = make(kind, number, seed, stenosis, None)
         mesh = mesh.turned()
@@ -64,9 +65,10 @@ def _write_mesh(file: Path, mesh: Mesh) -> None:
         file.write_text("".join(f"v {x:.6g} {y:.6g} {z:.6g}\n" for x, y, z in mesh.vertices)
                         + "".join(f"f {a}// {b}// {c}//\n" for a, b, c in mesh.triangles + 1))
     else:
-        file.write_text(f"ply\nformat ascii 1.0\nelement vertex {len(mesh.vertices)}\nproperty float x\nproperty float y\n"
-                        f"property float z\nelement face {len(mesh.triangles)}\nproperty list uchar int vertex_indices\n"
-                        "end_header\n" + "".join(f"{x:.6g} {y:.6g} {z:.6g}\n" for x, y, z in mesh.vertices)
+        file.write_text(f"ply\nformat ascii 1.0\nelement vertex {len(mesh.vertices)}\nproperty float x\nproperty "
+                        f"float y\nproperty float z\nelement face {len(mesh.triangles)}\nproperty list uchar int "
+                        "vertex_indices\nend_header\n" + "".join(f"{x:.6g} {y:.6g} {z:.6g}\n" for x, y,
+                                                                 z in mesh.vertices)
                         + "".join(f"3 {a} {b} {c}\n" for a, b, c in mesh.triangles))
 
 
@@ -85,7 +87,8 @@ def _voxels(lines: list[np.ndarray], side: float) -> tuple[np.ndarray, np.ndarra
         first = np.floor((point - radius - low) / side).astype(int)
         last = np.ceil((point + radius - low) / side).astype(int) + 1
         box = tuple(slice(a, b) for a, b in zip(first, last))
-        grid = np.stack(np.meshgrid(*(low[k] + side * np.arange(first[k], last[k]) for k in range(3)), indexing="ij"), -1)
+        grid = np.stack(np.meshgrid(*(low[k] + side * np.arange(first[k], last[k]) for k in range(3)), indexing="ij"),
+                        -1)
         inside[box] |= ((grid - point) ** 2).sum(axis=-1) < radius * radius
     return inside, low
 
@@ -120,9 +123,9 @@ def _write_nrrd(file: Path, values: np.ndarray, steps: np.ndarray, origin: np.nd
         signs = np.array([LPS[letter] for letter in letters])
     def text(vector: np.ndarray) -> str:
         return "(" + ",".join(f"{number:.6g}" for number in vector * signs) + ")"
-    head = (f"NRRD0004\ntype: short\ndimension: 3\nsizes: {' '.join(map(str, values.shape))}\nencoding: gzip\nendian: big\n"
-            f"space: {words.get(letters, 'left-posterior-superior')}\nspace directions: {' '.join(map(text, steps))}\n"
-            f"space origin: {text(origin)}\n\n")
+    head = (f"NRRD0004\ntype: short\ndimension: 3\nsizes: {' '.join(map(str, values.shape))}\nencoding: "
+            f"gzip\nendian: big\nspace: {words.get(letters, 'left-posterior-superior')}\nspace directions: "
+            f"{' '.join(map(text, steps))}\nspace origin: {text(origin)}\n\n")
     file.write_bytes(head.encode() + gzip.compress(values.astype(">i2").ravel(order="F").tobytes()))
 
 
@@ -160,7 +163,8 @@ def _tree(file: Path) -> Patient:
         '<?xml version="1.0"?>\n<VTKFile type="PolyData" version="0.1" byte_order="LittleEndian"><PolyData>'
         f'<Piece NumberOfPoints="{len(every)}" NumberOfVerts="0" NumberOfLines="{len(paths)}" NumberOfStrips="0" '
         'NumberOfPolys="0"><PointData><DataArray type="Float64" Name="MaximumInscribedSphereRadius" format="ascii">'
-        + " ".join(f"{radius:.6g}" for radius in every[:, 3]) + '</DataArray></PointData><Points><DataArray type="Float64" '
+        + " ".join(f"{radius:.6g}" for radius in every[:, 3]) + '</DataArray></PointData><Points><DataArray '
+                                                                'type="Float64" '
         'NumberOfComponents="3" format="ascii">' + " ".join(f"{number:.6g}" for number in every[:, :3].ravel())
         + '</DataArray></Points><Lines><DataArray type="Int64" Name="connectivity" format="ascii">'
         + " ".join(map(str, range(len(every)))) + '</DataArray><DataArray type="Int64" Name="offsets" format="ascii">'
@@ -185,7 +189,8 @@ def _struts(inside: np.ndarray) -> None:
         inside[:, :, k] = core
 
 
-_RING = [([0, 0, 10], [s * 9, 0, 19], 1.8) for s in (1, -1)] + [([s * 9, 0, 19], [s * 9, 0, 29], 1.8) for s in (1, -1)] + [
+_RING = [([0, 0, 10], [s * 9, 0, 19], 1.8) for s in (1, -1)] + [([s * 9, 0, 19], [s * 9, 0, 29], 1.8)
+                                                                for s in (1, -1)] + [
     ([s * 9, 0, 29], [0, 0, 38], 1.8) for s in (1, -1)]
 _PATIENTS: dict[str, Callable[[Path], Patient]] = {
     "arch-1.stl": _mesh("arch", 1, 21),

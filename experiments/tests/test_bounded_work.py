@@ -21,7 +21,8 @@ def test_a_wire_that_coils_up_under_a_steady_push_ends_and_says_why(live, tmp_pa
     changes = {"insertionSpeed": 0, "driveFile": str(table), "maxSimulationSteps": 1200}
     answer = live.run(Request("jam", ROOT / "params" / "sheath.json", tmp_path / "run", changes), 3000.0)
     assert answer.exit_code == 5 and answer.outcome == "failed", answer.message
-    said = re.search(r"steps that were halved took more Newton iterations than a run may .*; the hub pushes with (\S+) N; "
+    said = re.search(r"steps that were halved took more Newton iterations than a run may .*; the hub pushes with "
+                     r"(\S+) N; "
                      r"the largest of \d+ contact forces is", answer.message)
     assert said, answer.message
     assert float(said[1]) < 10.0

@@ -1,4 +1,5 @@
-"""Whole patients by two commands, and a wire in a catheter at random: a fraction of both campaigns, and their judges."""
+"""Whole patients by two commands, and a wire in a catheter at random: a fraction of both campaigns, and their
+judges."""
 
 import json
 import os

@@ -27,7 +27,8 @@ _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest pa
 _AT_RIM = 3.0  # radii of a rim
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
 _ROUNDS = 3
-_AT_CUT = 3.0  # radii of the lumen, from where the two ways of a loop meet: the tree's end there is no end of the vessel
+# radii of the lumen, from where the two ways of a loop meet: the tree's end there is no end of the vessel
+_AT_CUT = 3.0
 _SAC = 4.0  # widest radii from the tip of a sac, within which its neck is
 _NECK = 0.75  # of a sac's widest radius, that its neck has at most
 
@@ -35,8 +36,8 @@ _NECK = 0.75  # of a sac's widest radius, that its neck has at most
 @dataclass(frozen=True)
 class End:
     """An end of the centreline: number and name as users give them; centre (3,); radius; direction (3,), into the
-    lumen; is_open : whether it is a rim; point : index of the centreline's point there; is_sac : whether it is the dome of
-    a sac with a neck, such as an aneurysm: no wire enters there."""
+    lumen; is_open : whether it is a rim; point : index of the centreline's point there; is_sac : whether it is the dome
+    of a sac with a neck, such as an aneurysm: no wire enters there."""
 
     number: int
     name: str
@@ -51,8 +52,8 @@ class End:
 @dataclass(frozen=True)
 class Centreline:
     """A tree of k points: points (k, 3), radii (k,) of the inscribed spheres, parents (k,), -1 at the root and else
-    smaller than the point's own index; branches (k,), from 1; ends, the widest first and sacs last; loops, where ways meet
-    that the tree does not join."""
+    smaller than the point's own index; branches (k,), from 1; ends, the widest first and sacs last; loops, where ways
+    meet that the tree does not join."""
 
     points: np.ndarray
     radii: np.ndarray
@@ -193,7 +194,8 @@ class _Builder:
         ends.sort(key=lambda end: (end.is_sac, -end.radius))
         named = [replace(end, number=number, name=end.name or f"end {number}") for number, end in enumerate(ends, 1)]
         radii = np.array([self._open.distance(point) for point in self._points])
-        return Centreline(np.array(self._points), radii, np.array(self._parents), np.array(self._branches), tuple(named),
+        return Centreline(np.array(self._points), radii, np.array(self._parents), np.array(self._branches),
+                          tuple(named),
                           tuple(loops))
 
     def _is_cut(self, tip: int, loops: list[Loop]) -> bool:
@@ -245,8 +247,8 @@ class _Builder:
         return any(np.linalg.norm(tip - rim.centre) < _AT_RIM * rim.radius for rim in self._rims if rim is not None)
 
     def _apart(self, chains: list[list[int]], is_cut: list[bool]) -> list[int]:
-        """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before, nor cut off
-        at the wall near a rim."""
+        """Which paths to keep: rims, the root's, and of blind ends those that are not near the paths before, nor cut
+        off at the wall near a rim."""
         graph, kept = self._graph, []
         typical = float(np.median(graph.radii[np.concatenate(chains)]))
         for k, chain in enumerate(chains):

@@ -60,8 +60,8 @@ def _without_lid(made: Mesh, closed: Mesh, count: int) -> Mesh:
 
 
 def displacement(before: Mesh, after: Mesh, places: np.ndarray | None = None, reach: float = np.inf) -> float:
-    """The largest distance of the new wall from the old one, and of the old one where it is outside of the new one; both
-    closed. With places (k, 3), within a distance of them."""
+    """The largest distance of the new wall from the old one, and of the old one where it is outside of the new one;
+    both closed. With places (k, 3), within a distance of them."""
     from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
 
     def sample(points: np.ndarray) -> np.ndarray:

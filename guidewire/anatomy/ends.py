@@ -24,7 +24,8 @@ def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces
     """The vessel without its caps, and without the last radius of other branches that end closed.
 
     numbers : of the ends to open, as a report without opened ones has them; None: all but domes of sacs.
-    faces : of the wall, where its file numbers them: a face over an end is its cap; else a flat one with a sharp rim is.
+    faces : of the wall, where its file numbers them: a face over an end is its cap; else a flat one with a sharp rim
+        is.
 
     Raises
     ------

@@ -13,7 +13,8 @@ from guidewire.anatomy.intersections import self_intersections
 from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, find_bodies, find_rims, signed_volume
 
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-# What vessels and their files have: a range within which a size says nothing, and the deviation of its logarithm beyond.
+# What vessels and their files have: a range within which a size says nothing, and the deviation of its logarithm
+# beyond.
 _RADIUS, _SIDE = (0.6e-3, 14e-3), (15e-3, 0.7)  # m, of the lumen, and of the largest side
 _BEYOND = 0.25
 _EDGE, _EDGE_SPREAD = 0.7e-3, 1.2  # m, of the median edge, which comes from voxels of some tenths of a mm to one
@@ -191,8 +192,8 @@ def sort_rims(mesh: Mesh, rims: list[Rim]) -> list[Rim]:
 
 
 def find_unit(mesh: Mesh, known: str | None = None, said_by: str = "as given") -> Unit:
-    """The unit of a file's numbers: the one that is known, or else the most likely one, from the radii, lengths and edges
-    that vessels and their files have. Where it is not certain, the reason asks for it."""
+    """The unit of a file's numbers: the one that is known, or else the most likely one, from the radii, lengths and
+    edges that vessels and their files have. Where it is not certain, the reason asks for it."""
     radius, side = typical_radius(mesh), float(np.ptp(mesh.vertices, axis=0).max())
     if known:
         return Unit(known, f"{said_by}; {_sizes(known, radius, side)}", True)

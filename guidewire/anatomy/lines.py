@@ -222,8 +222,8 @@ def _is_number(word: str) -> bool:
 
 
 def _columns(file: Path, headings: list[str]) -> tuple[list[int], float, Axes, str]:
-    """Where x, y, z and the radius stand, the factor that makes a radius of it, and the axes and the unit that the headings
-    name."""
+    """Where x, y, z and the radius stand, the factor that makes a radius of it, and the axes and the unit that the
+    headings name."""
     parted = [re.fullmatch(r"(.*?)(?:[ _(\[]+(mm|cm|m)[)\]]?)?", word.strip()) for word in headings]
     names = ["".join(found[1].lower().split()) for found in parted]
     places = dict(_PLACES)
@@ -235,8 +235,8 @@ def _columns(file: Path, headings: list[str]) -> tuple[list[int], float, Axes, s
         if name in places:
             axis, letter = places[name]
             if axis in found:
-                raise AnatomyError(f"{file}: the headings '{headings[found[axis][0]]}' and '{headings[k]}' are the same "
-                                   "coordinate")
+                raise AnatomyError(f"{file}: the headings '{headings[found[axis][0]]}' and '{headings[k]}' are "
+                                   "the same coordinate")
             found[axis] = (k, letter)
         elif name in _RADII and radius is None:
             radius = (k, _RADII[name])
@@ -246,8 +246,8 @@ def _columns(file: Path, headings: list[str]) -> tuple[list[int], float, Axes, s
                            f"headings {_KNOWN}")
     letters = "".join(found[axis][1] for axis in sorted(found))
     if len(letters) not in (0, 3):
-        raise AnatomyError(f"{file}: the headings '{', '.join(headings)[:80]}' name axes of the patient and others: known "
-                           f"are {_KNOWN}")
+        raise AnatomyError(f"{file}: the headings '{', '.join(headings)[:80]}' name axes of the patient and "
+                           f"others: known are {_KNOWN}")
     own = [found[0][0], found[1][0], found[2][0], radius[0]]
     units = {parted[k][2] or "" for k in own} - {""}
     if len(units) > 1:

@@ -1,8 +1,8 @@
 """Loops of a lumen: where two of its ways meet again, so that the tree of its centreline is cut there.
 
-A closed surface of v vertices, e edges and f triangles encloses (2 - v + e - f)/2 loops. Each vertex of the wall belongs
-to the inscribed sphere of the centreline with the least power. Where neighbouring vertices belong to spheres that are far
-from each other along the tree, two ways through the vessel meet.
+A closed surface of v vertices, e edges and f triangles encloses (2 - v + e - f)/2 loops. Each vertex of the wall
+belongs to the inscribed sphere of the centreline with the least power. Where neighbouring vertices belong to spheres
+that are far from each other along the tree, two ways through the vessel meet.
 """
 
 from __future__ import annotations

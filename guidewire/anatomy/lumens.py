@@ -1,10 +1,10 @@
-"""The vessels of the scenes, as triangle meshes: an arch with one branch behind a straight sheath, and an artery of 4 mm
-that bends and forks.
+"""The vessels of the scenes, as triangle meshes: an arch with one branch behind a straight sheath, and an artery of 4
+mm that bends and forks.
 
 A lumen is the union of spheres that run along two centrelines with a radius from a table. Its wall is cut out of a grid
 by surface nets (Gibson 1998): one vertex in every cell that the wall passes, moved onto the wall, one quad across every
-edge of the grid that the wall cuts. The grid ends at the entrance, so the wall is open there and closed everywhere else.
-``python3 -m guidewire.anatomy.lumens`` writes ``params/meshes`` anew, the same to the last digit.
+edge of the grid that the wall cuts. The grid ends at the entrance, so the wall is open there and closed everywhere
+else. ``python3 -m guidewire.anatomy.lumens`` writes ``params/meshes`` anew, the same to the last digit.
 """
 
 from collections.abc import Callable

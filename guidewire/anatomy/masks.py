@@ -110,8 +110,9 @@ def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray,
             added += not inside[tuple(place)]
             inside[tuple(place)] = True
         small = min(one, other, key=lambda part: sizes[part])
-        lines.append(f"a part of {sizes[small]} voxels touches the rest at an edge or a corner of voxels only: joined by "
-                     f"{added} voxel{'s' if added > 1 else ''} at {_listed((to_space @ np.r_[places[at], 1.0])[:3])}")
+        lines.append(f"a part of {sizes[small]} voxels touches the rest at an edge or a corner of voxels only: "
+                     f"joined by {added} voxel{'s' if added > 1 else ''} at "
+                     f"{_listed((to_space @ np.r_[places[at], 1.0])[:3])}")
     return inside, lines if len(lines) <= _LISTED else [
         *lines[:_LISTED], f"{len(lines) - _LISTED} further parts were joined so"]
 

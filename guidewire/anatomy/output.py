@@ -119,7 +119,8 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
 
     diameter : of the wire, mm.
     axes : of the vessel's file.
-    instrument, catheter : names of those that there are, in place of a wire of that diameter, and over it. The catheter's
+    instrument, catheter : names of those that there are, in place of a wire of that diameter, and over it. The
+    catheter's
         tip begins 30 mm behind the wire's.
     """
     path = line.path(inlet.point, target.point)

@@ -48,7 +48,8 @@ def patched(mesh: Mesh, made: Mesh, places: np.ndarray, reach: float, step: floa
     nearest = away.argmin(axis=1)
     if len(set(nearest)) < len(rings):
         return None
-    bands = [_band(kept.vertices, ring, piece.vertices, others[k], len(kept.vertices)) for ring, k in zip(rings, nearest)]
+    bands = [_band(kept.vertices, ring, piece.vertices, others[k], len(kept.vertices)) for ring,
+             k in zip(rings, nearest)]
     return Mesh(np.concatenate([kept.vertices, piece.vertices]),
                 np.concatenate([kept.triangles, piece.triangles + len(kept.vertices), *bands]))
 
@@ -83,7 +84,8 @@ def _rings(mesh: Mesh) -> list[np.ndarray]:
 
 
 def _band(places: np.ndarray, ring: np.ndarray, others: np.ndarray, other: np.ndarray, count: int) -> np.ndarray:
-    """Triangles between two rings, whose cross edges have the least sum of squares; numbers of the second from `count` on."""
+    """Triangles between two rings, whose cross edges have the least sum of squares; numbers of the second from `count`
+    on."""
     a, b = places[ring], others[other]
     start = int(np.argmin(np.linalg.norm(b - a[0], axis=1)))
     b, other = np.roll(b, -start, axis=0), np.roll(other, -start)

@@ -47,8 +47,8 @@ class Axes:
     def describe(self) -> str:
         """One line of a report."""
         if not self.letters:
-            return ("axes of the patient: unknown, those of the file are kept; --axes says how they lie, and a C-arm has "
-                    "LAO and RAO then")
+            return ("axes of the patient: unknown, those of the file are kept; --axes says how they lie, and a "
+                    "C-arm has LAO and RAO then")
         return "axes of the patient: LPS" + (", as in the file" if self.letters == "LPS" else
                                              f"; those of the file are {self.letters}")
 

@@ -1,7 +1,8 @@
 """Triangles of STL and OBJ files, by the same rules as the runner's readers.
 
 STL: binary where its length agrees with its count, with up to 49 bytes behind the last triangle; else text, in small
-letters or capitals. OBJ: "v x y z" and "f i j k ..", corners as "i", "i/", "i//", "i/j", "i//k" or "i/j/k", numbers from
+letters or capitals. OBJ: "v x y z" and "f i j k ..", corners as "i", "i/", "i//", "i/j", "i//k" or "i/j/k", numbers
+from
 1 or, negative, from the end; a polygon becomes a fan; a backslash continues a line.
 """
 
@@ -18,7 +19,8 @@ from guidewire.anatomy.mesh import AnatomyError, Mesh
 _HEADER, _RECORD = 84, 50
 _STL_WORDS = frozenset(b"solid facet outer endloop endfacet endsolid end".split())
 _OBJ_WORDS = frozenset(
-    b"vt vn vp g o s l p mg mtllib usemtl maplib usemap cstype deg bmat step curv curv2 surf parm trim hole scrv sp end "
+    b"vt vn vp g o s l p mg mtllib usemtl maplib usemap cstype deg bmat step curv curv2 surf parm trim hole scrv "
+    b"sp end "
     b"con bevel c_interp d_interp lod shadow_obj trace_obj ctech stech call csh".split())
 _MARK = b"\xef\xbb\xbf"  # of a text in UTF-8
 

@@ -59,7 +59,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     run.set_defaults(packages=())
 
     sweep = commands.add_parser("sweep", help="the runs of a study; completed runs are not repeated")
-    sweep.add_argument("study", metavar="STUDY", help=f"{_studies() if 'sweep' in argv else ''}; or a study of your own, a JSON file")
+    sweep.add_argument("study", metavar="STUDY", help=f"{_studies() if 'sweep' in argv else ''}; or a study of your "
+                                                      "own, a JSON file")
     sweep.add_argument("--out", type=path, default=Path("results"), help="parent of the study's folder (results)")
     sweep.add_argument("--logs", action="store_true", help="write the log of every run, whatever the study's file says")
     sweep.add_argument("--yes", action="store_true", help="make the runs even if there are more than 100,000")
@@ -123,7 +124,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     fluoroscopy.add_argument("--field", type=above_zero, metavar="MM", help="side of the picture (the whole vessel)")
     fluoroscopy.add_argument("--vessel", choices=("roadmap", "contrast", "none"), help="how the vessel is shown "
                                                                                        "(roadmap)")
-    fluoroscopy.add_argument("--inject", type=finite, nargs=3, metavar=("S", "ML", "ML/S"), help="contrast agent where the "
+    fluoroscopy.add_argument("--inject", type=finite, nargs=3, metavar=("S", "ML", "ML/S"),
+                             help="contrast agent where the "
                              "blood comes in, from a time on; the vessel needs a centreline (vessel.anatomy)")
     fluoroscopy.add_argument("--subtract", action="store_true", help="what has changed since the first picture")
     fluoroscopy.add_argument("--road-map", action="store_true", help="of the injection, when half of it is gone")
@@ -293,7 +295,8 @@ def _studies() -> str:
 
 def _with_all_ends(argv: list[str]) -> list[str]:
     """Words in which --open of 'anatomy' without numbers says "all", so that the word behind it may be a file."""
-    return ["--open=all" if argv[0] == "anatomy" and word == "--open" and not is_list_of_ends("".join(argv[k + 1:k + 2]))
+    return ["--open=all" if argv[0] == "anatomy" and word == "--open"
+            and not is_list_of_ends("".join(argv[k + 1:k + 2]))
             else word for k, word in enumerate(argv)]
 
 

@@ -70,7 +70,8 @@ def _return_of(job: tuple[str | Task, np.ndarray, list[int]]) -> float:
     return float(np.mean([play(_environment, Linear(parameters), seed).total for seed in seeds]))
 
 
-def learn(task: str | Task = "artery", seconds: float = 600.0, workers: int = 1, generations: int = 1000, seed: int = SEED,
+def learn(task: str | Task = "artery", seconds: float = 600.0, workers: int = 1, generations: int = 1000,
+          seed: int = SEED,
           pairs: int = PAIRS, episodes: int = EPISODES) -> tuple[np.ndarray, list[list[float]]]:
     """Parameters and the curve: of each generation seconds, mean and best of its returns.
 

@@ -97,7 +97,8 @@ class Identified:
         return next(one for one in self.values if one.key == key)
 
 
-def identify(scene: str | Path | Mapping[str, Any], measured: Sequence[str | Path] | str | Path, fit: Sequence[str] | str,
+def identify(scene: str | Path | Mapping[str, Any], measured: Sequence[str | Path] | str | Path,
+             fit: Sequence[str] | str,
              align: str = "none", cameras: Mapping[str, Any] | None = None,
              bounds: Mapping[str, tuple[float, float]] | None = None, settings: Mapping[str, Any] | None = None,
              jobs: int | None = None, tell: Callable[[str], None] = lambda line: None) -> Identified:
@@ -159,7 +160,8 @@ class _Search:
         self._needs_hub = any(not one.shapes and not one.critical for one in self._measured)
         count = sum(one.count for one in self._measured)
         if count < len(self._unknowns):
-            raise PreparationError(f"{count} measured values for {len(self._unknowns)} unknowns: measure more or seek less")
+            raise PreparationError(f"{count} measured values for {len(self._unknowns)} unknowns: measure more or "
+                                   "seek less")
         for one in self._measured:
             _check_size(one, self._scene)
         self._weights = [_first_weight(one) for one in self._measured]
@@ -196,10 +198,10 @@ class _Search:
         return self._descend(at, low, high)
 
     def _other_side(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
-        """The better one of what was found and of a search from a standard error beyond its mirror image: a curvature of
-        either sign, with other stiffnesses, may make nearly the same shape, and each is the end of a search that begins
-        on its side. A search whose first step goes back across is given up. The worse one is kept where it cannot be
-        ruled out."""
+        """The better one of what was found and of a search from a standard error beyond its mirror image: a curvature
+        of either sign, with other stiffnesses, may make nearly the same shape, and each is the end of a search that
+        begins on its side. A search whose first step goes back across is given up. The worse one is kept where it
+        cannot be ruled out."""
         signed = np.array([not one.by_ratio for one in self._unknowns])
         variance = 2.0 * found.cost / self._free()
         error = np.sqrt(np.diag(_covariance(self._unknowns, found.jac, math.sqrt(variance))[0]))
@@ -263,7 +265,8 @@ class _Search:
                              xtol=_EXACT, ftol=_SETTLED, gtol=1e-12, max_nfev=60)
 
     def _residual(self, steps: np.ndarray) -> np.ndarray:
-        """Weighted residuals; of a run without a result those of the start, times a thousand: never taken for better."""
+        """Weighted residuals; of a run without a result those of the start, times a thousand: never taken for
+        better."""
         if self._last is not None and np.array_equal(self._last[0], steps):
             return self._last[1]
         parts = self._compared([steps])[0]
@@ -307,7 +310,8 @@ class _Search:
             if parts is None:
                 (parts,), sign = self._compared([steps - _STEP * np.eye(len(steps))[k]]), -1.0
             if parts is None:
-                raise PreparationError(f"{one.key}: no run on either side of {one.value(steps[k]):.6g}: {self._failed[-1]}")
+                raise PreparationError(f"{one.key}: no run on either side of {one.value(steps[k]):.6g}: "
+                                       f"{self._failed[-1]}")
             columns.append(sign * (self._weighted(parts) - base) / _STEP)
         return np.stack(columns, axis=1)
 
@@ -318,7 +322,8 @@ class _Search:
         """Every run's residuals, of each measurement; None where there is no result."""
         self._tried += len(many)
         if self._tried > MOST_TRIALS:
-            raise PreparationError(f"no end of the search after {MOST_TRIALS} sets of values: give bounds, or start nearer")
+            raise PreparationError(f"no end of the search after {MOST_TRIALS} sets of values: give bounds, or "
+                                   "start nearer")
         asked = [self._overrides(steps) for steps in many]
         folders = self._trials.run(asked)
         made = [self._compare(folder, values) for folder, values in zip(folders, asked)]
@@ -364,7 +369,8 @@ class _Search:
             others = " and ".join(f"{one.key} = {one.value(self._rival[k]):.4g} or {one.value(steps[k]):.4g}"
                                   for k, one in enumerate(self._unknowns) if apart[k])
             if others:
-                notes.append(f"{others}: two sets of values fit nearly equally well: this measurement does not tell which")
+                notes.append(f"{others}: two sets of values fit nearly equally well: this measurement does not "
+                             "tell which")
         for k, one in enumerate(self._unknowns):
             at_bound = not low[k] + 1e-6 < steps[k] < high[k] - 1e-6
             is_told = not is_complete or errors[k] < _USELESS and not apart[k]
@@ -380,8 +386,9 @@ class _Search:
                                 one.value(last) if reach < 500.0 else math.inf, at_bound))
         for file, part in zip(self._measured, parts):
             if part.correlation > 0.5 and len(part.offsets) > 4:
-                notes.append(f"{file.file.name}: neighbouring residuals agree (correlation {part.correlation:.2f}): something "
-                             "systematic is left, of the model or of the frame, which the standard errors do not count")
+                notes.append(f"{file.file.name}: neighbouring residuals agree (correlation {part.correlation:.2f}): "
+                             "something systematic is left, of the model or of the frame, which the standard errors "
+                             "do not count")
         with np.errstate(invalid="ignore"):
             correlation = covariance / np.outer(errors, errors)
         told = {one.key: one.value(step) for one, step in zip(self._unknowns, steps)}
@@ -391,8 +398,8 @@ class _Search:
 
 
 def _covariance(unknowns: Sequence[Unknown], jacobian: np.ndarray, deviation: float) -> tuple[np.ndarray, list[str]]:
-    """Covariance of the steps, and sentences on directions in which a change by a scale moves the residuals by less than
-    their standard deviation. What takes part in a direction that is not seen at all has an infinite variance."""
+    """Covariance of the steps, and sentences on directions in which a change by a scale moves the residuals by less
+    than their standard deviation. What takes part in a direction that is not seen at all has an infinite variance."""
     count = len(unknowns)
     covariance, notes, hidden = np.zeros((count, count)), [], np.zeros(count, bool)
     _, sizes, rows = np.linalg.svd(jacobian, full_matrices=False)
@@ -433,7 +440,8 @@ def _check_size(measured: Measurement, scene: Mapping[str, Any]) -> None:
     every = np.concatenate([shape.points for shape in measured.shapes])
     size = float(np.linalg.norm(np.ptp(every, axis=0)))
     if not _TOO_SHORT * length < size < _TOO_LONG * length:
-        raise PreparationError(f"{measured.file}: its points span {size:g} units, the wire is {length:g} long: state their "
+        raise PreparationError(f"{measured.file}: its points span {size:g} units, the wire is {length:g} long: "
+                               "state their "
                                   "unit, such as x_mm, or the scene's metresPerUnit")
     if any(len(shape.points) < 3 for shape in measured.shapes):
         raise PreparationError(f"{measured.file}: a shape of fewer than 3 points")

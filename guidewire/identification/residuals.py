@@ -30,7 +30,8 @@ class Residuals:
     ----------
     offsets : (k, d), from the run to each measured point, or value; in the unit of the measurement.
     blocks : first index of each shape, whose points follow one another along the wire.
-    independent : how many of the numbers the curve cannot follow: d - 1 a point, 1 a value; less those of the alignment.
+    independent : how many of the numbers the curve cannot follow: d - 1 a point, 1 a value; less those of the
+        alignment.
     points, curves : of shapes, the measured points after alignment, and the computed curve they are compared with.
     """
 
@@ -47,7 +48,8 @@ class Residuals:
 
     @property
     def correlation(self) -> float:
-        """Of neighbouring offsets along the wire: 0 for independent errors, near 1 where something systematic is left."""
+        """Of neighbouring offsets along the wire: 0 for independent errors, near 1 where something systematic is
+        left."""
         inner = np.ones(len(self.offsets) - 1, bool)
         inner[[k - 1 for k in self.blocks if k > 0]] = False
         along = np.sum(self.offsets[1:] * self.offsets[:-1], axis=1)[inner]
@@ -83,7 +85,8 @@ def _of_hub(folder: Path, measured: Measurement) -> Residuals:
         at, values = at[order], values[order]
     span = at[-1] - at[0]
     if np.any(measured.over < at[0] - 1e-6 * span) or np.any(measured.over > at[-1] + 1e-6 * span):
-        raise PreparationError(f"{measured.file}: {over} from {np.min(measured.over):g} to {np.max(measured.over):g}, the "
+        raise PreparationError(f"{measured.file}: {over} from {np.min(measured.over):g} to "
+                               f"{np.max(measured.over):g}, the "
                                   f"run's is from {at[0]:g} to {at[-1]:g}")
     errors = measured.values - np.interp(measured.over, at, values)
     return Residuals(errors[:, None], (0,), len(errors))
@@ -110,7 +113,8 @@ def _curve(log: PositionLog, shape: Shape, measured: Measurement, cameras: Camer
     if not shape.view and measured.axes:
         return line[:, measured.axes]
     if shape.view not in cameras:
-        raise PreparationError(f"{measured.file}: view \"{shape.view}\" has no camera matrix: give --camera FILE.json with "
+        raise PreparationError(f"{measured.file}: view \"{shape.view}\" has no camera matrix: give --camera "
+                               "FILE.json with "
                                   f"{{\"{shape.view}\": [[12 numbers in 3 rows]]}}")
     return project(cameras[shape.view], line)
 

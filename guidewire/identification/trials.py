@@ -33,7 +33,8 @@ class Trials:
     made : how many runs were made.
     """
 
-    def __init__(self, command: Sequence[str], scene: Path | None, fixed: Mapping[str, Any], jobs: int | None = None) -> None:
+    def __init__(self, command: Sequence[str], scene: Path | None, fixed: Mapping[str, Any],
+                 jobs: int | None = None) -> None:
         self.made = 0
         self._scene, self._fixed = scene and scene.resolve(), {**fixed, **_AS_RUN}
         count = jobs or os.cpu_count() or 1

@@ -143,7 +143,8 @@ def _value_at(scene: Mapping[str, Any], name: str) -> Any:
 
 
 def placed(parameters: Mapping[str, Any]) -> dict[str, Any]:
-    """Parameters with each part, such as "vessel.radius" or "wireSections[0].from", inside the key that it belongs to."""
+    """Parameters with each part, such as "vessel.radius" or "wireSections[0].from", inside the key that it belongs
+    to."""
     made = json.loads(json.dumps({key: value for key, value in parameters.items() if _PART.fullmatch(key)}))
     for name, value in parameters.items():
         *above, last = _PART.findall(name)

@@ -18,8 +18,8 @@ def through_tips(nodes: np.ndarray, catheters: Sequence[np.ndarray], lengths: np
                  ) -> tuple[np.ndarray, np.ndarray]:
     """A wire's nodes, and the catheters' tips that it comes out of; and the element that each piece between is of.
 
-    The chord of an element that comes out of a tip cuts the corner there. The two pieces by the tip are together as long
-    as the element, or shorter where the catheter is bent behind its tip.
+    The chord of an element that comes out of a tip cuts the corner there. The two pieces by the tip are together as
+    long as the element, or shorter where the catheter is bent behind its tip.
 
     Parameters
     ----------

@@ -78,8 +78,8 @@ def end_compiler() -> None:
 
 
 def build_native(tell: Callable[[str], None]) -> Path:
-    """Build the native library and the runner that starts it if need be, with the C compiler's linker; `tell` and errors
-    as of `build`."""
+    """Build the native library and the runner that starts it if need be, with the C compiler's linker; `tell` and
+    errors as of `build`."""
     if shutil.which("gcc") is None and shutil.which("clang") is None:
         raise PreparationError("the native library needs a linker: install gcc and zlib1g-dev")
     _bring_up_to_date(*dotnet(), HEADLESS / NATIVE / f"{NATIVE}.csproj", (NATIVE,), tell, "publish")
@@ -93,7 +93,8 @@ def build_native(tell: Callable[[str], None]) -> Path:
 
 def link_runner(runner: Path) -> None:
     """Compile the program that hands its arguments to the native library beside it."""
-    done = subprocess.run([shutil.which("gcc") or "clang", "-O2", "-Wall", "-Wextra", "-Werror", "-s", "-o", str(runner),
+    done = subprocess.run([shutil.which("gcc") or "clang", "-O2", "-Wall", "-Wextra", "-Werror", "-s", "-o",
+                           str(runner),
                            str(HEADLESS / NATIVE / "runner.c"), "-ldl"], capture_output=True, text=True, check=False)
     if done.returncode != 0:
         raise PreparationError(f"the native runner is not built: {(done.stderr.splitlines() or ['no message'])[0]}")

@@ -107,7 +107,8 @@ class Session:
                 state = self._state or self._newest() or self._unread()
         return state
 
-    def step(self, push: float | Sequence[float] = 0.0, turn: float | Sequence[float] = 0.0, steps: int = 1, hub: int = 0
+    def step(self, push: float | Sequence[float] = 0.0, turn: float | Sequence[float] = 0.0, steps: int = 1,
+             hub: int = 0
              ) -> State:
         """Go on by some steps of `timeStep`, fewer where the run ends before.
 
@@ -193,18 +194,18 @@ class Session:
     def describe(self) -> dict[str, Any]:
         """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
         "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
-        element "radii", "innerRadii" (units) and "attenuations" (1/unit), and of a material "tipLoad" and "shaftLoad" (N), at
-        which the last 10 mm and 50 mm of the shaft bow out; "cells" of the vessel's tree, through which contrast agent goes:
-        "middles" (x, y, z of each) and "radii" (units), None without a centreline; "target", the centreline from the inlet
-        to it: "name", "reach" (units before it from which on it is reached), "indices" (of the centreline's points in
-        anatomy.json), "points" (units), "radii", "distances"; None where the run has none; and "patient", unit vectors
-        to the patient's "left", "chest" and "head", None where they are unknown."""
+        element "radii", "innerRadii" (units) and "attenuations" (1/unit), and of a material "tipLoad" and "shaftLoad"
+        (N), at which the last 10 mm and 50 mm of the shaft bow out; "cells" of the vessel's tree, through which
+        contrast agent goes: "middles" (x, y, z of each) and "radii" (units), None without a centreline; "target", the
+        centreline from the inlet to it: "name", "reach" (units before it from which on it is reached), "indices" (of
+        the centreline's points in anatomy.json), "points" (units), "radii", "distances"; None where the run has none;
+        and "patient", unit vectors to the patient's "left", "chest" and "head", None where they are unknown."""
         answer = self._ask("describe")
         return {name: answer[name] for name in ("millimetresPerUnit", "instruments", "cells", "target", "patient")}
 
     def inject(self, amount: float, rate: float, hub: int | None = 0) -> Agent:
-        """Begin to inject contrast agent into the blood; an injection that goes on ends. Steps carry it on, and do not depend
-        on it; `reset` takes it away.
+        """Begin to inject contrast agent into the blood; an injection that goes on ends. Steps carry it on, and do not
+        depend on it; `reset` takes it away.
 
         Parameters
         ----------
@@ -225,9 +226,10 @@ class Session:
         Parameters
         ----------
         seconds : by which the blood goes on first, without a step.
-        flow : how blood flows, to begin anew with: inlet (ml/s; a mean velocity of 200 mm/s), dispersion (coefficient over
-            mean velocity and radius; 1), pulse (amplitude over mean flow; 0), pulseRate (1/s; 1). At forks it divides by
-            radii cubed.
+        flow : how blood flows, to begin anew with: inlet (ml/s; a mean velocity of 200 mm/s), dispersion (coefficient
+            over
+            mean velocity and radius; 1), pulse (amplitude over mean flow; 0), pulseRate (1/s; 1). At forks it divides
+            by radii cubed.
         """
         asked = {"flow": {name: _number(name, value) for name, value in flow.items()}} if flow else {}
         return Agent.of(self._ask("agent", seconds=_number("seconds", seconds), **asked))
@@ -261,8 +263,8 @@ class Session:
 
     def picture(self, **view: Any) -> np.ndarray:
         """A fluoroscopic picture of the wire as it is now: grey levels from 0 to 255, (pixels, pixels) of uint8, the
-        first row above. Rays are parallel, and turn about the patient as patientAxes says; where it is unknown, as if the
-        head was towards +z, the chest towards +x and the left side towards +y.
+        first row above. Rays are parallel, and turn about the patient as patientAxes says; where it is unknown, as if
+        the head was towards +z, the chest towards +x and the left side towards +y.
 
         Parameters
         ----------
@@ -270,7 +272,8 @@ class Session:
         lao, cranial : angles of the C-arm, degrees (0, 0); RAO and caudal are negative.
         centre : what is in the middle, units, and
         field_of_view : side of the picture, mm: so that the vessel is seen, or without one the wire.
-        vessel : "roadmap" (brighter than the background), "contrast" (darker), "none", or "injected": darker where there is
+        vessel : "roadmap" (brighter than the background), "contrast" (darker), "none", or "injected": darker where
+            there is
             agent of `inject`.
         contrast : attenuation coefficient of contrast agent, 1/mm (0.1: iodine of 130 mg/ml at 60 keV).
         attenuation : coefficient of the instruments, 1/mm; by their materials.
@@ -354,12 +357,12 @@ class Session:
         self.close()
 
     def __reduce__(self) -> NoReturn:
-        raise SessionError("a session cannot be pickled: it belongs to this process; send save() and the parameters, and "
-                           "open one there")
+        raise SessionError("a session cannot be pickled: it belongs to this process; send save() and the "
+                           "parameters, and open one there")
 
     def _leave(self, keeps: bool = False) -> None:
-        """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then; all of
-        it where the session `keeps` it, for other threads to see during long steps."""
+        """Before the run goes on: what somebody has of the newest state is read off, for it no longer can be then; all
+        of it where the session `keeps` it, for other threads to see during long steps."""
         if self._state is None or unread(self._state):
             newest = self.state if keeps else None
             self._state = None
@@ -458,7 +461,8 @@ def _numbers(name: str, value: Any, hub: int, hubs: int) -> list[float]:
     except TypeError:
         one_each = []
     if hub != 0 or len(one_each) != hubs:
-        raise SessionError(f"{name} = {value!r} is not allowed: needs a number, or a list of one for each of the {hubs} "
+        raise SessionError(f"{name} = {value!r} is not allowed: needs a number, or a list of one for each of the "
+                           f"{hubs} "
                            "hubs, with hub = 0")
     return [_number(name, one) for one in one_each]
 

@@ -65,8 +65,8 @@ class Hub:
 
 @dataclass(frozen=True)
 class LumenPlace:
-    """Where an instrument has come to in its vessel: the last point of it, seen from the hub, up to which it has not left
-    the lumen. Of a tip that left by an end that is a point near the end, wherever the tip goes outside.
+    """Where an instrument has come to in its vessel: the last point of it, seen from the hub, up to which it has not
+    left the lumen. Of a tip that left by an end that is a point near the end, wherever the tip goes outside.
 
     Attributes
     ----------
@@ -257,7 +257,8 @@ def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 def part_of(array: str) -> int:
     """Which part of a state an array of an answer belongs to."""
-    return INSTRUMENTS if array in ("hub", "lumen") or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
+    return INSTRUMENTS if array in ("hub",
+                                    "lumen") or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
 
 
 def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:

@@ -76,8 +76,8 @@ class Steered:
     def add(self, push: float, turn: float, steps: int, state: State, insertion: float | None = None) -> None:
         """Note a call that asked for so many steps with so much push (units) and turn (rad) in each.
 
-        With the hub's insertion after it (m), of one that may stop at another hub, the table goes no farther than that: a
-        file that asks for more is refused.
+        With the hub's insertion after it (m), of one that may stop at another hub, the table goes no farther than that:
+        a file that asks for more is refused.
         """
         if self.problem:
             return

@@ -11,7 +11,8 @@ from guidewire.runs.building import HEADLESS, dotnet
 
 CORE = ROOT / "Assets" / "Guidewire" / "Core"
 # From the bottom up; folders within these are part of them, but each method is a folder of its own.
-LAYERS = ("Numbers", "Warnings", "Geometry", "Contrast", "Imaging", "Parameters", "Rod", "Scene", "Contact", "Material", "Methods",
+LAYERS = ("Numbers", "Warnings", "Geometry", "Contrast", "Imaging", "Parameters", "Rod", "Scene", "Contact",
+          "Material", "Methods",
           "Methods/*", ".")
 _NOT_CODE = re.compile(r'//[^\n]*|/\*.*?\*/|"(?:\\.|[^"\\])*"', re.DOTALL)
 _TYPE = re.compile(r"^    (?:\w+ )*(?:class|struct|interface|enum|delegate \w+) (\w+)", re.MULTILINE)

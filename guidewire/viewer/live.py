@@ -31,7 +31,8 @@ from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.cases import title_of
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.recording import (
-    ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, name_walls, radius_of, read_off,
+    ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, name_walls, radius_of,
+    read_off,
     sheath_of, units_of,
 )
 
@@ -346,7 +347,8 @@ class LiveRun:
         state = session.state
         states = [state] if self._begun is None or self._begun.step == state.step else [self._begun, state]
         return Recording(
-            title_of(self._scenes[self._scene]), "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
+            title_of(self._scenes[self._scene]), "", self._warnings, facts_of(session.parameters, None),
+            radius_of(session.parameters),
             self._channels(session, *states), name_walls(session.parameters, self._walls), self._sheath,
             self._largest, self._described,
         )
@@ -382,7 +384,8 @@ class LiveRun:
     async def _show(self, mark: int, session: Session, state: State) -> None:
         channels = self._channels(session, state)
         self._largest = np.maximum(self._largest, largest_shown(channels))
-        frame = np.concatenate([[float(mark), float(self._opened)], self._largest, *(channel.values.ravel() for channel in channels)])
+        frame = np.concatenate([[float(mark), float(self._opened)], self._largest,
+                                *(channel.values.ravel() for channel in channels)])
         block = frame.astype("<f8").tobytes()
         for page in list(self._pages):
             if page.on_the_way < _MOST_IN_FLIGHT:

@@ -120,7 +120,8 @@ def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]]
     wire = json.loads((ROOT / "params" / "sheath.json").read_text(encoding="utf-8"))
     own = {key: value for key, value in wire.items() if key not in _PLACED}    # the wire of a mesh that is dropped
     show = {"isLive": True, "recordings": 0, "site": {
-        "rules": {**rules(choices), "titles": {scene.file: scene.title for scene in scenes}}, "scenes": listed, "wire": own}}
+        "rules": {**rules(choices), "titles": {scene.file: scene.title for scene in scenes}}, "scenes": listed,
+        "wire": own}}
     (folder / _SHOW).write_text(json.dumps(show), encoding="utf-8")
 
 

@@ -97,7 +97,8 @@ def test_a_line_apart_from_the_others_is_refused() -> None:
 
 def test_lines_from_one_place_have_their_inlet_there_and_fragments_have_none() -> None:
     trunk = np.column_stack([np.zeros(21), np.zeros(21), np.arange(21.0)])
-    arms = [np.column_stack([0.5 * s * np.arange(1.0, 21.0), np.zeros(20), 20.0 + np.arange(1.0, 21.0)]) for s in (1, -1)]
+    arms = [np.column_stack([0.5 * s * np.arange(1.0, 21.0), np.zeros(20), 20.0 + np.arange(1.0, 21.0)])
+            for s in (1, -1)]
     whole = [Line(np.concatenate([trunk, arm]), np.full(41, 2.0)) for arm in arms]
     np.testing.assert_array_equal(begin_of(whole), [0.0, 0.0, 0.0])
     assert begin_of([whole[0], Line(whole[1].points[::-1], whole[1].radii)]) is None

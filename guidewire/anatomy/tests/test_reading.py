@@ -100,7 +100,8 @@ FACES = "f 1 3 2\nf 1 2 4\nf 1 4 3\nf 2 3 4\n"
     ("slashes.obj", POINTS + "usemtl \n" + FACES.replace("f 1 3 2", "f 1// 3//7 2/5").replace("f 2 3 4", "f -3 -2 -1")),
     ("mark.obj", "\ufeff" + POINTS + FACES.replace("f 1 3 2", "f 1 3 \\\n2")),
     ("ends.obj", POINTS + "lod 3\nvn 0 0 1\n" + FACES.replace("\n", " # a comment\r\n")),
-    ("capitals.stl", SOLID.upper()), ("blank.stl", SOLID.replace("endsolid", "end solid").replace("endfacet", "end facet")),
+    ("capitals.stl", SOLID.upper()), ("blank.stl", SOLID.replace("endsolid",
+                                                                 "end solid").replace("endfacet", "end facet")),
 ])
 def test_a_tetrahedron_is_read_from_every_kind_of_text(tmp_path: Path, name: str, content: str) -> None:
     (tmp_path / name).write_bytes(content.encode())

@@ -88,7 +88,8 @@ def test_three_values_are_found_from_a_noisy_shape_as_often_as_the_interval_says
     inside = {1: [], 3: []}
     for case in range(CASES):
         true = {"bendingStiffness": 2e-4 * math.exp(random.uniform(-0.7, 0.7)),
-                "torsionalStiffness": 1.5e-4 * math.exp(random.uniform(-0.7, 0.7)), "restCurvature[0]": random.uniform(-3, 3)}
+                "torsionalStiffness": 1.5e-4 * math.exp(random.uniform(-0.7, 0.7)),
+                "restCurvature[0]": random.uniform(-3, 3)}
         noise = 10.0 ** random.uniform(-1.0, 0.3)    # units, mm
         points = spread(shape_of(run_of(hung(**true))), int(random.integers(25, 60)), random)
         file = write(tmp_path / f"{case}.csv", "x,y,z", points + random.normal(0.0, noise, points.shape))
@@ -160,7 +161,8 @@ def test_two_fluoroscopic_pictures_of_the_core_are_a_shape(tmp_path):
             a = math.radians(angle)
             axes = size / field * np.array([[-math.sin(a), math.cos(a), 0.0], [0.0, 0.0, -1.0]])
             cameras[name] = np.vstack([np.column_stack([axes, 0.5 * size - axes @ centre]), [0.0, 0.0, 0.0, 1.0]])
-            grey = session.picture(lao=angle, pixels=size, field_of_view=field, centre=centre, vessel="none").astype(float)
+            grey = session.picture(lao=angle, pixels=size, field_of_view=field, centre=centre,
+                                   vessel="none").astype(float)
             dark = np.max(grey) - grey
             for row in range(60, 440, 4):
                 if dark[row].sum() > 50.0:
@@ -178,7 +180,8 @@ def test_friction_is_found_from_the_force_of_the_hub(run_of, tmp_path):
              "guidewireOffset": -118.0, "proximalEnd": "clamped", "wireRadius": 0.0002, "youngsModulus": 50e9,
              "timeStep": 0.02, "maxSimulationSteps": 80, "deltaThreshold": 0.0, "insertionSpeed": 0.03, "drive": "push",
              "massDamping": 20.0, "integrator": "implicitEuler", "logHub": True,
-             "vessel": {"shape": "tube", "knots": [[0, 0, -130], [0, 0, 0], [0, 8, 20], [0, 24, 36], [0, 44, 44], [0, 80, 46]],
+             "vessel": {"shape": "tube", "knots": [[0, 0, -130], [0, 0, 0], [0, 8, 20], [0, 24, 36], [0, 44, 44],
+                                                   [0, 80, 46]],
                         "radius": 2.0, "openStart": True, "openEnd": True, "frictionCoefficient": 0.1}}
     true = {**scene, "vessel": {**scene["vessel"], "frictionCoefficient": 0.25}}
     log = read_hub(run_of(true))
@@ -227,14 +230,16 @@ GOOD = "x,y,z\n0,0,0\n0,10,100\n0,0,200\n"
 @pytest.mark.parametrize("text, fit, more, said", [
     ("x,y,z\n", "bendingStiffness", {}, "holds no line of numbers"),
     ("a,b\n1,2\n", "bendingStiffness", {}, "the first line is \"a,b\", must be time,force or"),
-    ("x_m,y_m,z_m\n0,0,0\n0,0,700\n0,0,1500\n", "bendingStiffness", {}, "its points span 1.5e+06 units, the wire is 300 long"),
+    ("x_m,y_m,z_m\n0,0,0\n0,0,700\n0,0,1500\n", "bendingStiffness", {}, "its points span 1.5e+06 units, the wire is "
+                                                                        "300 long"),
     ("x,y,z\n0,0,0\n0,10,100\n", "bendingStiffness", {}, "fewer than 3 points"),
     ("time,force\n0,1\n", ["bendingStiffness", "torsionalStiffness"], {}, "1 measured values for 2 unknowns"),
     (GOOD, "stiffness", {}, "stiffness: the scene has no such key or part"),
     (GOOD, "wireSections[3].from", {}, "the scene has no such key or part"),
     (GOOD, "solver", {}, "solver = \"direct\" in the scene: only a number can be sought"),
     (GOOD, "axialStiffness", {}, "axialStiffness = null in the scene"),
-    (GOOD, "bendingStiffness", {"bounds": {"bendingStiffness": (1e-3, 1e-2)}}, "lies outside its bounds 0.001 and 0.01"),
+    (GOOD, "bendingStiffness", {"bounds": {"bendingStiffness": (1e-3, 1e-2)}}, "lies outside its bounds 0.001 "
+                                                                               "and 0.01"),
     (GOOD, "bendingStiffness", {"bounds": {"bendingStiffness": (2.0, 1.0)}}, "2 is not below 1"),
     (GOOD, "bendingStiffness", {"bounds": {"density": (1.0, 2.0)}}, "that key is not sought"),
     (GOOD, "bendingStiffness", {"align": "loosely"}, "align = 'loosely' is not allowed"),
@@ -284,14 +289,16 @@ def test_an_interrupted_search_leaves_the_best_values_so_far(run_of, tmp_path):
     assert not found.is_complete and found["bendingStiffness"].value == pytest.approx(best, rel=1e-5)
     assert abs(best - 5e-4) < 0.8 * abs(2e-4 - 5e-4) and not math.isfinite(found["bendingStiffness"].error)
     nodes = shape_of(run_of(hung(bendingStiffness=found["bendingStiffness"].value)))
-    assert found.rms[0] == pytest.approx(np.sqrt(np.mean(np.sum(offsets(points, smooth(nodes))[0] ** 2, axis=1))), rel=1e-3)
+    assert found.rms[0] == pytest.approx(np.sqrt(np.mean(np.sum(offsets(points, smooth(nodes))[0] ** 2, axis=1))),
+                                         rel=1e-3)
 
 
 def test_ctrl_c_writes_the_best_values_and_ends_with_130(run_of, tmp_path):
     points = spread(shape_of(run_of(hung(bendingStiffness=5e-4))), 40, np.random.default_rng(6))
     file = write(tmp_path / "measured.csv", "x,y,z", points)
     scene = write(tmp_path / "scene.json", json.dumps(hung()), [])
-    command = [sys.executable, "guidewire.py", "identify", str(scene), "--measured", str(file), "--fit", "bendingStiffness",
+    command = [sys.executable, "guidewire.py", "identify", str(scene), "--measured", str(file), "--fit",
+               "bendingStiffness",
                "--fit", "torsionalStiffness", "--fit", "restCurvature", "--out", str(tmp_path / "out")]
     with subprocess.Popen(command, cwd=ROOT, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as process:
         for line in process.stderr:

@@ -73,7 +73,8 @@ if __name__ == "__main__":
 @pytest.mark.few(2)
 def test_a_script_that_leaves_sessions_open_ends_in_silence(runner_command, tmp_path, way):
     (tmp_path / "left_open.py").write_text(LEFT_OPEN)
-    done = subprocess.run([sys.executable, "left_open.py", way], cwd=tmp_path, env={**os.environ, "PYTHONPATH": str(ROOT)},
+    done = subprocess.run([sys.executable, "left_open.py", way], cwd=tmp_path,
+                          env={**os.environ, "PYTHONPATH": str(ROOT)},
                           capture_output=True, text=True, timeout=300, check=False)
     assert (done.returncode, done.stdout, done.stderr) == (0, "done\n", "")
 

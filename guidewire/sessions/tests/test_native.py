@@ -28,7 +28,8 @@ def library():
 
 def numbers_of(state):
     """All that a state says."""
-    arrays = [value for value in (getattr(state, field.name) for field in fields(state)) if isinstance(value, np.ndarray)]
+    arrays = [value for value in (getattr(state, field.name) for field in fields(state))
+              if isinstance(value, np.ndarray)]
     return np.concatenate([array.ravel() for array in arrays]), repr(state.hub), state.energy, state.time, state.reason
 
 
@@ -104,8 +105,10 @@ def test_an_end_within_a_call_has_its_reason_and_a_step_after_it_is_refused():
 def test_refusals_leave_the_session_as_it_is():
     with Session(**MATERIAL, native=True) as session:
         before = session.state
-        for wrong, said in ((lambda: session.step(push=1.0), "a steered session"), (lambda: session.step(steps=0), "steps = 0"),
-                            (lambda: session.change(damping=-1), "damping"), (lambda: session.restore(b""), "is incomplete")):
+        for wrong, said in ((lambda: session.step(push=1.0), "a steered session"),
+                            (lambda: session.step(steps=0), "steps = 0"),
+                            (lambda: session.change(damping=-1), "damping"),
+                            (lambda: session.restore(b""), "is incomplete")):
             with pytest.raises(SessionError, match=said):
                 wrong()
         np.testing.assert_array_equal(session.step(steps=1).positions, pushed_once().positions)

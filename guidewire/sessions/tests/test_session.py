@@ -188,7 +188,8 @@ def test_what_a_hand_steers_goes_on_beyond_maxSimulationSteps(scene):
 
 @pytest.mark.parametrize("asked, said", [
     ({"steps": 1.5}, "steps = 1.5 is not allowed"), ({"steps": True}, "steps = True"), ({"steps": "2"}, "steps = '2'"),
-    ({"push": "a"}, "push = 'a' is not allowed"), ({"turn": None}, "turn = None"), ({"push": [1.0, 2.0]}, "push = [1.0, 2.0]"),
+    ({"push": "a"}, "push = 'a' is not allowed"), ({"turn": None}, "turn = None"),
+    ({"push": [1.0, 2.0]}, "push = [1.0, 2.0]"),
     ({"push": True}, "push = True"),
 ])
 def test_a_step_of_something_else_than_numbers_is_refused_in_one_line(asked, said):
@@ -329,7 +330,8 @@ def test_pictures_show_the_wire_and_are_the_same_of_a_state_and_of_its_positions
 
 @pytest.mark.parametrize("wrong, said", [
     ({"pixels": 0}, "pixels = 0 is not allowed: needs a whole number from 1 to 2048"), ({"pixels": 9.5}, "pixels"),
-    ({"lao": 361}, "lao"), ({"cranial": "up"}, "cranial"), ({"centre": [0, 0]}, "centre"), ({"vessel": "red"}, "vessel"),
+    ({"lao": 361}, "lao"), ({"cranial": "up"}, "cranial"), ({"centre": [0, 0]}, "centre"),
+    ({"vessel": "red"}, "vessel"),
     ({"field_of_view": 0}, "fieldOfView"), ({"noise": -1}, "noise"), ({"seed": -1}, "seed"), ({"blur": 1e9}, "blur"),
     ({"background": 0}, "background"), ({"colour": 1}, "view has no colour"), ({"contrast": float("inf")}, "contrast"),
 ])

@@ -1,4 +1,5 @@
-"""The operator's desk in a real browser: what it does with keys, where it looks, what it says, and how it is laid out."""
+"""The operator's desk in a real browser: what it does with keys, where it looks, what it says, and how it is laid
+out."""
 
 import asyncio
 import json
@@ -66,7 +67,8 @@ def test_both_pictures_have_the_head_above_turn_together_and_follow_the_held_ins
              " position.set(target.x + 3, target.y + 40, target.z + 20); viewer.stage._controls.update(); }")
     with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["see", look], ["click", "LAO 30"], ["see", look], ["see", orbit], ["see", look],
+            ["open", address], DRAWN, ["click", "got it"], ["see", look], ["click", "LAO 30"], ["see", look],
+            ["see", orbit], ["see", look],
             ["click", "together"], ["click", "AP"], ["see", look],
             ["press", "i"], ["until", f"{STATUS}.held === 1"],
             ["see", "[[...viewer.shown.model.watchedTip], [...viewer.shown.model.centreline(1).slice(-3)]]"],
@@ -85,7 +87,8 @@ def test_who_looks_on_is_told_when_the_run_is_free(browse, runner_command, tmp_p
 
         async def hold():
             async with ClientSession() as client, client.ws_connect(
-                    f"{address.replace('http', 'ws')}live", headers={"Origin": address.split("/", 3)[0] + "//" + address.split("/")[2]}
+                    f"{address.replace('http', 'ws')}live", headers={"Origin": address.split("/", 3)[0] + "//"
+                                                                     + address.split("/")[2]}
             ) as socket:
                 assert json.loads((await socket.receive()).data)["hand"]
                 began.set()
@@ -118,11 +121,12 @@ def test_the_command_that_saving_prints_repeats_the_run(browse, runner_command, 
 
 
 def test_without_webgl_there_is_a_line_and_the_x_ray_picture(browse, runner_command, tmp_path):
-    none = ("const real = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = function (kind,"
-            " ...more) { return kind.startsWith('webgl') ? null : real.call(this, kind, ...more); };"
+    none = ("const real = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = "
+            "function (kind, ...more) { return kind.startsWith('webgl') ? null : real.call(this, kind, ...more); };"
             " console.error = () => {};")
     levels = ("(() => { const one = document.getElementById('fluoroscopy'); const { data } = one.getContext('2d')"
-              ".getImageData(0, 0, one.width, one.height); return [...new Set(data.filter((_, k) => k % 4 === 0))].length; })()")
+              ".getImageData(0, 0, one.width, one.height); return [...new Set(data.filter((_, k) => k % 4 === "
+              "0))].length; })()")
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
         seen = browse(["init", none], ["open", address], ["until", "globalThis.viewer?.xray.drawn > 0"], ["down", "w"],
                       ["until", f"{HUB} > 0.01"], ["up", "w"], ["see", levels], ["see", text("#notice")],
@@ -156,21 +160,27 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
     with serving(tmp_path, near_target(tmp_path), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["see", text("#score")], ["see", words],
-            ["see", f"window.kept = {STATUS}.opened"], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"], ["press", " "],
-            PAUSED, ["see", "new Promise((go) => { setTimeout(go, 1500); })"], ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
+            ["see", f"window.kept = {STATUS}.opened"], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
+            ["press", " "],
+            PAUSED, ["see", "new Promise((go) => { setTimeout(go, 1500); })"],
+            ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
             ["open", address], DRAWN, ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
-            ["press", " "], ["until", f"!{STATUS}.isPaused"], ["down", "w"], ["until", "document.getElementById('card').open"],
+            ["press", " "], ["until", f"!{STATUS}.isPaused"], ["down", "w"],
+            ["until", "document.getElementById('card').open"],
             ["up", "w"], PAUSED, ["see", f"{report}.innerText"], ["picture", str(tmp_path / "report.png")],
-            ["see", "window.saved = null; URL.createObjectURL = (blob) => { blob.text().then((one) => { saved = one; });"
-                    " return 'blob:none'; }; HTMLAnchorElement.prototype.click = function () { window.file = this.download; }"],
-            ["click", "save report"], ["until", "window.saved"], ["see", "[file, saved]"], ["see", "document.querySelector('#card .on').click()"],
+            ["see", "window.saved = null; URL.createObjectURL = (blob) => { blob.text().then((one) => { saved = "
+                    "one; }); return 'blob:none'; }; HTMLAnchorElement.prototype.click = function () { window.file = "
+                    "this.download; }"],
+            ["click", "save report"], ["until", "window.saved"], ["see", "[file, saved]"],
+            ["see", "document.querySelector('#card .on').click()"],
             ["until", f"!{STATUS}.isPaused"])["seen"]
     assert seen[0] == "0" and not re.findall(r".{20}(?:\brim\b|scene).{20}", seen[1].lower())
     assert seen[4][0] > 10 and 0 < int(seen[4][2]) < 100
     # After a reload the same, and frames that a busy page was not sent.
     assert seen[5][1] == pytest.approx(seen[4][1]) and int(seen[5][2]) >= int(seen[4][2])
     assert seen[4][0] - 1e-6 <= seen[5][0] < seen[4][0] + 20
-    for word in ("reached at", "radiation", "contrast", "largest wall force", "new attempts", "way of the tip", "events"):
+    for word in ("reached at", "radiation", "contrast", "largest wall force", "new attempts", "way of the tip",
+                 "events"):
         assert word in seen[6]
     assert seen[8][0] == "report.txt" and "score: " in seen[8][1]
 
@@ -191,19 +201,22 @@ console.log(JSON.stringify({ ...score, _recording: 0 }));
 
 def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted():
     def frame(time, tip, force=0.0, curvature=0.0, hub=0.0, insertion=0.0, left=50.0, inside=1.0):
-        return {"time": [time], "positions": [0, 0, 0, 0, 0, tip], "contactForce": [0.01, force], "curvature": [0, curvature],
+        return {"time": [time], "positions": [0, 0, 0, 0, 0, tip], "contactForce": [0.01, force],
+                "curvature": [0, curvature],
                 "hubForce": [hub], "hubInsertion": [insertion], "lumen": [left, 0.0, inside]}
 
     frames = [frame(0, 0, left=60, inside=0), frame(0.5, 10, force=0.15, insertion=0.01),
               frame(1.0, 20, force=0.25, insertion=0.02), frame(1.5, 18, force=0.15, insertion=0.018),
               frame(2.0, 10, force=0.25, insertion=0.01),    # still the same: it was not below the yellow band
-              frame(2.5, 10, curvature=475.0, insertion=0.01, hub=1.2), frame(3.0, 30, inside=0, insertion=0.03, left=30),
+              frame(2.5, 10, curvature=475.0, insertion=0.01, hub=1.2),
+              frame(3.0, 30, inside=0, insertion=0.03, left=30),
               frame(3.5, 10, insertion=0.01), frame(9.0, 10, force=0.15, insertion=0.01)]
     got = follow(EVENTS, frames=frames)
     assert [(one["kind"], one["time"]) for one in got["mishaps"]] == [("wall", 1), ("hub", 2.5), ("kink", 2.5), ("left", 3)]
     assert "8.6 % strain" in got["mishaps"][2]["text"]    # 475 rad/m times 0.18 mm
     assert got["retries"] == 2 and got["path"] == pytest.approx(10 + 10 + 2 + 8 + 20 + 20)
-    assert (got["caution"], got["stop"]) == pytest.approx((1.0, 1.0))    # of the 5.5 s before the last frame nothing is known
+    # of the 5.5 s before the last frame nothing is known
+    assert (got["caution"], got["stop"]) == pytest.approx((1.0, 1.0))
     assert got["best"] == pytest.approx(0.5) and got["wallForce"] == 0.25
 
 
@@ -216,7 +229,8 @@ BOXES = """(() => { const box = (one) => { const { left, top, right, bottom } = 
 def test_picture_dials_and_buttons_are_where_hands_and_eyes_are(browse, runner_command, tmp_path, size):
     rows = "[...document.querySelectorAll('#keys tr')].filter((one) => one.offsetHeight).map((one) => one.textContent)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
-        boxes, labels, helps, wide = browse(["open", address], DRAWN, ["see", BOXES], ["see", text("#pad")], ["see", rows],
+        boxes, labels, helps, wide = browse(["open", address], DRAWN, ["see", BOXES], ["see", text("#pad")],
+                                            ["see", rows],
                                             ["see", "document.documentElement.scrollWidth"],
                                             ["picture", str(tmp_path / "desk.png")], size=size)["seen"]
     width, height = size

@@ -21,7 +21,8 @@ from guidewire.sessions.steered import RULES, exact_push, exact_turn
 
 SCENES = [*(pytest.param(name, {}, id=name) for name in ("insertion", "insertion-accurate", "catheter-branch")),
           pytest.param("cantilever", {"solver": "xpbd", "timeStep": 0.001}, id="xpbd"),
-          pytest.param("sheath", {"sheath": {}, "inlet": None}, id="sheath", marks=pytest.mark.long("one sheath is there"))]
+          pytest.param("sheath", {"sheath": {}, "inlet": None}, id="sheath",
+                       marks=pytest.mark.long("one sheath is there"))]
 
 
 def follow(script, **data):

@@ -72,7 +72,8 @@ def test_what_cannot_be_a_site_is_one_line_and_nothing_is_written(framework, run
     with pytest.raises(PreparationError, match="numberRodElements"):
         site(tmp_path / "out", tmp_path / "scene.json")
     (tmp_path / "mine" / "far.json").write_text(json.dumps({
-        "vessel": {"shape": "mesh", "file": str(ROOT / "params/meshes/arch.obj"), "openRims": {"entrance": [0, 0, -320]}},
+        "vessel": {"shape": "mesh", "file": str(ROOT / "params/meshes/arch.obj"),
+                   "openRims": {"entrance": [0, 0, -320]}},
         "guidewireLength": 300.0, "guidewireOffset": -310.0, "maxSimulationSteps": 2}))
     with pytest.raises(PreparationError, match="own folder and below"):
         site(tmp_path / "out", tmp_path / "mine" / "far.json")
@@ -175,7 +176,8 @@ def test_a_catheter_and_its_wire_are_steered_into_a_branch_and_the_runner_repeat
 @LONG
 def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ended(browse, address, runner_command,
                                                                                   tmp_path):
-    slow = {"guidewireLength": 60, "guidewireOffset": -60, "numberRodElements": 2000, "constraintSolverSteps": 1_000_000}
+    slow = {"guidewireLength": 60, "guidewireOffset": -60, "numberRodElements": 2000,
+            "constraintSolverSteps": 1_000_000}
     wrong = json.dumps({"solver": "direct", "numberRodElement": 3})
     (tmp_path / "wrong.json").write_text(wrong)
     opens = ("((scene, text) => viewer.shown.send({do: 'open', scene, files: [{path: scene, bytes: new TextEncoder()"
@@ -183,7 +185,8 @@ def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ende
     status = "viewer.shown.status"
     seen = browse(
         ["open", address], ["until", "globalThis.viewer && document.querySelectorAll('#start button').length === 3"],
-        ["see", opens % ("'wrong.json'", json.dumps(wrong))], ["until", f"{status}?.problem"], ["see", f"{status}.problem"],
+        ["see", opens % ("'wrong.json'", json.dumps(wrong))], ["until", f"{status}?.problem"],
+        ["see", f"{status}.problem"],
         ["see", opens % ("'slow.json'", json.dumps(json.dumps(slow)))], ["until", f"{status}.opened === 1"],
         ["see", "viewer.shown.send({do: 'reset'})"], ["until", f"{status}.opened === 2"], ["see", f"{status}.scene"],
     )["seen"]

@@ -19,10 +19,12 @@ from guidewire.viewer.tests.test_view_browser import GAMEPAD, HUB, HUB_OF_CATHET
 VIEW = "viewer.xray.fluoroscopy"
 INJECTED = "viewer.shown.injector.injected"
 GREY = ("((grey) => { let text = ''; for (let k = 0; k < grey.length; k += 4096)"
-        f" text += String.fromCharCode(...grey.subarray(k, k + 4096)); return btoa(text); }})({VIEW}.grey(viewer.xray._instruments))")
+        " text += String.fromCharCode(...grey.subarray(k, k + 4096)); return btoa(text); "
+        f"}})({VIEW}.grey(viewer.xray._instruments))")
 LOOKS = (
     {"lao": 0, "cranial": 0}, {"lao": 30, "cranial": 20, "field": 200, "centre": [0, 0, 100]},
-    {"lao": -80, "cranial": -35, "field": 60, "centre": [0, 0, 120]}, {"lao": 90, "cranial": 0, "field": 330, "centre": [0, 0, 150]},
+    {"lao": -80, "cranial": -35, "field": 60, "centre": [0, 0, 120]},
+    {"lao": 90, "cranial": 0, "field": 330, "centre": [0, 0, 150]},
 )
 
 
@@ -37,7 +39,8 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
         session.inject(3.0, 4.0, None)
         parts = session.agent(0.9).parts
         cores = [session.picture(pixels=512, vessel="injected", contrast=0.23, **{
-            "field_of_view" if name == "field" else name: value for name, value in look.items()}).astype(int) for look in LOOKS]
+            "field_of_view" if name == "field" else name: value for name, value in look.items()}).astype(int)
+                 for look in LOOKS]
     take = (f"(look) => {{ const x = {VIEW}; x.resize(512, 512); x.parts = Float64Array.from({parts.tolist()});"
             " Object.assign(x.look, {centre: null, field: null, vessel: 'injected', agent: 0.23, background: 0.75,"
             " noise: 0, blur: 0}, look);"
@@ -54,14 +57,16 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     darkest = f"{VIEW}._brightness.reduce((least, value) => Math.min(least, value))"
     with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]], ["see", f"{VIEW}.look.noise = 0"],
+            ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]],
+            ["see", f"{VIEW}.look.noise = 0"],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
             ["press", " "], PAUSED, ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"],
             ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
             ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")],
             # Mask, agent and wire of one moment.
-            ["see", f"{{ const x = {VIEW}; window.agent = x.parts; x.parts = null; x.takeMask(viewer.xray._instruments);"
+            ["see",
+             f"{{ const x = {VIEW}; window.agent = x.parts; x.parts = null; x.takeMask(viewer.xray._instruments);"
                     " x.parts = agent; }"], ["see", GREY],
             ["see", f"{VIEW}.look.isSubtracted = false; {GREY}"], ["see", f"{VIEW}.parts = null; {GREY}"],
             ["see", f"{VIEW}.look.vessel = 'map'; {GREY}"], ["picture", str(tmp_path / "map.png")],
@@ -85,13 +90,16 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
             ["click", "record cine"], ["until", "viewer.xray.cine.count > 3"], ["up", "w"],
             ["press", "x"], ["see", "!viewer.xray.beam.isOn"], ["see", f"window.before = {drawn}"],
             ["down", "w"], ["until", f"{HUB} > 0.03"], ["up", "w"], ["see", f"{drawn} - before"],
-            ["see", text("#arm")], ["until", "viewer.xray.beam.seconds < viewer.shown._desk.score.time - 0.2"], ["see", "!viewer.xray.beam.isOn"],
+            ["see", text("#arm")], ["until", "viewer.xray.beam.seconds < viewer.shown._desk.score.time - 0.2"],
+            ["see", "!viewer.xray.beam.isOn"],
             ["click", "cine loop"], ["see", "[!document.getElementById('cine').hidden, viewer.xray.cine.count]"],
             ["click", "cine loop"], ["press", "x"], ["until", f"{drawn} > before"],
-            ["see", f"window.centre = {arm}"], ["press", "Shift+ArrowRight"], ["until", f"String({arm}) !== String(centre)"],
+            ["see", f"window.centre = {arm}"], ["press", "Shift+ArrowRight"],
+            ["until", f"String({arm}) !== String(centre)"],
             ["choose", ["#field", "150"]], ["until", f"{VIEW}.look.field === 150"], ["see", text("#scaleBar span")],
             ["click", "biplane"], ["until", "viewer.xray.second._fluoroscopy"], ["see", text("#secondArm")],
-            ["see", "document.getElementById('carm').open = true"], ["click", "LAO 30"], ["click", "store view"], ["click", "AP"],
+            ["see", "document.getElementById('carm').open = true"], ["click", "LAO 30"], ["click", "store view"],
+            ["click", "AP"],
             ["click", "view 1"], ["see", f"{VIEW}.look.lao"], ["picture", str(tmp_path / "planes.png")],
             size=(1000, 700))["seen"]
     assert seen[0] is True and seen[2] == 0 and "last image" in seen[3] and seen[4]
@@ -102,9 +110,10 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
 def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repeated(browse, runner_command, tmp_path):
     turn = HUB.replace("hubInsertion", "hubTurn")
     drag = ("{ const face = document.querySelector('.dial .turned'); const { left, top, width, height } ="
-            " face.getBoundingClientRect(); face.setPointerCapture = () => {}; const at = (kind, x, y) => face.dispatchEvent("
-            "new PointerEvent(kind, {clientX: left + x * width, clientY: top + y * height, buttons: 1, bubbles: true}));"
-            " at('pointerdown', 0.5, 0.1); at('pointermove', 0.8, 0.2); at('pointermove', 0.9, 0.5); }")
+            " face.getBoundingClientRect(); face.setPointerCapture = () => {}; const at = (kind, x, y) => "
+            "face.dispatchEvent(new PointerEvent(kind, {clientX: left + x * width, clientY: top + y * height, "
+            "buttons: 1, bubbles: true})); at('pointerdown', 0.5, 0.1); at('pointermove', 0.8, 0.2); "
+            "at('pointermove', 0.9, 0.5); }")
     steered = "['steered.csv', 'steered-1.csv'].map((file) => fetch(file).then((answer) => answer.text()))"
     with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
         seen = browse(
@@ -112,11 +121,14 @@ def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repea
             ["until", f"{HUB} > 0.008 && {HUB_OF_CATHETER} > 0.006"], ["up", "u"], ["up", "w"],
             ["see", f"[{HUB}, {HUB_OF_CATHETER}]"], ["see", GAMEPAD], ["see", "pad.axes[3] = -0.5"],
             ["until", "viewer.shown.steering.otherPush === 0.5"], ["until", f"{HUB_OF_CATHETER} > 0.012"],
-            ["see", "pad.axes[3] = 0"], ["until", "viewer.shown.steering.otherPush === 0"], ["press", "g"], ["down", "w"],
+            ["see", "pad.axes[3] = 0"], ["until", "viewer.shown.steering.otherPush === 0"], ["press", "g"],
+            ["down", "w"],
             ["see", "viewer.shown.steering.push"], ["up", "w"], ["press", "g"],
-            ["see", drag], ["until", f"Math.abs({turn} - Math.PI / 2) < 0.02"], ["until", "viewer.shown.steering.turn === 0"],
+            ["see", drag], ["until", f"Math.abs({turn} - Math.PI / 2) < 0.02"],
+            ["until", "viewer.shown.steering.turn === 0"],
             ["press", " "], PAUSED, ["see", f"Promise.all({steered})"], ["see", "[...viewer.shown.model.tip]"],
-            ["see", "viewer.shown.model.recording.at('step', viewer.shown.model.recording.count - 1)[0]"], size=(1000, 700))["seen"]
+            ["see", "viewer.shown.model.recording.at('step', viewer.shown.model.recording.count - 1)[0]"],
+            size=(1000, 700))["seen"]
     wire, catheter = seen[0]
     assert wire > 0.008 and catheter > 0.006 and seen[4] == pytest.approx(0.2)
     tables, tip, step = seen[6:9]
@@ -125,6 +137,8 @@ def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repea
         (tmp_path / f"{k}.csv").write_text(table)
         own = "" if k == 0 else f"catheters[{k - 1}]."
         words += [f"-{own}driveFile", str(tmp_path / f"{k}.csv"), f"-{own}insertionSpeed", "0"]
-    subprocess.run([*runner_command, "-parameters", str(ROOT / "params/catheter-branch.json"), "-out", str(tmp_path / "run"),
-                    *words, "-maxSimulationSteps", str(int(step)), "-deltaThreshold", "0"], check=True, capture_output=True)
+    subprocess.run([*runner_command, "-parameters", str(ROOT / "params/catheter-branch.json"), "-out",
+                    str(tmp_path / "run"),
+                    *words, "-maxSimulationSteps", str(int(step)), "-deltaThreshold", "0"], check=True,
+                   capture_output=True)
     assert read_log(tmp_path / "run", "all").positions[-1, -1].tolist() == tip

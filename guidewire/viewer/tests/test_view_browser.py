@@ -103,7 +103,8 @@ def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(brow
     rows = "import('./colours.js').then(({row, roundUp}) => [row(0, 0, false), row(0, 0, true), row(0, 1, true), roundUp(0), roundUp(0.0473)])"
     with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"], ["see", "document.getElementById('settings').open = true"], ["see", enter],
+            ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"],
+            ["see", "document.getElementById('settings').open = true"], ["see", enter],
             ["until", "document.getElementById('said').textContent"], ["until", f"Number({field}.value) > 0"],
             ["see", "document.getElementById('said').textContent"], ["see", "viewer.shown.status.isPaused"],
             ["see", labels], ["see", rows], ["see", "document.getElementById('thicker').textContent"],
@@ -127,11 +128,12 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
                     str(tmp_path / "run")], check=True, capture_output=True)
     log = read_log(tmp_path / "run", "all")
     assert np.ptp(log.positions[-1][:, 1]) > 20, "the wire is bent"
-    take = ("(look) => { const x = viewer.xray.fluoroscopy; x.resize(512, 512); Object.assign(x.look, {lao: 0, cranial: 0, centre: null,"
-            " field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, blur: 0, seed: 3}, look);"
-            " const [model] = viewer.shown.models; const grey = x.grey(model.recording.instruments.map((one, k) =>"
-            " [one, model.centreline(k)])); let text = ''; for (let k = 0; k < grey.length; k += 4096)"
-            " text += String.fromCharCode(...grey.subarray(k, k + 4096)); return btoa(text); }")
+    take = ("(look) => { const x = viewer.xray.fluoroscopy; x.resize(512, 512); Object.assign(x.look, {lao: 0, "
+            "cranial: 0, centre: null, field: null, vessel: 'none', contrast: 0.1, background: 0.75, noise: 0, blur: "
+            "0, seed: 3}, look); const [model] = viewer.shown.models; const grey = "
+            "x.grey(model.recording.instruments.map((one, k) => [one, model.centreline(k)])); let text = ''; for (let "
+            "k = 0; k < grey.length; k += 4096) text += String.fromCharCode(...grey.subarray(k, k + 4096)); return "
+            "btoa(text); }")
     with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):
         noisy = {**LOOKS[0], "noise": 0.05, "blur": 0.4}
         answer = browse(["open", address], DRAWN, ["see", "viewer.shown.go(99)"],
@@ -149,8 +151,8 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
                 assert apart.max() <= 2, look
 
 
-GAMEPAD = ("window.pad = {connected: true, axes: [0, 0, 0, 0], buttons: [0, 1, 2, 3, 4, 5].map(() => ({pressed: false}))};"
-           "navigator.getGamepads = () => [window.pad]; dispatchEvent(new Event('gamepadconnected'))")
+GAMEPAD = ("window.pad = {connected: true, axes: [0, 0, 0, 0], buttons: [0, 1, 2, 3, 4, 5].map(() => ({pressed: "
+           "false}))};navigator.getGamepads = () => [window.pad]; dispatchEvent(new Event('gamepadconnected'))")
 STEERED = "[viewer.shown.steering.push, viewer.shown.steering.turn]"
 HUB = "viewer.shown.model.recording.at('hubInsertion', viewer.shown.model.recording.count - 1)[0]"
 
@@ -200,14 +202,16 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
     with serving(tmp_path, str(tmp_path / "scene.json"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["see", "document.getElementById('legend').textContent"],
-            ["see", f"{status}.named.map((names) => names.length)"], ["see", f"{status}.named[0].includes('wire-of-mine')"],
+            ["see", f"{status}.named.map((names) => names.length)"],
+            ["see", f"{status}.named[0].includes('wire-of-mine')"],
             ["press", "i"], ["until", f"{status}.held === 1"],
             ["see", "document.querySelector('#legend .held').textContent"],
             ["down", "w"], ["until", f"{HUB_OF_CATHETER} > 0.01"], ["up", "w"], ["see", HUB],
             ["until", "document.getElementById('hold').click() || true"], ["until", f"{status}.held === 0"],
             ["down", "w"], ["until", f"{HUB} > 0.005"], ["up", "w"],
             ["see", "viewer.shown.model.drawn.map((_, k) => viewer.shown.model.recording.radiusOf(k))"],
-            ["see", "viewer.shown.model.drawn.map((one) => [...one.tube.geometry.getAttribute('color').array.slice(-3)])"],
+            ["see", "viewer.shown.model.drawn.map((one) => "
+                    "[...one.tube.geometry.getAttribute('color').array.slice(-3)])"],
             ["press", "c"], ["press", "c"], ["press", " "], ["until", f"{status}.isPaused"],
             ["picture", str(tmp_path / "hands.png")],
             ["see", "viewer.shown.saveSteering()"], ["until", f"{said}.includes('steered-1.csv')"], ["see", said],
@@ -271,7 +275,8 @@ def test_a_wire_is_drawn_through_the_tip_that_it_comes_out_of(browse, runner_com
     log = read_log(tmp_path / "run", "all")
     with serving(tmp_path, str(tmp_path / "run"), with_three=True) as (address, _):
         seen = browse(["open", address], DRAWN, *(step for k in range(len(log.steps)) for step in (
-            ["see", f"viewer.shown.go({log.time[k]})"], ["see", "[...viewer.shown.models[0].wirePath().points]"])))["seen"]
+            ["see", f"viewer.shown.go({log.time[k]})"], ["see",
+                                                         "[...viewer.shown.models[0].wirePath().points]"])))["seen"]
     crossed = 0
     for k, points in enumerate(seen[1::2]):
         drawn = np.array(points).reshape(-1, 3)
