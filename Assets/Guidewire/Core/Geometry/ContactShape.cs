@@ -123,6 +123,19 @@ namespace Guidewire.Core
             return IsSurface ? Math.Abs(distance) : Math.Max(0.0, distance);
         }
 
+        /// <summary>Turns the contact points of one point of a guarded wire to the side of the wall on which it is. One
+        /// that a surface sees from behind lies beside the vessel, which it left by an open rim.</summary>
+        /// <returns>Whether the surface sees the wire from behind.</returns>
+        internal bool TurnToWire(StructList<ContactPoint> contactPoints)
+        {
+            bool isBehind = IsSurface && contactPoints.Count > 0 && contactPoints[0].Contact.Distance < 0.0;
+            for (int k = 0; k < contactPoints.Count && isBehind; k++)
+            {
+                contactPoints[k] = contactPoints[k].FromBehind();
+            }
+            return isBehind;
+        }
+
         /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
         /// segment at a negative distance. The two differ where a segment's distance is the displacement that takes all
         /// of it out of the wall.</summary>

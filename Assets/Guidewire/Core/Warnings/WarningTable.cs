@@ -152,7 +152,8 @@ namespace Guidewire.Core
         /// <summary>A tip that left by an open rim.</summary>
         public static readonly WarningKind OpenRim = Add("openRim", WarningPlace.End, true,
             "the tip left the vessel by an open rim at (*x:G4*, *y:G4*, *z:G4*) at t = *t:G6* s",
-            "where and when the tip was first outside; there is no wall beyond the rim. This is not an error");
+            "where and when the tip was first outside; there is no wall beyond the rim. With direct the outside of a "
+            + "mesh is a wall, too. This is not an error");
 
         /// <summary>All of them, in the order of the docs.</summary>
         public static IReadOnlyList<WarningKind> All => Kinds;

@@ -156,7 +156,8 @@ namespace Guidewire.Core
                 return false;
             }
             Ends.Count(Shape, HubTurn, _dynamics.DistalTurn, length);
-            if (HasBlownUp("; lower timeStep, or take another integrator"))
+            Failure ??= _monitor?.FindTouchFromBeside(Time);
+            if (Failure != null || HasBlownUp("; lower timeStep, or take another integrator"))
             {
                 return false;
             }

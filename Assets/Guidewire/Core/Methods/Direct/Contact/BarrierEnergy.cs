@@ -108,6 +108,9 @@ namespace Guidewire.Core
         /// <summary>Whether a wall touches the wire in the shape last evaluated.</summary>
         public bool Touches => _sums.Contacts.Count > 0;
 
+        /// <summary>Whether a surface touches a node from behind in the shape last evaluated.</summary>
+        public bool SeesBehind { get; private set; }
+
         /// <summary>The contacts with walls in a shape, wall by wall and along the wire.</summary>
         public StructList<WallContact> ContactsOf(RodShape shape)
         {
@@ -191,7 +194,7 @@ namespace Guidewire.Core
         {
             double sure = QuickFraction * _units * _leastGap;
             double fraction = 1.0;
-            for (int w = 0; w < _walls.Length && !(longestSquared < sure * sure); w++)
+            for (int w = 0; w < _walls.Length && !(sure > 0.0 && longestSquared < sure * sure); w++)
             {
                 fraction = MaxStepAt(w, fraction);
             }
@@ -275,7 +278,7 @@ namespace Guidewire.Core
             if (free == 0.0)
             {
                 _walls[w].Nearest(_x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
-                gap = contact.Distance - radius;
+                gap = _walls[w].UnsignedDistance(contact.Distance) - radius;
                 free = MaxStepOf(w, j, fraction, radius, gap, hint);
             }
             return free;
@@ -333,6 +336,7 @@ namespace Guidewire.Core
             _sums.Clear();
             _inside = _nodes.Set(shape, _x);
             Array.Clear(_resultant, 0, _resultant.Length);
+            SeesBehind = false;
             _isKnown = true;
             _value = 0.0;
             _near.Follow(_x);
@@ -376,6 +380,7 @@ namespace Guidewire.Core
                 _near.SetDistanceOfNode(w, i, _x[i], distance);
                 return;
             }
+            SeesBehind |= _walls[w].TurnToWire(_contactPoints);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             ref double nearest = ref _nodeGap[w * _x.Length + i];

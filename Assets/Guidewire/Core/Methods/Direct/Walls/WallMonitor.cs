@@ -1,4 +1,5 @@
 using System;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -73,6 +74,33 @@ namespace Guidewire.Core
             SetClearances(shape);
         }
 
+        /// <summary>Why the step does not count, where after its parts an element of a wire that left a vessel by an
+        /// open rim lies in the wall from outside; else null.</summary>
+        /// <remarks>The barrier keeps nodes off a surface from both sides, but elements only off the edges that bulge
+        /// into the lumen. So once the wire is partly outside, the distances of all elements are found.</remarks>
+        /// <param name="time">s.</param>
+        public string? FindTouchFromBeside(double time)
+        {
+            int n = _radius.Length;
+            for (int w = 0; w < Walls.Length; w++)
+            {
+                bool isInside = !Walls[w].IsSurface
+                    || (!_barrier.SeesBehind && Walls[w].Contains(_from[0]) && Walls[w].Contains(_from[n]));
+                for (int j = 0; j < n && !isInside; j++)
+                {
+                    if (Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref _hint[w * n + j],
+                        out SurfaceContact contact) && Math.Abs(contact.Distance) < _radius[j])
+                    {
+                        return string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the wire, which left the "
+                            + "vessel by an open rim, would be pressed into its wall from outside at ({1:G4}, {2:G4}, "
+                            + "{3:G4}); a vessel that is longer there, or more elements, may help", time,
+                            contact.Point.X, contact.Point.Y, contact.Point.Z);
+                    }
+                }
+            }
+            return null;
+        }
+
         private void SetClearances(RodShape shape)
         {
             _barrier.Value(shape);
@@ -96,7 +124,8 @@ namespace Guidewire.Core
                     if (_clearance[j] < _radius[j]
                         && Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref hint, out SurfaceContact contact))
                     {
-                        deepest = Math.Max(deepest, _radius[j] - contact.Distance);
+                        double distance = Walls[w].IsSurface ? Math.Abs(contact.Distance) : contact.Distance;
+                        deepest = Math.Max(deepest, _radius[j] - distance);
                     }
                 }
             }

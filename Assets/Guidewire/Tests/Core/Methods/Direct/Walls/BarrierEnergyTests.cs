@@ -300,6 +300,42 @@ namespace Guidewire.Core.Tests
             Assert.That(touching, Is.GreaterThanOrEqualTo(5), "too few predicted shapes cross the wall");
         }
 
+        /// <summary>Of a wire along the middle of a flat side, on either side of it: the wall's two sides are the
+        /// same.</summary>
+        [Test]
+        public void SurfaceIsAWallFromOutsideToo([Values(0.01, 0.1, 0.39)] double gap)
+        {
+            double apothem = 5.0 * Math.Cos(Math.PI / 4.0);
+            ContactShape wall = new MeshShape(TestMeshes.Tube(4, 4, 20.0, z => 5.0).Build(
+                Vector3d.Zero, new Vector3d(0.0, 0.0, 20.0)));
+            var values = new double[2];
+            var slopes = new double[2];
+            for (int side = 0; side < 2; side++)
+            {
+                double sign = side == 0 ? -1.0 : 1.0;
+                Vector3d outward = new Vector3d(Math.Sqrt(0.5), Math.Sqrt(0.5), 0.0);
+                var shape = new RodShape(N);
+                var direction = new RodVector[N + 2];
+                for (int i = 0; i <= N; i++)
+                {
+                    shape.X[i] = (apothem + sign * (Radius + gap)) * outward + new Vector3d(0.0, 0.0, 7.3 + i);
+                    direction[i] = new RodVector { X1 = -6.0 * sign * outward.X, X2 = -6.0 * sign * outward.Y };
+                }
+                BarrierEnergy energy = EnergyOf(wall, N);
+                values[side] = energy.Value(shape);
+                var gradient = new RodVector[N + 2];
+                var measured = default(GradientMeasures);
+                energy.AddGradient(shape, gradient, 0, N + 1, ref measured);
+                slopes[side] = sign * (gradient[2].X1 * outward.X + gradient[2].X2 * outward.Y);
+                double step = energy.MaxStep(shape, direction, 1.0);
+                Assert.That(6.0 * step, Is.GreaterThan(0.0).And.LessThan(gap), "the step goes through the wall");
+            }
+            Assert.That(values[0], Is.GreaterThan(0.0));
+            Assert.That(values[1], Is.EqualTo(values[0]).Within(1e-9 * values[0]));
+            Assert.That(slopes[0], Is.LessThan(0.0), "pushes off the wall");
+            Assert.That(slopes[1], Is.EqualTo(slopes[0]).Within(1e-9 * -slopes[0]));
+        }
+
         // So that its least gap is this, where the wall is flat.
         private static void MoveToGap(ContactShape wall, RodShape shape, double gap)
         {

@@ -103,10 +103,23 @@ namespace Guidewire.Core.Tests
             {
                 Rods.OnlyInFull("1603 and 1754, which take a third of the time");
             }
-            var push = new RandomWallPush(seed);
+            AssertGoesWell(new RandomWallPush(seed));
+        }
+
+        /// <summary>A wire that comes out of a mesh tube, whose tip bends back and meets the tube from outside.</summary>
+        [TestCase(120599)]
+        public void PushesWithASoftBentTipThatOnceWentWrong_Finish(int seed)
+        {
+            AssertGoesWell(new RandomWallPush(seed, scene => WithSoftTip(scene, seed)));
+        }
+
+        private static void AssertGoesWell(RandomWallPush push)
+        {
             Assert.That(push.Simulation.Outcome, Is.EqualTo(Outcome.Finished), push.ToString());
             Assert.That(push.Contacts.Passages, Is.EqualTo(0), push.ToString());
             Assert.That(push.PointsOutside, Is.EqualTo(0), push.ToString());
+            Assert.That(push.Deepest, Is.EqualTo(0.0), push.ToString());
+            Assert.That(push.Contacts.MaxPenetration, Is.LessThanOrEqualTo(0.0), push.ToString());
         }
     }
 }

@@ -70,6 +70,24 @@ namespace Guidewire.Core.Tests
             Assert.That(Count(Both, Straight(), to), Is.Zero);
         }
 
+        /// <summary>Past an edge along the tube, whose sides turn by 15 degrees there: 0.2 to either side of it the nodes
+        /// are 0.03 cos 7.5 + 0.2 sin 7.5 = 0.056 from the wall, at a radius of 0.05.</summary>
+        [TestCase(0.03, true)]
+        [TestCase(-0.01, true)]
+        [TestCase(0.06, false)]
+        public void ElementAcrossAnEdgeFromOutside_HasAReason(double aside, bool touches)
+        {
+            var x = new Vector3d[N + 1];
+            for (int i = 0; i <= N; i++)
+            {
+                x[i] = new Vector3d(1.0 + aside, Spacing * (i - 0.5 * N), 10.1);
+            }
+            string? reason = Monitor(Inner, x, x).FindTouchFromBeside(0.5);
+            Assert.That(reason != null, Is.EqualTo(touches), reason);
+            Assert.That(reason ?? "at t = 0.5 s, 10.1)", Does.StartWith("at t = 0.5 s").And.Contains(", 10.1)"));
+            Assert.That(Monitor(Inner, Straight(), Straight()).FindTouchFromBeside(0.5), Is.Null);
+        }
+
         private static void AssertCounted(double[] radii, Vector3d[] from, Vector3d[] to)
         {
             long expected = 0;
@@ -86,18 +104,23 @@ namespace Guidewire.Core.Tests
         // As the method has it counted: in a step of two parts, the second without motion.
         private static long Count(double[] radii, Vector3d[] from, Vector3d[] to)
         {
+            var record = new ContactRecord(N + 1);
+            Monitor(radii, from, to).EndStep(Shape(to), record);
+            return record.Passages;
+        }
+
+        private static WallMonitor Monitor(double[] radii, Vector3d[] from, Vector3d[] to)
+        {
             MaterialRod rod = MaterialRod.Round(N, N * Spacing, 0.05, 1e6, 1e6, 1e3);
             var walls = new ContactShape[radii.Length];
             Array.Copy(Walls, walls, walls.Length);
             var barrier = new BarrierEnergy(rod, walls, 1.0, new Barrier(0.02, 10.0));
             var terms = new WallTerms(barrier, null, new SupportSpring(rod, 0.0), false);
             var monitor = new WallMonitor(rod, terms, 1.0);
-            var record = new ContactRecord(N + 1);
             monitor.BeginStep(Shape(from));
             monitor.AddPart(Shape(to));
             monitor.AddPart(Shape(to));
-            monitor.EndStep(Shape(to), record);
-            return record.Passages;
+            return monitor;
         }
 
         private static MeshShape Tube(double radius)
