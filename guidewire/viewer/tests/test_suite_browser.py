@@ -74,10 +74,10 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     assert seen[1] == pytest.approx(0.75) and seen[2] < 0.6
     assert float(seen[3].split()[0]) > 1 and "ml" in seen[-1]
     subtracted, full, empty, mapped = (levels(grey) for grey in seen[5:9])
-    assert empty.min() < 185 and full.min() < 150, "the wire, and agent"
+    agent = full < 0.9 * empty
+    assert empty.min() < 185 and agent.any(), "the wire, and agent"
     assert np.abs(subtracted - 191.25 * full / empty).max() <= 2.5    # what has not changed is gone, the wire, too
     assert subtracted[full == empty].min() >= 190
-    agent = full < 0.9 * empty
     assert (mapped[agent & (empty > 185)] > 195).all() and (mapped < 180).any()    # brighter, and the wire over it
 
 
