@@ -131,6 +131,7 @@ def test_two_commands_bring_a_wire_from_a_mask_to_its_target(tmp_path, target):
 
 
 @pytest.mark.parametrize("target", [2, 3] if FULL else [3])  # the other arm takes twice the attempts
+@pytest.mark.long("steered tables repeat their bits in the tests of the page")
 def test_a_wire_is_steered_into_each_arm_and_its_drive_repeats_it(runner_command, tmp_path, target):
     scene = artery_folder.write(tmp_path / "artery", target)
     found = navigation.steer(scene)

@@ -100,6 +100,7 @@ def wide(runner_command, tmp_path_factory):
 
 
 @pytest.mark.parametrize("seed", range(RUNS))
+@pytest.mark.few(2)
 def test_a_wire_of_any_size_ends_in_time_and_in_truth(wide, seed):
     scene = scene_of(seed)
     answer, out = wide.run(scene)

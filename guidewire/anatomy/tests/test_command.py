@@ -97,6 +97,7 @@ def test_a_name_ends_at_its_known_ending_and_a_folder_keeps_its_own_vessel(tmp_p
     assert (tmp_path / "results" / "anatomy" / "a.b" / "vessel.obj").read_bytes() != written
 
 
+@pytest.mark.long("all orientations stand in the tests of readers")
 def test_axes_that_are_given_turn_the_vessel_and_lead_back(tmp_path: Path) -> None:
     file = write_stl(tmp_path / "a.stl", tube())
     for axes in ("LPS", "RAS", "SLA"):

@@ -245,6 +245,7 @@ def test_one_crossing_is_mended_in_its_place_and_the_wall_elsewhere_stays() -> N
     assert [rim.radius for rim in repaired.rims] == pytest.approx([3.0] * 2, rel=0.01)
 
 
+@pytest.mark.long("one crossing is mended in its place")
 def test_two_crossings_far_apart_are_mended_where_they_are() -> None:
     once = kinked(sides=80, rings=200)
     once = Mesh(once.vertices + [0.0, 0.0, 20.0], once.triangles)  # its inlet in z = 0

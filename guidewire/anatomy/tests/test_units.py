@@ -26,6 +26,7 @@ def vessel(radius: float, length: float, edge: float) -> Mesh:
 
 
 @pytest.mark.parametrize("unit", UNITS)
+@pytest.mark.few(1)
 def test_of_twenty_vessels_no_unit_is_wrong(unit: str) -> None:
     asked = 0
     for sizes in VESSELS:

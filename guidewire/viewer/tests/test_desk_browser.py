@@ -104,6 +104,7 @@ def test_who_looks_on_is_told_when_the_run_is_free(browse, runner_command, tmp_p
     assert seen == [True]
 
 
+@pytest.mark.long("both hands are saved and repeat the run")
 def test_the_command_that_saving_prints_repeats_the_run(browse, runner_command, tmp_path):
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
         seen = browse(
@@ -120,6 +121,7 @@ def test_the_command_that_saving_prints_repeats_the_run(browse, runner_command, 
     assert read_log(tmp_path / "again", "all").positions[-1, -1].tolist() == seen[3]
 
 
+@pytest.mark.long("the X-ray picture is that of the core")
 def test_without_webgl_there_is_a_line_and_the_x_ray_picture(browse, runner_command, tmp_path):
     none = ("const real = HTMLCanvasElement.prototype.getContext; HTMLCanvasElement.prototype.getContext = "
             "function (kind, ...more) { return kind.startsWith('webgl') ? null : real.call(this, kind, ...more); };"
@@ -226,6 +228,7 @@ BOXES = """(() => { const box = (one) => { const { left, top, right, bottom } = 
 
 
 @pytest.mark.parametrize("size", [(390, 844), (844, 390), (1440, 900)])
+@pytest.mark.few(1)
 def test_picture_dials_and_buttons_are_where_hands_and_eyes_are(browse, runner_command, tmp_path, size):
     rows = "[...document.querySelectorAll('#keys tr')].filter((one) => one.offsetHeight).map((one) => one.textContent)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):

@@ -74,6 +74,7 @@ def test_a_file_works_without_server_or_network(browse, runs, tmp_path):
     assert is_drawn(tmp_path / "file.png")
 
 
+@pytest.mark.long("positions of replays stand in the tests of recordings")
 def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_the_other(browse, runs, tmp_path):
     logs = [read_log(runs / name, "all") for name in ("many", "few")]
     with serving(tmp_path, str(runs / "many"), str(runs / "few"), with_three=True) as (address, _):
@@ -255,6 +256,7 @@ def is_drawn(path):
     return (np.abs(pixels - (20, 23, 31)).max(axis=2) > 20).mean() > 0.01
 
 
+@pytest.mark.long("a key puts the catheter into the hand")
 def test_each_of_three_instruments_is_drawn_and_taken_into_the_hand(browse, runner_command, tmp_path):
     status = "viewer.shown.status"
     with serving(tmp_path, str(ROOT / "params/guide-catheter.json"), with_three=True) as (address, _):
