@@ -106,7 +106,8 @@ namespace Guidewire.Core.Tests
             AssertGoesWell(new RandomWallPush(seed));
         }
 
-        /// <summary>A wire that comes out of a mesh tube, whose tip bends back and meets the tube from outside.</summary>
+        /// <summary>A wire that comes out of a mesh tube, whose tip bends back and meets the tube from
+        /// outside.</summary>
         [TestCase(120599)]
         public void PushesWithASoftBentTipThatOnceWentWrong_Finish(int seed)
         {

@@ -70,8 +70,8 @@ namespace Guidewire.Core.Tests
             Assert.That(Count(Both, Straight(), to), Is.Zero);
         }
 
-        /// <summary>Past an edge along the tube, whose sides turn by 15 degrees there: 0.2 to either side of it the nodes
-        /// are 0.03 cos 7.5 + 0.2 sin 7.5 = 0.056 from the wall, at a radius of 0.05.</summary>
+        /// <summary>Past an edge along the tube, whose sides turn by 15 degrees there: 0.2 to either side of it the
+        /// nodes are 0.03 cos 7.5 + 0.2 sin 7.5 = 0.056 from the wall, at a radius of 0.05.</summary>
         [TestCase(0.03, true)]
         [TestCase(-0.01, true)]
         [TestCase(0.06, false)]
