@@ -88,8 +88,9 @@ def _with_caption(grey: np.ndarray, view: dict[str, Any], time: float, is_known:
     sides of a patient whose axes are unknown."""
     image = Image.fromarray(grey)
     pen = ImageDraw.Draw(image)
-    sides = [f"{'LAO' if view['lao'] >= 0 else 'RAO'} {abs(view['lao']):.0f}",
-             f"{'CRAN' if view['cranial'] >= 0 else 'CAUD'} {abs(view['cranial']):.0f}"] if is_known else [
-                 f"turned by {view['lao']:.0f}", f"tilted by {view['cranial']:.0f}", "axes unknown"]
-    pen.text((8, len(grey) - 20), "   ".join([*sides, f"t = {time:.4g} s"]), fill=20)
+    angles = [f"{'LAO' if view['lao'] >= 0 else 'RAO'} {abs(view['lao']):.0f}",
+              f"{'CRAN' if view['cranial'] >= 0 else 'CAUD'} {abs(view['cranial']):.0f}"] if is_known else [
+                  f"turned by {view['lao']:.0f}", f"tilted by {view['cranial']:.0f}\naxes unknown"]
+    text = "   ".join([*angles, f"t = {time:.4g} s"])
+    pen.text((8, len(grey) - 20 - 14 * text.count("\n")), text, fill=20)
     return image
