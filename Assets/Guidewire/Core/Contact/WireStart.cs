@@ -68,7 +68,7 @@ namespace Guidewire.Core
             foreach (ContactShape wall in scene.Walls)
             {
                 var lumen = new LumenWidth(wall, parameters.Contact.SphereRadius);
-                if (lumen.IsTooNarrow(x, DistanceAhead(parameters, x)))
+                if (lumen.IsTooNarrow(x, DistanceAhead(parameters)))
                 {
                     return string.Format(CultureInfo.InvariantCulture,
                         "sphereRadius = {0} is larger than the lumen along the wire's path: {1:G4} units at ({2:G4},"
@@ -117,22 +117,12 @@ namespace Guidewire.Core
 
         // How far the drive is to push the tip, units. Where nobody knows, the lumen is looked at for a wire's length:
         // to its end a walk through a long vessel takes a second, and fourteen in a browser.
-        private static double DistanceAhead(SimulationParameters parameters, Vector3d[] x)
+        private static double DistanceAhead(SimulationParameters parameters)
         {
             DriveParameters drive = parameters.Drive;
-            return drive.Steering != null || drive.Kind == Drive.Force ? LengthOf(x)
+            return drive.Steering != null || drive.Kind == Drive.Force ? parameters.Scene.GuidewireLength
                 : drive.Kind == Drive.Hold ? Math.Abs(drive.Displacement)
                 : Math.Max(0.0, drive.DisplacementPerStep * parameters.Method.MaxSimulationSteps);
-        }
-
-        private static double LengthOf(Vector3d[] x)
-        {
-            double length = 0.0;
-            for (int i = 1; i < x.Length; i++)
-            {
-                length += Vector3d.Distance(x[i - 1], x[i]);
-            }
-            return length;
         }
 
         private static double DistanceFrom(ContactShape wall, in Vector3d x)

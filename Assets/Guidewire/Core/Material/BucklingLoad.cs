@@ -16,8 +16,7 @@ namespace Guidewire.Core
         private const int Places = 64;
 
         /// <summary>Of the last <see cref="TipLength"/>, held behind it and pressed at its end, N. Rayleigh's quotient
-        /// with
-        /// the shape of an even column, exact for such a one.</summary>
+        /// with the shape of an even column, exact for such a one.</summary>
         /// <param name="material">Of the instrument.</param>
         /// <param name="length">Of the instrument, units.</param>
         /// <param name="metres">Of a unit.</param>
