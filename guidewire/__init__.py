@@ -5,7 +5,8 @@
 need numpy. Any Python from 3.6 on can read this file.
 """
 
-import importlib.util
+import importlib
+import sys
 from typing import TYPE_CHECKING
 
 if TYPE_CHECKING:  # the same names for type checkers
@@ -56,10 +57,28 @@ def __getattr__(name):
     return getattr(importlib.import_module(_LENT[name]), name)
 
 
-def _register():
-    """Names of the tasks for gymnasium.make, where gymnasium is installed."""
-    if importlib.util.find_spec("gymnasium") is not None:
-        importlib.import_module("guidewire.env.registration").register()
+class _Gymnasium:
+    """Finds gymnasium for whoever imports it, and then imports guidewire.env, which names the tasks there. So nothing
+    waits for gymnasium that does not use it."""
+
+    @classmethod
+    def find_spec(cls, name, path=None, target=None):
+        if name != "gymnasium":
+            return None
+        others = (finder.find_spec(name, path, target) for finder in sys.meta_path if finder is not cls)
+        spec = next((found for found in others if found is not None), None)
+        if spec is not None and spec.loader is not None:
+            execute = spec.loader.exec_module
+
+            def executed(module):
+                execute(module)
+                importlib.import_module("guidewire.env")
+
+            spec.loader.exec_module = executed
+        return spec
 
 
-_register()
+if "gymnasium" in sys.modules:
+    importlib.import_module("guidewire.env")
+else:
+    sys.meta_path.insert(0, _Gymnasium)

@@ -1,5 +1,8 @@
 """Training environments as defined by Gymnasium 1.x: a wire, a vessel and a target. docs/environments.md."""
 
+import sys
+
+from guidewire.env import registration
 from guidewire.env.drive import Drive
 from guidewire.env.environment import Environment, Reward
 from guidewire.env.episode import SAFE_FORCE, Report
@@ -11,3 +14,6 @@ from guidewire.env.vector import VectorEnvironment
 
 __all__ = ["Drive", "Environment", "Observation", "Picture", "RecordedDrive", "Report", "Reward", "SAFE_FORCE", "Task",
            "VectorEnvironment", "all_tasks", "find_task"]
+
+if "gymnasium" in sys.modules:    # spaces has imported it, where it is installed
+    registration.register()

@@ -1,6 +1,8 @@
 """The tasks' names for gymnasium.make, and a benchmark's table."""
 
 import importlib
+import os
+import subprocess
 import sys
 import types
 
@@ -11,6 +13,20 @@ from guidewire.env.environment import Environment
 from guidewire.env.score import benchmark_table, play
 from guidewire.env.spaces import Error
 from guidewire.env.tests.environment_cases import tube  # noqa: F401
+from guidewire.prepare import ROOT
+
+# A package with the names that are used of gymnasium's.
+GYMNASIUM = {
+    "__init__.py": "class Env: pass",
+    "error.py": "class Error(Exception): pass\n"
+                "ClosedEnvironmentError = InvalidAction = NameNotFound = ResetNeeded = Error",
+    "spaces.py": "class Box: pass\nDict = Discrete = Space = Box",
+    "vector/__init__.py": "import enum\nclass VectorEnv: pass\n"
+                          "AutoresetMode = enum.Enum('AutoresetMode', {'NEXT_STEP': 'NextStep', 'SAME_STEP': 'SameStep'})",
+    "vector/utils.py": "batch_space = None",
+    "envs/__init__.py": "",
+    "envs/registration.py": "registry = {}\ndef register(id, **known): registry[id] = known",
+}
 
 
 class Forwards:
@@ -47,6 +63,25 @@ def test_each_task_has_a_name_by_which_what_it_names_is_made(monkeypatch, tube):
         home, _, name = known["vector_entry_point"].partition(":")
         with getattr(importlib.import_module(home), name)(2, **{**known["kwargs"], "task": tube}) as vector:
             assert vector.num_envs == 2
+
+
+@pytest.mark.parametrize("script", (
+    "import guidewire, sys; assert not {'gymnasium', 'numpy'} & set(sys.modules); import gymnasium",
+    "import gymnasium, guidewire",
+    "from guidewire import Environment",
+    "import guidewire, importlib.util; importlib.util.find_spec('gymnasium'); import gymnasium.spaces",
+))
+def test_names_are_there_once_both_are_imported_and_neither_imports_the_other(script, tmp_path):
+    for name, text in GYMNASIUM.items():
+        path = tmp_path / "gymnasium" / name
+        path.parent.mkdir(exist_ok=True)
+        path.write_text(text)
+    shown = ("; from gymnasium.envs import registration; import gymnasium, guidewire.env.spaces as spaces; "
+             "print(spaces.Env is gymnasium.Env, spaces.Box is gymnasium.spaces.Box, *registration.registry)")
+    done = subprocess.run([sys.executable, "-c", script + shown], capture_output=True, text=True, check=False,
+                          env={**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(tmp_path)))})
+    names = [f"guidewire/{name}-v0" for name in all_tasks()]
+    assert (done.stdout.split(), done.stderr) == (["True", "True", *names], "")
 
 
 def test_gymnasium_makes_what_is_registered():
