@@ -30,9 +30,9 @@ class TurnAndRetry:
                  turn: float = np.pi * (3.0 - 5.0**0.5), hub: int = 0) -> None:
         self._environment, self._wrong, self._patience = environment, wrong, patience
         self._back, self._turn = back, turn
-        rate = of_each(environment.drive.rotation or environment.task.rotation, environment.hubs)[hub]
+        _, rates = environment.drive.limits(environment.task)
         self._hub = hub
-        self._turn_of_step = rate * environment.drive.step_time
+        self._turn_of_step = rates[hub] * environment.drive.step_time
 
     def reset(self, observation: Any) -> None:
         """Another episode."""

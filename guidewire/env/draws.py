@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.env.randomisation import drawn_from, middle_of
+from guidewire.env.randomisation import drawn_from, is_choice, middle_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import Task
 
@@ -77,10 +77,14 @@ def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:
             if not isinstance(value, Integral) or isinstance(value, bool) or not 0 <= value < count:
                 raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a whole number below {count}")
             options[key] = int(value)
+    names = options.get("instrument")
+    listed = names if isinstance(names, (list, tuple)) else [names]
+    if not all(one is None or isinstance(one, str) for one in listed) or not listed:
+        raise Error(f"option \"instrument\" = {names!r} is not allowed: needs a name, or a list of names")
     for key in options:
         if key in _LEAST_AND_MOST:
             options[key] = _numbers(key, options[key], *_LEAST_AND_MOST[key], task.hubs if key == "insertion" else 0)
-        elif key in task.random:
+        elif key in task.random and not is_choice(task.random[key], options[key]):
             options[key] = _finite(key, options[key])
     return _with_values(drawn, options)
 

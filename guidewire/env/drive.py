@@ -5,12 +5,16 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from guidewire.env.instruments import of_each
 from guidewire.env.options import need_count, need_number
 from guidewire.env.spaces import Box, Discrete, Error, InvalidAction
+
+if TYPE_CHECKING:
+    from guidewire.env.task import Task
 
 _DIRECTIONS = tuple((speed, rotation) for speed in (0.0, 1.0, -1.0) for rotation in (0.0, 1.0, -1.0))
 Command = list[tuple[float, float]]  # of each hub
@@ -59,6 +63,11 @@ class Drive:
         for name, value in (("speed", self.speed), ("rotation", self.rotation)):
             if value is not None and len(of_each(value, hubs)) != hubs:
                 raise Error(f"{name} = {value!r} is not allowed: needs a number, or one for each of the {hubs} hubs")
+
+    def limits(self, task: Task) -> tuple[list[float], list[float]]:
+        """Largest speed, m/s, and rotation rate, rad/s, of each hub: its own, else the task's."""
+        return (of_each(task.speed if self.speed is None else self.speed, task.hubs),
+                of_each(task.rotation if self.rotation is None else self.rotation, task.hubs))
 
     def space(self, hubs: int = 1) -> Box | Discrete:
         """Of its actions."""

@@ -101,6 +101,7 @@ class Environment(Env):
         self._scenes = LoadedScenes(self.task, native)
         self._is_closed = self._is_running = False
         self._scene: LoadedScene | None = None
+        self._draw: Draw | None = None    # of the episode, once there is one
         self._calls: list[tuple[Any, Any, int]] = []
 
     @property
@@ -161,7 +162,8 @@ class Environment(Env):
         saved = (options or {}).get("snapshot")
         self._is_running = False
         if saved is not None:
-            draw, bits = _unpacked(saved, self.task.name)
+            own, bits = _unpacked(saved, self.task.name)
+            draw = with_options(self.task, drawn, own)
             self._scene, loaded = self._scenes.find(draw)
             self._state = self.session.restore(bits)
         else:
@@ -170,7 +172,6 @@ class Environment(Env):
         if self._scene.hubs != self.hubs:
             raise Error(f"the scene of {self.task.anatomies[draw.anatomy]} has {self._scene.hubs} instruments, the "
                         f"task's first one {self.hubs}")
-        self._draw = draw
         self._route = self._scene.route(self.task.targets[draw.target])
         self._places = self._found()
         self._first = self._remaining()
@@ -179,12 +180,10 @@ class Environment(Env):
         if self._steps < 1 or abs(steps - self._steps) > 1e-6:
             raise Error(f"step_time = {self.drive.step_time:g} is not allowed: needs a multiple of the scene's time "
                         f"step of {self._scene.time_step:g} s")
-        self._drive = DriveState(self.drive, of_each(self.drive.speed or self.task.speed, self.hubs),
-                                 of_each(self.drive.rotation or self.task.rotation, self.hubs),
-                                 draw.random.get("noise"))
+        self._drive = DriveState(self.drive, *self.drive.limits(self.task), draw.random.get("noise"))
         self._report = Report(self.safe_force, way=self._places[0][1], parts=[Part(left) for _, left in self._places])
         self._observer = Observer(self.observation, self._route, self._scene.unit, self.hubs, noise)
-        self._calls = []
+        self._calls, self._draw = [], draw
         self._origin = None if saved is not None else draw.as_options()
         self._is_running = True
         if self.render_mode == "human":
@@ -211,12 +210,20 @@ class Environment(Env):
 
     def save(self) -> bytes:
         """This episode's instruments, for reset(options={"snapshot": ...}) here or in another environment of the
-        task."""
+        task.
+
+        Raises
+        ------
+        ClosedEnvironmentError, ResetNeeded : it is closed; there was no episode yet.
+        """
+        self._check_open()
+        self._check_begun()
         head = {"task": self.task.name, "draw": vars(self._draw)}
         return json.dumps(head).encode() + b"\n" + self.session.save()
 
     def recorded(self, source: str = "") -> RecordedDrive:
         """What was done in this episode; not of one that began from a snapshot."""
+        self._check_begun()
         if self._origin is None:
             raise Error("an episode from a snapshot is not recorded: its beginning is not known")
         options = dict(self._origin)
@@ -252,8 +259,7 @@ class Environment(Env):
         ClosedEnvironmentError, ResetNeeded : it is closed; there was no episode yet.
         """
         self._check_open()
-        if self._scene is None:
-            raise ResetNeeded("there is nothing to be shown yet: call reset() first")
+        self._check_begun()
         if self.render_mode is None:
             return None
         if self._scenery is None or self._scenery[0] is not self._route:
@@ -359,14 +365,19 @@ class Environment(Env):
         if self._is_closed:
             raise ClosedEnvironmentError("this environment is closed")
 
+    def _check_begun(self) -> None:
+        if self._draw is None:
+            raise ResetNeeded("there was no episode yet: call reset() first")
 
-def _unpacked(saved: bytes, task: str) -> tuple[Draw, bytes]:
+
+def _unpacked(saved: bytes, task: str) -> tuple[dict[str, Any], bytes]:
+    """Options of a reset, and what a session restores."""
     try:
         line, _, bits = saved.partition(b"\n")
         head = json.loads(line)
-        draw = Draw(**head["draw"])
+        name, options = head["task"], Draw(**head["draw"]).as_options()
     except (AttributeError, ValueError, KeyError, TypeError) as error:
         raise Error("option \"snapshot\" is not what save() gave") from error
-    if head["task"] != task:
-        raise Error(f"this snapshot is of task '{head['task']}', not of '{task}'")
-    return draw, bits
+    if name != task:
+        raise Error(f"this snapshot is of task '{name}', not of '{task}'")
+    return options, bits

@@ -57,6 +57,12 @@ def drawn_from(given: Any, random: np.random.Generator) -> Any:
     return value
 
 
+def is_choice(given: Any, value: Any) -> bool:
+    """Whether a value is one of those that a distribution lists, whatever kind of value these are."""
+    kind, numbers, _ = _parts(given)
+    return kind == "choice" and any(type(one) is type(value) and one == value for one in numbers)
+
+
 def middle_of(given: Any) -> Any:
     """What an episode without chance has: the middle, or the first."""
     kind, numbers, _ = _parts(given)

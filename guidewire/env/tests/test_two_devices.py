@@ -11,7 +11,7 @@ from guidewire.env.baselines import Chance, Follow, Lead, baseline_of
 from guidewire.env.observation import DEFAULT, PARTS, RANGES
 from guidewire.env.randomisation import drawn_from, middle_of
 from guidewire.env.score import play
-from guidewire.env.spaces import Error, InvalidAction
+from guidewire.env.spaces import ClosedEnvironmentError, Error, InvalidAction, ResetNeeded
 from guidewire.env.task import find_task
 from guidewire.env.tests.environment_cases import same, tube  # noqa: F401
 from guidewire.sessions.session import Session
@@ -233,3 +233,46 @@ def test_the_tasks_of_two_devices_begin_and_their_baselines_act():
             for _ in range(2):
                 observation, _, terminated, _, _ = own.step(policy.act(observation))
                 assert not terminated and own.observation_space.contains(observation)
+
+
+def test_what_is_drawn_from_a_list_of_any_kind_is_an_option_and_is_recorded(tube):
+    task = replace(tube, random={"proximalEnd": {"choice": ["clamped", "hinged"]}, "logContacts": {"choice": [False]}})
+    with Environment(task) as own:
+        _, info = own.reset(options={"proximalEnd": "clamped", "logContacts": False})
+        own.step([1.0, 0.0])
+        assert own.replay(own.recorded()).time == own.report.time == pytest.approx(0.14)
+        assert own.reset(options=info["draw"])[1]["draw"] == info["draw"]
+        for wrong in ("glued", True):
+            with pytest.raises(Error, match="\"proximalEnd\" = .* is not allowed"):
+                own.reset(options={"proximalEnd": wrong})
+
+
+def test_an_instrument_is_a_name_or_names(tube):
+    with Environment(tube) as own:
+        for wrong in (3, [], [3], {"name": "x"}):
+            with pytest.raises(Error, match="\"instrument\" = .*: needs a name, or a list of names"):
+                own.reset(options={"instrument": wrong})
+
+
+def test_speeds_may_be_an_array(pair):
+    with Environment(pair, drive=Drive(speed=np.array([0.01, 0.02]), rotation=np.array([1.0, 2.0]))) as own:
+        own.reset(options={"nominal": True})
+        assert own.step(np.ones(4))[0]["hub"] == pytest.approx(np.array([[1.4, 0.14], [2.8, 0.28]]), rel=1e-5)
+        assert Follow(own, hub=1)._turn_of_step == pytest.approx(0.28)
+
+
+def test_before_the_first_reset_there_is_nothing_to_be_saved_or_recorded(tube):
+    with Environment(tube) as own:
+        for ask in (own.save, own.recorded):
+            with pytest.raises(ResetNeeded):
+                ask()
+        own.reset(options={"nominal": True})
+        saved = own.save()
+        head, _, bits = saved.partition(b"\n")
+        for text, problem in ((head.replace(b'"task"', b'"tusk"'), "not what save"),
+                              (head.replace(b'"anatomy": 0', b'"anatomy": 9'), "\"anatomy\" = 9 is not allowed")):
+            with pytest.raises(Error, match=problem):
+                own.reset(options={"snapshot": text + b"\n" + bits})
+        assert own.reset(options={"snapshot": saved})[1]["draw"]["target"] == 0
+    with pytest.raises(ClosedEnvironmentError):
+        own.save()
