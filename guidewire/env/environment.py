@@ -202,7 +202,13 @@ class Environment(Env):
             raise ResetNeeded("no episode goes on: call reset() first")
         command = self.drive.command(action, self.hubs)
         self._observer.action[:] = [number for pair in command for number in pair]
-        return self._move(self._drive.motion(command, self.np_random), self._steps)
+        pushes, turns = [], []
+        for (insertion, turn), one in zip(self._drive.motion(command, self.np_random), instruments_of(self._state)):
+            now = one.hub.insertion
+            within = min(max(insertion, -max(now, 0.0)), max(self._scene.longest - now, 0.0))
+            pushes.append(within / self._scene.unit)
+            turns.append(turn)
+        return self._move(pushes, turns, self._steps)
 
     def check_action(self, action: Any) -> None:
         """Raises InvalidAction where a step would refuse it."""
@@ -246,7 +252,7 @@ class Environment(Env):
                 pushes, turns = of_each(push, 1), of_each(turn, 1)
                 if len(pushes) != self.hubs or len(turns) != self.hubs:
                     raise Error(f"this drive is of {len(pushes)} hubs, not of {self.hubs}")
-                self._move([(one * self._scene.unit, other) for one, other in zip(pushes, turns)], steps, pushes)
+                self._move(pushes, turns, steps)
         if digest_of(self._state) != drive.digest:
             raise Error("the wire at the end is not bit for bit the recorded one")
         return self._report
@@ -279,29 +285,19 @@ class Environment(Env):
         self._is_closed, self._is_running = True, False
         self._scenes.close()
 
-    def _move(self, motions: Sequence[tuple[float, float]], steps: int, pushes: Sequence[float] | None = None
+    def _move(self, pushes: list[float], turns: list[float], steps: int
               ) -> tuple[Any, float, bool, bool, dict[str, Any]]:
-        """motions : insertion, m, and turn, rad, of each hub; pushes : units, where these are not to be limited."""
-        if pushes is None:
-            hubs = [one.hub.insertion for one in instruments_of(self._state)]
-            insertions = [min(max(motion[0], -max(now, 0.0)), max(self._scene.longest - now, 0.0))
-                          for motion, now in zip(motions, hubs)]
-            motions = [(insertion, turn) for insertion, (_, turn) in zip(insertions, motions)]
-            pushes = [insertion / self._scene.unit for insertion in insertions]
-        turns = [turn for _, turn in motions]
-        push, turn = (pushes[0], turns[0]) if self.hubs == 1 else (list(pushes), turns)
+        """pushes, turns : of each hub in all steps, units and rad."""
         report, before, force = self._report, self._remaining(), 0.0
-        self._calls.append((push, turn, steps))
-        in_a_step = [(insertion / steps, own / steps) for insertion, own in motions]
-        own_push, own_turn = (push / steps, turn / steps) if self.hubs == 1 else (
-            [one / steps for one in pushes], [one / steps for one in turns])
+        self._calls.append((pushes[0], turns[0], steps) if self.hubs == 1 else (pushes, turns, steps))
+        motion = [one / steps for one in pushes], [one / steps for one in turns]
         try:
             for _ in range(steps):
                 if self._state.outcome is not None:
                     break
                 last = self._state
-                self._state = self.session.step(own_push, own_turn)
-                force = max(force, report.add(last, self._state, in_a_step))
+                self._state = self.session.step(*motion)
+                force = max(force, report.add(last, self._state))
         except SessionError as error:
             self._is_running = False
             if self.session.is_open:

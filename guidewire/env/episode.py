@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -110,26 +109,20 @@ class Report:
         """Whether the target was reached with no larger force on the way."""
         return self.success and self.largest_force <= self.safe_force
 
-    def add(self, before: State, after: State, motions: Sequence[tuple[float, float]]) -> float:
-        """Take in a time step; returns its largest force, N.
-
-        Parameters
-        ----------
-        before, after : the instruments.
-        motions : of each hub in it, m and rad.
-        """
+    def add(self, before: State, after: State) -> float:
+        """Take in a time step, from the instruments before and after it; returns its largest force, N."""
         dt, most = after.time - before.time, 0.0
-        for part, one, other, (insertion, turn) in zip(self.parts, instruments_of(before), instruments_of(after),
-                                                       motions):
+        for part, one, other in zip(self.parts, instruments_of(before), instruments_of(after)):
             forces = np.sqrt(np.einsum("ij,ij->i", other.contact_forces, other.contact_forces))
             largest = float(forces.max())
             most = max(most, largest)
             part.largest_force = max(part.largest_force, largest)
             part.impulse += float(forces.sum()) * dt
             part.path += math.dist(other.positions[-1].tolist(), one.positions[-1].tolist())
+            insertion = other.hub.insertion - one.hub.insertion    # less than asked for where another hub stops it
             part.inserted += max(insertion, 0.0)
             part.retracted += max(-insertion, 0.0)
-            part.turned += abs(turn)
+            part.turned += abs(other.hub.turn - one.hub.turn)
         self.forces.append(most)
         self.time += dt
         return most

@@ -61,11 +61,10 @@ class LoadedScene:
             return self.session.restore(self._starts[key])
         state = self.session.reset()
         if tip_turn:
-            turns = [tip_turn] * self.hubs if self.hubs > 1 else tip_turn
-            state = self.session.step(turn=turns, steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
+            state = self.session.step(turn=[tip_turn] * self.hubs,
+                                      steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
         if any(insertions):
-            pushes = [one / self.unit for one in insertions]
-            state = self.session.step(pushes if self.hubs > 1 else pushes[0],
+            state = self.session.step([one / self.unit for one in insertions],
                                       steps=int(np.ceil(max(insertions) / _LARGEST_PUSH)))
         if state.outcome is not None:
             raise Error(f"the wire does not come to its start: {state.outcome}: {state.reason}")

@@ -276,3 +276,20 @@ def test_before_the_first_reset_there_is_nothing_to_be_saved_or_recorded(tube):
         assert own.reset(options={"snapshot": saved})[1]["draw"]["target"] == 0
     with pytest.raises(ClosedEnvironmentError):
         own.save()
+
+
+def test_a_report_says_what_the_hubs_did_and_not_what_was_asked_for(pair):
+    with Environment(pair) as own:
+        own.reset(options={"nominal": True})
+        seen, turned = [(0.0, 0.0)], 0.0
+        for action in ([1.0, 1.0, 0.0, -0.5], [-1.0, -1.0, 0.0, 0.0]):
+            for _ in range(9):
+                _, _, _, _, info = own.step(action)
+                seen.append((own.session_state.hub.insertion, own.session_state.catheters[0].insertion))
+        moved = np.diff(seen, axis=0)
+        assert moved[:9, 0].sum() < 0.9 * 9 * 0.0028, "the wire's hub came to the catheter's"
+        for part, own_moves in zip(own.report.parts, moved.T):
+            assert part.inserted == pytest.approx(own_moves[own_moves > 0.0].sum(), abs=1e-15)
+            assert part.retracted == pytest.approx(-own_moves[own_moves < 0.0].sum(), abs=1e-15)
+        turn = 0.14 * np.pi
+        assert [part.turned for part in own.report.parts] == pytest.approx([18 * turn, 4.5 * turn])
