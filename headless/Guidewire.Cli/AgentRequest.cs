@@ -1,5 +1,4 @@
 using System;
-using System.Buffers.Binary;
 using System.Linq;
 using Guidewire.Core;
 using Guidewire.Io;
@@ -9,10 +8,8 @@ using Newtonsoft.Json.Linq;
 namespace Guidewire.Cli
 {
     /// <summary>Requests for contrast agent in a session's vessel: how blood flows, injections, and what is where.</summary>
-    internal sealed class AgentRequest
+    internal static class AgentRequest
     {
-        private byte[] _bytes = Array.Empty<byte>();
-
         /// <summary>The cells of the vessel's tree, for whoever draws pictures of their own; null without one.</summary>
         /// <param name="flow">Lengths in mm.</param>
         /// <param name="millimetres">Of a unit.</param>
@@ -36,9 +33,11 @@ namespace Guidewire.Cli
             };
         }
 
-        /// <summary>Does what a request asks for, and fills its answer.</summary>
+        /// <summary>Does what a request asks for, and fills its answer but for the parts of agent, one for each
+        /// cell.</summary>
+        /// <returns>These parts.</returns>
         /// <exception cref="ParameterException">It cannot be met; nothing has changed.</exception>
-        public void Answer(SimulationSession session, RunRequest request, JObject answer)
+        public static ReadOnlySpan<double> Answer(SimulationSession session, RunRequest request, JObject answer)
         {
             SessionContrast contrast = session.Contrast ?? throw new ParameterException("request: there is no contrast in a"
                 + " vessel without a centreline: 'guidewire.py anatomy' finds one, vessel.anatomy names its file");
@@ -66,7 +65,7 @@ namespace Guidewire.Cli
             answer["held"] = flow.Held;
             answer["washedOut"] = flow.WashedOut;
             answer["inlet"] = flow.Inlet;
-            answer["agent"] = Text(flow.Parts);
+            return flow.Parts;
         }
 
         private static Vector3d Tip(SimulationSession session, int hub)
@@ -107,16 +106,6 @@ namespace Guidewire.Cli
             return property.Value.Type == JTokenType.Integer || property.Value.Type == JTokenType.Float
                 ? (double)property.Value : throw new ParameterException("request", property.Name,
                     property.Value.ToString(Formatting.None), "a number");
-        }
-
-        private string Text(ReadOnlySpan<double> parts)
-        {
-            Array.Resize(ref _bytes, sizeof(double) * parts.Length);
-            for (int k = 0; k < parts.Length; k++)
-            {
-                BinaryPrimitives.WriteDoubleLittleEndian(_bytes.AsSpan(sizeof(double) * k), parts[k]);
-            }
-            return Convert.ToBase64String(_bytes);
         }
     }
 }

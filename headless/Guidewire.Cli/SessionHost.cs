@@ -17,7 +17,6 @@ namespace Guidewire.Cli
         private readonly SessionState _state = new SessionState();
         private byte[] _bytes = Array.Empty<byte>();
         private RunPictures? _pictures;
-        private readonly AgentRequest _agent = new AgentRequest();
         private readonly List<Vector3d[]> _centrelines = new List<Vector3d[]>();
 
         /// <param name="stopRequested">Asked before every step.</param>
@@ -49,7 +48,7 @@ namespace Guidewire.Cli
                     Describe(answer);
                     return;
                 case "agent":
-                    _agent.Answer(Opened(), request, answer);
+                    answer["agent"] = Text(AgentRequest.Answer(Opened(), request, answer));
                     return;
                 case "walls":
                     answer["walls"] = Convert.ToBase64String(Walls(request.Middle, request.Reach));
