@@ -178,6 +178,10 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         raise Error(f"{file}: task {name} has no key \"{sorted(unknown)[0]}\": there are {', '.join(sorted(_KEYS))}")
     if not isinstance(entry.get("overrides", {}), dict) or not isinstance(entry.get("scene", ""), str):
         raise Error(f"{file}: task {name}: overrides is an object and scene a text")
+    catheters = entry.get("overrides", {}).get("catheters") or []
+    if not isinstance(catheters, list) or not all(isinstance(one, dict) for one in catheters):
+        raise Error(f"{file}: task {name}: overrides: catheters = {json.dumps(catheters)} is not allowed: needs a list "
+                    "of objects")
     if entry.get("baseline", "") not in BASELINES:
         raise Error(f"{file}: task {name}: baseline = {json.dumps(entry['baseline'])} is not allowed: needs one of "
                     f"{', '.join(filter(None, BASELINES))}")
@@ -196,6 +200,10 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         given = [entry[key]] if key in entry else []
         for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
             _number({key: one}, key, least, 1e9, file)
+    if entry.get("frictions") == []:
+        raise Error(f"{file}: task {name}: frictions = [] is not allowed: needs numbers, or leave it out")
+    for one in entry.get("frictions", []):
+        _number({"frictions": one}, "frictions", 0.0, 1e9, file)
     for one in of_each(entry.get("follow"), 1):
         if one is not None:
             _number({"follow": one}, "follow", 0.0, 1e9, file)

@@ -1,6 +1,8 @@
 """Two instruments at once in an environment: a wire in a catheter, in a bent tube that costs little."""
 
 import itertools
+import json
+import re
 from dataclasses import replace
 
 import numpy as np
@@ -293,3 +295,17 @@ def test_a_report_says_what_the_hubs_did_and_not_what_was_asked_for(pair):
             assert part.retracted == pytest.approx(-own_moves[own_moves < 0.0].sum(), abs=1e-15)
         turn = 0.14 * np.pi
         assert [part.turned for part in own.report.parts] == pytest.approx([18 * turn, 4.5 * turn])
+
+
+@pytest.mark.parametrize("key, value, problem", (
+    ("frictions", [], "frictions = [] is not allowed"), ("frictions", ["x"], 'frictions = "x" is not allowed'),
+    ("frictions", [-0.1], "frictions = -0.1 is not allowed"),
+    ("overrides", {"catheters": {"start": 4.0}}, 'catheters = {"start": 4.0} is not allowed: needs a list of objects'),
+    ("overrides", {"catheters": [3]}, "catheters = [3] is not allowed: needs a list of objects"),
+))
+def test_wrong_lists_of_a_tasks_file_are_one_line_that_names_the_file(key, value, problem, tmp_path):
+    file = tmp_path / "own.json"
+    file.write_text(json.dumps({"anatomies": ["anatomy.json"], "targets": [2], key: value}))
+    with pytest.raises(Error, match=re.escape(problem)) as caught:
+        find_task(file)
+    assert str(caught.value).startswith(f"{file}: ") and "\n" not in str(caught.value)
