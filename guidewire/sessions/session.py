@@ -108,8 +108,7 @@ class Session:
         return state
 
     def step(self, push: float | Sequence[float] = 0.0, turn: float | Sequence[float] = 0.0, steps: int = 1,
-             hub: int = 0
-             ) -> State:
+             hub: int = 0) -> State:
         """Go on by some steps of `timeStep`, fewer where the run ends before.
 
         Parameters
@@ -226,10 +225,9 @@ class Session:
         Parameters
         ----------
         seconds : by which the blood goes on first, without a step.
-        flow : how blood flows, to begin anew with: inlet (ml/s; a mean velocity of 200 mm/s), dispersion (coefficient
-            over
-            mean velocity and radius; 1), pulse (amplitude over mean flow; 0), pulseRate (1/s; 1). At forks it divides
-            by radii cubed.
+        flow : how blood flows, to begin anew with: inlet (ml/s; that of a mean velocity of 200 mm/s), dispersion
+            (coefficient over mean velocity times radius; 1), pulse (amplitude over mean flow; 0), pulseRate (1/s; 1).
+            At forks it divides by radii cubed.
         """
         asked = {"flow": {name: _number(name, value) for name, value in flow.items()}} if flow else {}
         return Agent.of(self._ask("agent", seconds=_number("seconds", seconds), **asked))
@@ -273,8 +271,7 @@ class Session:
         centre : what is in the middle, units, and
         field_of_view : side of the picture, mm: so that the vessel is seen, or without one the wire.
         vessel : "roadmap" (brighter than the background), "contrast" (darker), "none", or "injected": darker where
-            there is
-            agent of `inject`.
+            there is agent of `inject`.
         contrast : attenuation coefficient of contrast agent, 1/mm (0.1: iodine of 130 mg/ml at 60 keV).
         attenuation : coefficient of the instruments, 1/mm; by their materials.
         background : brightness beside all, from 0 to 1 (0.75).
@@ -462,8 +459,7 @@ def _numbers(name: str, value: Any, hub: int, hubs: int) -> list[float]:
         one_each = []
     if hub != 0 or len(one_each) != hubs:
         raise SessionError(f"{name} = {value!r} is not allowed: needs a number, or a list of one for each of the "
-                           f"{hubs} "
-                           "hubs, with hub = 0")
+                           f"{hubs} hubs, with hub = 0")
     return [_number(name, one) for one in one_each]
 
 

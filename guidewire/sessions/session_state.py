@@ -257,8 +257,9 @@ def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 def part_of(array: str) -> int:
     """Which part of a state an array of an answer belongs to."""
-    return INSTRUMENTS if array in ("hub",
-                                    "lumen") or array[-1] in _DIGITS else STRAINS if array in _STRAINS else MOTION
+    if array in ("hub", "lumen") or array[-1] in _DIGITS:
+        return INSTRUMENTS
+    return STRAINS if array in _STRAINS else MOTION
 
 
 def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
