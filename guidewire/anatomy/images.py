@@ -12,7 +12,7 @@ from pathlib import Path
 
 import numpy as np
 
-from guidewire.anatomy.mesh import AnatomyError
+from guidewire.anatomy.mesh import FARTHEST, AnatomyError
 from guidewire.anatomy.patient import Axes, axes_named
 
 _MOST_VOXELS = 1 << 30
@@ -61,7 +61,10 @@ def read_image(file: Path, kind: str, axes: Axes | None = None) -> Image:
         raise AnatomyError(f"{file}: {error}") from error
     to_space = to_file.copy()
     to_space[:3] = axes.to_lps @ to_file[:3]
-    if not np.isfinite(to_space).all() or not abs(np.linalg.det(to_space)) > 0.0:
+    is_finite = bool(np.isfinite(to_space).all())
+    if is_finite and (np.abs(to_space[:3]) @ [*values.shape, 1.0]).max() > FARTHEST:
+        raise AnatomyError(f"{file}: a voxel may lie beyond {FARTHEST:g} mm")
+    if not is_finite or not abs(np.linalg.det(to_space)) > 0.0:
         raise AnatomyError(f"{file}: its directions of voxels are no three directions in space")
     if values.dtype.kind == "f" and not np.isfinite(values).all():
         raise AnatomyError(f"{file}: {int((~np.isfinite(values)).sum())} voxels are not finite")
@@ -83,7 +86,7 @@ def _three_sizes(sizes: list[int]) -> list[int]:
         sizes = list(sizes)
         sizes.remove(1)
     voxels = float(np.prod([float(n) for n in sizes])) if sizes else 0.0
-    if len(sizes) != 3 or voxels == 0:
+    if len(sizes) != 3 or min(sizes) < 1:
         raise AnatomyError(f"an image of {' x '.join(map(str, sizes)) or 'no'} voxels: three sizes are needed, and one "
                            "number a voxel")
     if voxels > _MOST_VOXELS:
@@ -117,6 +120,8 @@ def _nifti(file: Path, is_packed: bool) -> tuple[np.ndarray, np.ndarray, str]:
         raise AnatomyError(f"voxels of the type {code}: one number a voxel is needed")
     pixdim = struct.unpack_from(order + "8f", data, 76)
     offset, slope, intercept = struct.unpack_from(order + "3f", data, 108)
+    if not np.isfinite(offset):
+        raise AnatomyError(f"its voxels begin at byte {offset:g}: a number is needed")
     values = _voxels(data[max(int(offset), 348):], np.dtype(order + _NIFTI_TYPES[code]), sizes)
     if np.isfinite(slope) and slope != 0.0 and (slope != 1.0 or intercept != 0.0):
         values = values * np.float64(slope) + np.float64(intercept)    # the file's own formula
@@ -182,8 +187,10 @@ def _nrrd(file: Path) -> tuple[np.ndarray, np.ndarray, str]:
 
 def _encoded(file: Path, data: bytes, fields: dict[str, str], dtype: np.dtype, sizes: list[int]) -> np.ndarray:
     encoding = fields.get("encoding", "raw").lower()
-    for _ in range(int(fields.get("line skip", fields.get("lineskip", "0")))):
-        data = data[data.find(b"\n") + 1:]
+    for _ in range(_skipped(fields, "line")):
+        _, mark, data = data.partition(b"\n")
+        if not mark:
+            raise AnatomyError("the file breaks off: it has fewer lines than its line skip")
     if encoding in ("gzip", "gz"):
         data = _unpacked(file, data)
     elif encoding in ("bzip2", "bz2"):
@@ -200,9 +207,17 @@ def _encoded(file: Path, data: bytes, fields: dict[str, str], dtype: np.dtype, s
         return numbers[:int(np.prod(sizes))].reshape(sizes, order="F")
     elif encoding != "raw":
         raise AnatomyError(f"encoding '{encoding}': one of raw, gzip, bzip2, hex, ascii is needed")
-    skip = int(fields.get("byte skip", fields.get("byteskip", "0")))
+    skip = _skipped(fields, "byte")
     data = data[len(data) - int(np.prod(sizes)) * dtype.itemsize if skip == -1 else max(skip, 0):]
     return _voxels(data, dtype, sizes)
+
+
+def _skipped(fields: dict[str, str], what: str) -> int:
+    text = fields.get(f"{what} skip", fields.get(f"{what}skip", "0"))
+    try:
+        return int(text)
+    except ValueError as error:
+        raise AnatomyError(f"{what} skip '{text[:40]}': a whole number is needed") from error
 
 
 def _directions(fields: dict[str, str], count: int) -> tuple[list[list[float] | None], str]:

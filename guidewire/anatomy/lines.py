@@ -11,7 +11,7 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from guidewire.anatomy.mesh import AnatomyError, Mesh
+from guidewire.anatomy.mesh import FARTHEST, AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.tubes import Tube, mesh_of_tubes
 
@@ -135,7 +135,7 @@ def tree_of(lines: list[Line]) -> tuple[list[Tube], int]:
         if is_core.all():
             same += 1
             continue
-        points, own_radii, near, is_core = line.points, line.radii, near, is_core
+        points, own_radii = line.points, line.radii
         if (away - radii[near])[-1] < (away - radii[near])[0]:
             points, own_radii, near, is_core = points[::-1], own_radii[::-1], near[::-1], is_core[::-1]
         begin = max(int(np.argmin(is_core)) - 1, 0)
@@ -164,9 +164,13 @@ def _checked(file: Path, line: Line, name: str = "") -> Line:
     """
     if len(line.points) < 2:
         raise AnatomyError(f"{file}: {name}{len(line.points)} points: a centreline has two or more")
-    if not (np.isfinite(line.points).all() and np.isfinite(line.radii).all() and (line.radii > 0.0).all()):
-        bad = int(np.flatnonzero(~(np.isfinite(line.points).all(axis=1) & (line.radii > 0.0)))[0])
-        raise AnatomyError(f"{file}: {name}point {bad + 1}: three numbers and a radius above 0 are needed")
+    table = np.column_stack([line.points, line.radii])
+    bad = np.flatnonzero(~np.isfinite(table).all(axis=1) | (line.radii <= 0.0))
+    if len(bad):
+        raise AnatomyError(f"{file}: {name}point {bad[0] + 1}: three numbers and a radius above 0 are needed")
+    far = np.flatnonzero(np.abs(table).max(axis=1) > FARTHEST)
+    if len(far):
+        raise AnatomyError(f"{file}: {name}point {far[0] + 1}: a number is beyond {FARTHEST:g}")
     steps = np.linalg.norm(np.diff(line.points, axis=0), axis=1)
     kept = np.r_[True, steps > 1e-9 * steps.sum()]
     if kept.sum() < 2:
@@ -261,7 +265,7 @@ def _read_markups(file: Path) -> Lines:
         read = [_curve(file, curve) for curve in curves]
         systems = {curve.get("coordinateSystem", "LPS").upper() for curve in curves}
         units = {curve.get("coordinateUnits", "") for curve in curves}
-    except (ValueError, KeyError, IndexError, TypeError, AttributeError) as error:
+    except (ValueError, KeyError, IndexError, TypeError, AttributeError, OverflowError, RecursionError) as error:
         raise AnatomyError(f"{file}: not a curve of 3D Slicer (.mrk.json) with control points and radii") from error
     if len(systems) != 1 or len(units) != 1 or not systems < {"LPS", "RAS"}:
         raise AnatomyError(f"{file}: coordinateSystem {', '.join(sorted(systems))}, coordinateUnits "

@@ -15,8 +15,6 @@ from guidewire.anatomy.surfaces import contour, decimate, farthest, smooth
 # a tube of 2 voxels 2.008, each from 8 tubes; at band 0.02 a tube of 2 loses a quarter.
 _PASSES, _BAND = 20, 0.1
 _ERROR = 0.1  # of decimation, of a voxel's smallest side
-
-
 _LISTED = 6  # regions, and values of voxels, that a line lists
 _AROUND = np.ones((3, 3, 3))  # neighbours of a voxel that touch it at a corner at least
 

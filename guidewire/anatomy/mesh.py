@@ -8,6 +8,8 @@ import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components
 
+FARTHEST = 1e9  # from 0 that a coordinate may be, in the file's unit
+
 
 class AnatomyError(Exception):
     """An input that is no vessel, or an answer that there is none. The message is one line."""

@@ -14,7 +14,7 @@ from scipy.spatial import cKDTree
 
 from guidewire.anatomy.formats import CENTRELINES, ENDINGS, MASKS
 from guidewire.anatomy.images import read_image
-from guidewire.anatomy.mesh import AnatomyError, Mesh
+from guidewire.anatomy.mesh import FARTHEST, AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.triangles import read_obj, read_stl
 
@@ -149,9 +149,9 @@ def read_mesh(file: Path, data=None) -> Mesh:
     if len(bad):
         raise AnatomyError(f"{file}: {len(bad)} of {len(mesh.vertices)} vertices have a coordinate that is not finite; "
                            f"the first is vertex {bad[0] + 1}")
-    if np.abs(mesh.vertices).max() > 1e9 or not mesh.diagonal > 0.0:
+    if np.abs(mesh.vertices).max() > FARTHEST or not mesh.diagonal > 0.0:
         raise AnatomyError(f"{file}: all vertices lie in one point" if not mesh.diagonal > 0.0
-                           else f"{file}: a coordinate is beyond 1e9")
+                           else f"{file}: a coordinate is beyond {FARTHEST:g}")
     return mesh
 
 
@@ -177,8 +177,9 @@ def _face_numbers(data) -> np.ndarray | None:
     """(t,): ModelFaceID of each triangle, or None."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    found = _cut(data).GetCellData().GetArray("ModelFaceID")
-    return None if found is None else vtk_to_numpy(found).astype(int).ravel()
+    if data.GetCellData().GetArray("ModelFaceID") is None:
+        return None
+    return vtk_to_numpy(_cut(data).GetCellData().GetArray("ModelFaceID")).astype(int).ravel()
 
 
 def _cut(data):
@@ -211,7 +212,21 @@ def _poly_data(file: Path, kind: str):
     _update(reader, lines)
     if lines:
         raise AnatomyError(f"{file}: {lines[0].strip()}")
-    return reader.GetOutput()
+    data = reader.GetOutput()
+    _check_points(file, data)
+    return data
+
+
+def _check_points(file: Path, data) -> None:
+    """VTK takes the numbers of points as they are, and filters read beyond the last one."""
+    from vtkmodules.util.numpy_support import vtk_to_numpy
+
+    count = data.GetNumberOfPoints()
+    for cells in (data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()):
+        index = vtk_to_numpy(cells.GetConnectivityArray())
+        bad = index[(index < 0) | (index >= count)]
+        if len(bad):
+            raise AnatomyError(f"{file}: a cell has point {bad[0]}: there are {count} points, numbered from 0")
 
 
 def _reader(file: Path, kind: str):

@@ -92,8 +92,8 @@ def decimate(mesh: Mesh, error: float) -> Mesh:
         reduce.VolumePreservationOn()
         reduce.Update()
         reduced = from_vtk(reduce.GetOutput())
-        if ((Edges.of(reduced).counts <= 2).all() and farthest(mesh, reduced, _SAMPLES) <= error
-                and farthest(mesh, reduced) <= error):
+        if (len(reduced.triangles) and (Edges.of(reduced).counts <= 2).all()
+                and farthest(mesh, reduced, _SAMPLES) <= error and farthest(mesh, reduced) <= error):
             return reduced
     return mesh
 

@@ -110,3 +110,10 @@ def test_cavities_are_filled_and_the_volume_after_each_step_is_told() -> None:
     assert find_bodies(mesh).max() == 0 and any("8 voxels of cavities within it filled" in note for note in notes)
     told, = (note for note in notes if note.startswith("volume: voxels 224 mm3"))
     assert f"decimated {abs(signed_volume(mesh)):.5g} mm3" in told
+
+
+def test_one_voxel_has_a_wall_though_no_decimation_leaves_one() -> None:
+    inside = np.zeros((5, 5, 5), np.uint8)
+    inside[2, 2, 2] = 1
+    mesh, _ = mesh_of_image(Image(inside, np.eye(4)), None, None, None)
+    assert len(mesh.triangles) and find_bodies(mesh).max() == 0

@@ -118,13 +118,24 @@ def test_bytes_behind_a_binary_stl_are_left_out_up_to_a_triangle(tmp_path: Path)
         reading.read_mesh(tmp_path / "a.stl")
 
 
-def nifti(shape=(8, 8, 8), voxels: bytes | None = None, first: int = 348) -> bytes:
+def nrrd(line: bytes, sizes: bytes = b"2 2 2") -> bytes:
+    return b"NRRD0004\ntype: uchar\ndimension: 3\nsizes: " + sizes + b"\nencoding: raw\n" + line + b"\n\n" + bytes(8)
+
+
+def polygon(corner: int) -> bytes:
+    return f"""<VTKFile type="PolyData" version="0.1"><PolyData><Piece NumberOfPoints="3" NumberOfPolys="1">
+<Points><DataArray type="Float64" NumberOfComponents="3" format="ascii">0 0 0 1 0 0 0 1 0</DataArray></Points>
+<Polys><DataArray type="Int64" Name="connectivity" format="ascii">0 1 2 {corner}</DataArray>
+<DataArray type="Int64" Name="offsets" format="ascii">4</DataArray></Polys></Piece></PolyData></VTKFile>""".encode()
+
+
+def nifti(shape=(8, 8, 8), voxels: bytes | None = None, first: int = 348, offset: float = 352.0) -> bytes:
     head = bytearray(352)
     struct.pack_into("<i", head, 0, first)
     struct.pack_into("<8h", head, 40, 3, *shape, 1, 1, 1, 1)
     struct.pack_into("<2h", head, 70, 2, 8)
     struct.pack_into("<8f", head, 76, 1.0, 0.5, 0.5, 0.5, 0.0, 0.0, 0.0, 0.0)
-    struct.pack_into("<f", head, 108, 352.0)
+    struct.pack_into("<f", head, 108, offset)
     head[344:348] = b"n+1\0"
     return bytes(head) + (voxels if voxels is not None else bytes(int(np.prod(shape))))
 
@@ -159,7 +170,22 @@ BAD = {
     "b.csv": (b"0,0,0,1\n", "1 points"),
     "c.csv": (b"0,0,0,1\n0,0,1,-1\n", "point 2"),
     "d.csv": (b"1,2,3,1\n1,2,3,1\n1,2,3,2\n", "3 points in one place"),
+    "e.csv": (b"0,0,0,1\n0,0,1,inf\n", "point 2: three numbers"),
+    "f.csv": (b"0,0,0,1\n0,0,1e300,1\n", "point 2: a number is beyond 1e+09"),
+    "g.csv": (b"0,0,0,1\n0,0,1,1e300\n", "point 2: a number is beyond 1e+09"),
     "a.mrk.json": (b"{}", "not a curve of 3D Slicer"),
+    "b.mrk.json": (b"[" * 100_000, "not a curve of 3D Slicer"),
+    "c.mrk.json": (b'{"markups": [{"controlPoints": [{"position": [1' + b"0" * 400 + b', 0, 0]}]}]}', "not a curve"),
+    "b.nrrd": (nrrd(b"line skip: x"), "line skip 'x'"),
+    "c.nrrd": (nrrd(b"byte skip: y"), "byte skip 'y'"),
+    "d.nrrd": (nrrd(b"line skip: 99999999999"), "fewer lines than its line skip"),
+    "e.nrrd": (nrrd(b"", b"-2 -2 2"), "-2 x -2 x 2 voxels"),
+    "f.nrrd": (nrrd(b"space directions: (1e300,0,0) (0,1,0) (0,0,1)"), "beyond 1e+09 mm"),
+    "g.nrrd": (nrrd(b"space directions: (1,0,0) (0,1,0) (0,0,1)\nspace origin: (0,-1e300,0)"), "beyond 1e+09 mm"),
+    "e.nii": (nifti(offset=float("nan")), "byte nan"),
+    "f.nii": (nifti(offset=float("inf")), "byte inf"),
+    "c.vtp": (polygon(99999), "point 99999: there are 3 points"),
+    "d.vtp": (polygon(-7), "point -7: there are 3 points"),
 }
 
 
