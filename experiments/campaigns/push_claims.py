@@ -3,20 +3,19 @@ element, true figures in the summary."""
 
 from __future__ import annotations
 
-import re
 from typing import Any
 
 import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
 from analysis.wall_search import ClosedForm, MeshSearch, Walls
+from experiments.campaigns.reliable_claims import listed
+from guidewire.prepare import ROOT
 
 FINE_SAMPLES = 40  # points an element, on the last entry of a log
 FROZEN_STEPS = 20
-# Warnings at the end of a run that make its result unreliable; others are of its parameters, or of a tip that left.
-SERIOUS = re.compile(r"\d+ points of the wire passed a wall|the wire penetrated a wall by |the wire is [\d.]+ % |"
-                    r"the outermost fibre was strained by |the drive fell short: |.* fell short by |"
-                    r".* had up to .* N, above its hubForceLimit of |.* mm of play in the ")
+# Warnings that make a result unreliable; others are of a run's parameters, or of a tip that left.
+SERIOUS = listed((ROOT / "docs" / "runs.md").read_text(encoding="utf-8"))
 RIM = "the tip left the vessel by an open rim"
 SAME = 1e-9  # of the radius, or of the displacement that was asked for: what figures may differ by
 
@@ -37,7 +36,7 @@ def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.nda
 
 def contradictions(summary: dict[str, Any]) -> list[str]:
     """Where `reliable` is not what outcome, reason and warnings say."""
-    serious = [warning for warning in summary["warnings"] if SERIOUS.match(warning)]
+    serious = [warning for warning in summary["warnings"] if any(one.match(warning) for one in SERIOUS)]
     is_whole = summary["outcome"] in ("converged", "finished") and ", but " not in summary["reason"]
     may_be_trusted = is_whole and not serious
     if summary["reliable"] != may_be_trusted:

@@ -10,8 +10,7 @@ Criteria, written down before the first run. A result is not to be trusted where
 6. a hub went less far than asked, by more than a thousandth of that and than a millionth of the wire's length;
 7. a hub's force is above its limit, by more than a fiftieth;
 8. the forces on the wire and its change of momentum differ by more than a thousandth of the largest of them, or of
-EI/L^2
-   (direct);
+   EI/L^2 (direct);
 9. one of its warnings is listed in docs/runs.md as one that makes it so.
 What is nearer to a border than a twentieth may be either.
 """
