@@ -32,7 +32,7 @@ from guidewire.runs.runner import Request, Runner
 PAIRS = (("radifocus-angled-0.035", "catheter-angled-5f", 1.67), ("workhorse-0.014", "microcatheter-2.4f", 0.97))
 MOST_STEPS = 160
 RUN_LIMIT = 1200.0  # s of wall time of one run
-_BODY, _BEHIND = 5.0, 60.0  # mm: of a catheter's elements, and of its hub before the wire's
+_BODY, _BEHIND = 5.0, 60.0  # mm: of a catheter's elements, and of its hub before the wire's, at least
 _POINTS = 10  # looked at on each piece
 _TARGET = 3.0  # radii of a target, at which a tip that reached it has been at least
 
@@ -43,18 +43,19 @@ def draw(vessel: Vessel, seed: int, folder: Path) -> Path:
     wire, catheter, diameter = PAIRS[int(random.integers(len(PAIRS)))]
     wide = [end["number"] for end in vessel.ends if 2.0 * vessel.scale * end["radius"] > 1.5 * diameter]
     own = vessel.scene
-    length = _BODY * np.ceil((own["guidewireLength"] + 100.0) / _BODY)
-    count = int((length - 2.0 * _BEHIND) / _BODY)
     most = 0.9 * float(own["guidewireLength"])
     names = [str(folder / f"{vessel.folder.name}-{seed}-{hub}.csv") for hub in ("wire", "catheter")]
-    for name in names:
-        rows = drive(random, most)
+    drives = [drive(random, most) for _ in names]
+    for name, rows in zip(names, drives):
         Path(name).write_text("time,insertion,rotation\n" + "".join(
             f"{at:.4f},{1e-3 * insertion:.6f},{turn:.5f}\n" for at, insertion, turn in rows))
+    start = max(_BEHIND, _BODY * np.ceil(_most_ahead(*map(np.array, drives)) / _BODY))
+    length = _BODY * np.ceil((own["guidewireLength"] + 100.0 + start - _BEHIND) / _BODY)
+    count = int((length - start - _BEHIND) / _BODY)
     scene = {
         "solver": "direct", "instrument": wire, "guidewireLength": float(length),
         "numberRodElements": int(length / _BODY),
-        "catheters": [{"instrument": catheter, "start": _BEHIND, "length": _BODY * count, "elements": count,
+        "catheters": [{"instrument": catheter, "start": float(start), "length": _BODY * count, "elements": count,
                        "driveFile": names[1]}],
         "massDamping": 20.0, "proximalEnd": "clamped", "drive": "displace", "driveFile": names[0],
         "hubForceLimit": float(np.exp(random.uniform(np.log(0.5), np.log(10.0)))),
@@ -69,6 +70,14 @@ def draw(vessel: Vessel, seed: int, folder: Path) -> Path:
     path = folder / f"{vessel.folder.name}-{seed}.json"
     path.write_text(json.dumps(scene, indent=1))
     return path
+
+
+def _most_ahead(wire: np.ndarray, catheter: np.ndarray) -> float:
+    """By how much the wire's hub has gone farther than the catheter's, at most in a run, mm. Rows are of `drive`."""
+    end = STEP * MOST_STEPS
+    times = np.union1d(wire[:, 0], catheter[:, 0])
+    times = np.append(times[times < end], end)
+    return float((np.interp(times, wire[:, 0], wire[:, 1]) - np.interp(times, catheter[:, 0], catheter[:, 1])).max())
 
 
 def violations(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], log: PositionLog) -> list[str]:

@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 
 from experiments.campaigns import artery_folder, coaxial_campaign, patient_campaign, patient_files
-from experiments.campaigns.anatomy_campaign import Vessel
+from experiments.campaigns.anatomy_campaign import STEP, Vessel
 from guidewire.logs.logs import read_log
 from guidewire.runs.runner import Request, Runner
 
@@ -59,3 +59,18 @@ def test_a_catheter_run_passes_no_wall_and_the_judge_sees_one_that_does(runner_c
     far = np.broadcast_to(log.positions[:1], log.positions.shape)
     assert any("'reached', but" in claim for claim in coaxial_campaign.violations(
         vessel, scene, reached, replace(log, positions=np.array(far))))
+
+
+def test_the_hubs_of_drives_that_are_drawn_never_meet(tmp_path):
+    vessel = Vessel(artery_folder.write(tmp_path / "artery", 2).parent)
+    at = STEP * np.arange(coaxial_campaign.MOST_STEPS + 1)
+    starts = []
+    for seed in range(20):
+        scene = json.loads(coaxial_campaign.draw(vessel, seed, tmp_path).read_text())
+        catheter, = scene["catheters"]
+        wire, over = (1e3 * np.interp(at, *np.loadtxt(file, delimiter=",", skiprows=1)[:, :2].T)
+                      for file in (scene["driveFile"], catheter["driveFile"]))
+        assert (wire - over).max() <= catheter["start"]
+        assert catheter["start"] + catheter["length"] < scene["guidewireLength"]
+        starts.append(catheter["start"])
+    assert min(starts) == 60.0 < max(starts)
