@@ -131,17 +131,7 @@ namespace Guidewire.Core
         /// <param name="point">mm.</param>
         public int CellOf(in Vector3d point)
         {
-            int best = 0;
-            double least = double.PositiveInfinity;
-            for (int k = 0; k < _part.Length; k++)
-            {
-                double power = (point - _cells.Middles[k]).LengthSquared - _cells.Radii[k] * _cells.Radii[k];
-                if (power < least)
-                {
-                    (least, best) = (power, k);
-                }
-            }
-            return best;
+            return VesselCells.Nearest(point, _cells.Middles, _cells.Radii);
         }
 
         /// <summary>Begins an injection; one that goes on ends.</summary>

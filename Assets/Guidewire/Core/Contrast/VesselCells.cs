@@ -81,6 +81,22 @@ namespace Guidewire.Core
         /// <summary>Flow through each over that at the inlet.</summary>
         public double[] Shares { get; }
 
+        /// <summary>The cell whose sphere a point has the least power to.</summary>
+        public static int Nearest(in Vector3d point, Vector3d[] middles, double[] radii)
+        {
+            int best = 0;
+            double least = double.PositiveInfinity;
+            for (int k = 0; k < middles.Length; k++)
+            {
+                double power = (point - middles[k]).LengthSquared - radii[k] * radii[k];
+                if (power < least)
+                {
+                    (least, best) = (power, k);
+                }
+            }
+            return best;
+        }
+
         // Of the branch that begins with a point: as given, or the cube of the median of its radii.
         private static double Weight(VesselTree tree, List<int>[] after, int first, Func<int, double?> given)
         {

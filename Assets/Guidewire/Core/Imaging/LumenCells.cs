@@ -103,7 +103,8 @@ namespace Guidewire.Core
             ref short cell = ref _cells[(i * _counts[1] + j) * _counts[2] + k];
             if (cell == 0)
             {
-                cell = (short)(1 + Nearest(_low + _side * new Vector3d(i + 0.5, j + 0.5, k + 0.5)));
+                cell = (short)(1 + VesselCells.Nearest(
+                    _low + _side * new Vector3d(i + 0.5, j + 0.5, k + 0.5), _middles, _radii));
             }
             return cell - 1;
         }
@@ -111,21 +112,6 @@ namespace Guidewire.Core
         private int Index(double at, int axis)
         {
             return (int)Math.Max(0.0, Math.Min(_counts[axis] - 1.0, Math.Floor(at)));
-        }
-
-        private int Nearest(in Vector3d point)
-        {
-            int best = 0;
-            double least = double.PositiveInfinity;
-            for (int k = 0; k < _middles.Length; k++)
-            {
-                double power = (point - _middles[k]).LengthSquared - _radii[k] * _radii[k];
-                if (power < least)
-                {
-                    (least, best) = (power, k);
-                }
-            }
-            return best;
         }
     }
 }
