@@ -15,6 +15,7 @@ namespace Guidewire.Core
     public sealed class ContrastFlow
     {
         private const double MostCourant = 0.9;    // part of a cell's blood that is exchanged in a part of a step
+        private const double LongestPass = 0.02;   // s that are carried on before they are spread
         private const double PerMillilitre = 1e3;  // mm^3
 
         private readonly VesselCells _cells;
@@ -155,24 +156,30 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Blood without agent again.</summary>
+        /// <summary>Blood without agent again, at the beginning of its pulse.</summary>
         public void Clear()
         {
             Array.Clear(_part, 0, _part.Length);
-            (Injected, WashedOut, _left, IsActive) = (0.0, 0.0, 0.0, false);
+            (Injected, WashedOut, _left, _time, IsActive) = (0.0, 0.0, 0.0, 0.0, false);
         }
 
         /// <summary>Goes on by a time.</summary>
         /// <param name="seconds">0 or more.</param>
+        /// <exception cref="ArgumentException">Another time.</exception>
         public void Advance(double seconds)
         {
+            if (!(seconds >= 0.0) || double.IsInfinity(seconds))
+            {
+                throw new ArgumentException("blood goes on by 0 s or more");
+            }
             while (seconds > 0.0 && IsActive)
             {
-                double step = _left > 0.0 ? Math.Min(seconds, _left / _speed) : seconds;
+                double step = Math.Min(seconds, LongestPass);
+                step = _left > 0.0 ? Math.Min(step, _left / _speed) : step;
                 Pass(step);
                 seconds -= step;
             }
-            _time += Math.Max(seconds, 0.0);
+            _time += seconds;
         }
 
         // With one rate of injection all through.
@@ -187,8 +194,8 @@ namespace Guidewire.Core
                 double flow = _cells.Shares[k] * inlet + _added[k] + (k == _place ? injected : 0.0);
                 most = Math.Max(most, flow / _volumes[k]);
             }
-            int parts = Math.Max(1, (int)Math.Ceiling(most * seconds / MostCourant));
-            for (int part = 0; part < parts; part++)
+            long parts = Math.Max(1, (long)Math.Ceiling(most * seconds / MostCourant));
+            for (long part = 0; part < parts; part++)
             {
                 Carry(seconds / parts, injected);
                 _time += seconds / parts;

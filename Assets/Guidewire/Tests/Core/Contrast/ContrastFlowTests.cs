@@ -112,6 +112,45 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void OneLongAdvance_IsThatOfManyShortOnes([Values(0.0, 0.8)] double pulse)
+        {
+            ContrastFlow[] flows = { new ContrastFlow(Straight(200), Beating()), new ContrastFlow(Straight(200), Beating()) };
+            foreach (ContrastFlow flow in flows)
+            {
+                flow.Inject(0, 1.0, 4.0);
+            }
+            flows[0].Advance(1.1);
+            for (int k = 0; k < 110; k++)
+            {
+                flows[1].Advance(0.01);
+            }
+            Assert.That(flows[0].Held, Is.EqualTo(flows[1].Held).Within(0.002), "of 1 ml");
+            Assert.That(PartsOf(flows[0]), Is.EqualTo(PartsOf(flows[1])).AsCollection.Within(0.005));
+            flows[0].Advance(10.0);
+            Assert.That(flows[0].IsActive, Is.False);
+            Assert.That(flows[0].WashedOut, Is.EqualTo(1.0).Within(1e-9));
+
+            BloodFlow Beating() => new BloodFlow { PulseAmplitude = pulse, PulseRate = 1.3 };
+        }
+
+        [Test]
+        public void Amounts_AddUp_WhereOneBranchHasAlmostNoFlowAndInjectionsAreExtreme()
+        {
+            var flow = new ContrastFlow(Forked(2.0, 1.5, 1.0), new BloodFlow
+            {
+                Given = point => point == 51 ? 1e-12 : point == 451 ? 1.0 : (double?)null,
+            });
+            foreach ((int cell, double amount, double rate) in new[] { (0, 1e-12, 1e-3), (0, 0.0, 1.0),
+                (flow.CellOf(new Vector3d(0.0, 20.0, 50.0)), 3.0, 100.0), (0, 1e6, 10.0), (flow.Count - 1, 1e-300, 1e300) })
+            {
+                flow.Inject(cell, amount, rate);
+                flow.Advance(0.05);
+                Assert.That(PartsOf(flow), Is.All.InRange(-1e-15, 1.0 + 1e-12));
+                Assert.That(flow.Held + flow.WashedOut, Is.EqualTo(flow.Injected).Within(1e-9 * flow.Injected));
+            }
+        }
+
+        [Test]
         public void ATip_ThatInjectsFasterThanBloodFlows_FillsTheLumenAndNoMore()
         {
             var flow = new ContrastFlow(Straight(100), new BloodFlow { Inlet = 0.5, Dispersion = 0.0 });
@@ -143,6 +182,13 @@ namespace Guidewire.Core.Tests
             var flow = new ContrastFlow(Straight(10), new BloodFlow());
             Assert.Throws<ArgumentException>(() => flow.Inject(flow.Count, 1.0, 1.0));
             Assert.Throws<ArgumentException>(() => flow.Inject(0, 1.0, 0.0));
+            foreach (double wrong in new[] { -1.0, double.NaN, double.PositiveInfinity })
+            {
+                Assert.Throws<ArgumentException>(() => flow.Inject(0, wrong, 1.0));
+                Assert.Throws<ArgumentException>(() => flow.Inject(0, 1.0, wrong));
+                Assert.Throws<ArgumentException>(() => flow.Advance(wrong));
+            }
+            Assert.That(flow.IsActive, Is.False, "nothing has changed");
             Assert.Throws<ArgumentException>(() =>
                 new VesselTree(new Vector3d[2], new[] { 1.0, 0.0 }, new[] { -1, 0 }));
         }
