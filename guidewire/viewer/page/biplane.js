@@ -29,7 +29,7 @@ export class SecondPlane {
   draw(first, instruments) {
     if (!this.isShown || !this._seen) return;
     if (!this._fluoroscopy) {
-      this._fluoroscopy = new Fluoroscopy(byId("second"), 512);
+      this._fluoroscopy = new Fluoroscopy(byId("secondPlane"), 512);
       this._fluoroscopy.set(...this._seen);
     }
     const { clientWidth: width, clientHeight: height } = byId("view");

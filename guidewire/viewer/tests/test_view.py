@@ -4,6 +4,7 @@ import asyncio
 import http.client
 import json
 import os
+import re
 import signal
 import socket
 import subprocess
@@ -173,6 +174,12 @@ def test_nothing_is_served_that_is_not_in_the_table(live, name):
     address, _ = live
     status, text, _ = ask(address, urlsplit(address).path + name)
     assert status in (400, 404) and SECRET not in text and "root:" not in text
+
+
+@pytest.mark.parametrize("name", ["index.html", "anatomy.html"])
+def test_elements_of_the_page_have_names_of_their_own(name):
+    names = re.findall(r'\bid="([^"]+)"', (parts.PAGE / name).read_text(encoding="utf-8"))
+    assert len(names) > 5 and len(set(names)) == len(names)
 
 
 def test_it_listens_on_this_machine_alone(live):
