@@ -46,7 +46,7 @@ _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
 _LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
 _REST = (0.0, 0.0)
 _PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
-_MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; further ones are left out
+_MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; of further ones it gets the last
 _SMOOTHING = 0.1               # weight of the newest request in the step time shown
 _ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
 _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
@@ -72,6 +72,22 @@ class _Page:
     def __init__(self, socket: web.WebSocketResponse) -> None:
         self.socket = socket
         self.on_the_way = 0
+        self.waiting: bytes | None = None    # the newest frame, where too many are on the way
+
+    async def show(self, frame: bytes) -> None:
+        """Send a frame, or the newest of several when the page has shown others."""
+        if self.on_the_way < _MOST_IN_FLIGHT:
+            self.on_the_way += 1
+            await _send(self.socket.send_bytes(frame))
+        else:
+            self.waiting = frame
+
+    async def has_shown(self) -> None:
+        """The page is ready for one more."""
+        self.on_the_way = max(0, self.on_the_way - 1)
+        frame, self.waiting = self.waiting, None
+        if frame is not None:
+            await self.show(frame)
 
 
 class LiveRun:
@@ -224,7 +240,7 @@ class LiveRun:
             message = json.loads(text)
             what = message["do"]
             if what == "shown":
-                page.on_the_way = max(0, page.on_the_way - 1)
+                await page.has_shown()
                 return True
             if what == "take":
                 self._hand = self._hand or page
@@ -388,9 +404,7 @@ class LiveRun:
                                 *(channel.values.ravel() for channel in channels)])
         block = frame.astype("<f8").tobytes()
         for page in list(self._pages):
-            if page.on_the_way < _MOST_IN_FLIGHT:
-                page.on_the_way += 1
-                await _send(page.socket.send_bytes(block))
+            await page.show(block)
 
     async def _tell_agent(self, agent: Agent) -> None:
         """Where contrast agent is, to all pages."""

@@ -56,6 +56,8 @@ export class Run {
     /** @type {Message} */
     this._named = {};
     this._isGoing = this._isAgent = false;
+    /** The newest frame, where too many are on the way. @type {ArrayBuffer | null} */
+    this._waiting = null;
     this._ports = new MessageChannel();
     this._ports.port1.onmessage = () => this._go();
   }
@@ -64,6 +66,7 @@ export class Run {
   hear(message) {
     if (message.do === "shown") {
       this._onTheWay = Math.max(0, this._onTheWay - 1);
+      if (this._waiting) this._send(this._waiting);
       return;
     }
     try {
@@ -155,6 +158,7 @@ export class Run {
     channels.forEach((channel, k) => { channel.largest = this._largest[k]; });
     this._opened++;
     this._onTheWay = 0;
+    this._waiting = null;
     this._tell({ opened: this._opened, recording: {
       title: this._titleOf(this._scene), outcome: "", warnings: this._warnings, facts: factsOf(this._parameters ?? {}),
       radius: radiusOf(this._parameters ?? {}), channels, walls: this._walls, sheath: this._sheath,
@@ -210,7 +214,7 @@ export class Run {
   }
 
   _stepOn() {
-    const { frame, longest, pushSpeed, turnSpeed, smoothing, behind, longestWait, mostInFlight } = this._rules;
+    const { frame, longest, pushSpeed, turnSpeed, smoothing, behind, longestWait } = this._rules;
     const dt = this._parameters?.timeStep;
     let steps = this._stepsAsked ? 1 : Math.max(1, Math.round(frame / dt));
     if (this._cost > 0) steps = Math.max(1, Math.min(steps, Math.trunc(longest / this._cost)));
@@ -229,11 +233,8 @@ export class Run {
     held.addAll(moves, numbers[0], this._state);
     if (this._isAgent) this._tellAgent(this._program.ask({ session: "agent" }));
     this._largest = largestShown(channels).map((value, k) => Math.max(value, this._largest[k] ?? 0));
-    if (this._onTheWay < mostInFlight) {
-      this._onTheWay++;
-      const values = channels.flatMap((channel) => [...channel.values]);
-      this._tell({ frame: Float64Array.from([this._mark, this._opened, ...this._largest, ...values]).buffer });
-    }
+    const values = channels.flatMap((channel) => [...channel.values]);
+    this._send(Float64Array.from([this._mark, this._opened, ...this._largest, ...values]).buffer);
     if (this._outcome) {
       this._isPaused = true;
       this._say();
@@ -241,6 +242,15 @@ export class Run {
     const now = performance.now();
     this._next(Math.min(Math.max(this._due + (1000 * steps * dt) / this._pace, now - 1000 * behind),
       now + 1000 * longestWait));
+  }
+
+  /** Sends a frame, or the newest of several when the page has shown others. @param {ArrayBuffer} frame */
+  _send(frame) {
+    const isSent = this._onTheWay < this._rules.mostInFlight;
+    this._waiting = isSent ? null : frame;
+    if (!isSent) return;
+    this._onTheWay++;
+    this._tell({ frame });
   }
 
   /** The state of an answer. @param {Message} answer */

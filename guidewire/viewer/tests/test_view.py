@@ -221,6 +221,33 @@ def test_a_page_moves_the_wire_and_another_looks_on_until_the_first_is_gone(live
     with_pages(live[0], talk, 2)
 
 
+def test_a_page_that_was_busy_gets_the_last_frame_before_the_pause(live):
+    async def talk(page):
+        async def recorded():
+            async with page.session.get(page.recording) as answer:
+                return unpack(await answer.read())
+
+        await take_hand(page)
+        await page.send_json({"do": "pause", "value": True})
+        await see(page, 1)
+        first = await rest(page)
+        await page.send_json({"do": "shown"})    # all that may be on the way
+        await page.send_json({"do": "shown"})
+        for k in range(1, 6):    # and says of none that it is shown
+            await page.send_json({"do": "step"})
+            while (await recorded())["step"][1][-1, 0] < first + k:
+                await asyncio.sleep(0.02)
+        channels, steps = len(await recorded()), []
+        while not steps or steps[-1] < first + 5:
+            message = await page.receive(timeout=20)
+            if message.type == aiohttp.WSMsgType.BINARY:
+                await page.send_json({"do": "shown"})
+                steps += [step for step in np.frombuffer(message.data)[[3 + channels]] if step > first]
+        assert steps == [first + 1, first + 2, first + 5]
+
+    with_pages(live[0], talk)
+
+
 def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
     async def talk(page):
         await page.send_json({"do": "pause", "value": True})
