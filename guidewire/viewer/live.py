@@ -270,6 +270,8 @@ class LiveRun:
         if not (0.0 <= amount <= MOST_INJECTED and 0.0 < rate <= MOST_INJECTED) or not (hub is None or type(hub) is int):
             raise ValueError("no such injection")
         session = self._session
+        if session is None:
+            return    # a key of a page that has not heard yet that the runner is gone
         await self._tell_agent(await self._in_thread(lambda: session.inject(amount, rate, hub)))
 
     async def _do_name(self, message: Mapping[str, Any]) -> None:
@@ -461,7 +463,8 @@ class LiveRun:
 
 _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
     "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
-    "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name, "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
+    "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name, "pace": LiveRun._do_pace,
+    "open": LiveRun._do_open, "set": LiveRun._do_set,
 }
 
 

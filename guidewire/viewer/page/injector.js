@@ -6,6 +6,7 @@ import { byId, make } from "./panel.js";
  *     contrast agent is where: parts of the blood in each cell, base64 of doubles; ml
  */
 
+const MOST = 200; // ml, as live.py takes it
 const INLET = "where blood comes in";
 const BY_HAND = "by hand";
 
@@ -17,8 +18,8 @@ export class Injector {
     /** ml so far. */
     this.injected = 0;
     this._isDown = false;
-    this._amount = make("input", { type: "number", min: 0.1, max: 200, step: 0.1, value: 6 });
-    this._rate = make("input", { type: "number", min: 0.1, max: 50, step: 0.1, value: 3 });
+    this._amount = make("input", { type: "number", min: 0.1, max: MOST, step: "any", value: 6, required: true });
+    this._rate = make("input", { type: "number", min: 0.1, max: 50, step: "any", value: 3, required: true });
     this._how = make("select", {}, make("option", {}, "by pump"), make("option", {}, BY_HAND));
     this._how.setAttribute("aria-label", "injection");
     this._where = make("select", {});
@@ -46,7 +47,7 @@ export class Injector {
   get button() {
     const button = make("button", { id: "inject", onpointerdown: () => this.press(), onpointerup: () => this.release(),
       onpointerleave: () => this.release(), onkeydown: (/** @type {KeyboardEvent} */ event) =>
-        event.key === "Enter" && this.press(), onkeyup: () => this.release() }, "inject ", make("kbd", {}, "E"));
+        event.key === "Enter" && this.press() }, "inject ", make("kbd", {}, "E"));
     button.disabled = !this._hasVessel;
     button.title = this._hasVessel ? "contrast into the blood" : "this vessel has no centreline along which blood could flow";
     return button;
@@ -55,10 +56,11 @@ export class Injector {
   /** Begins an injection. */
   press() {
     if (!this._hasVessel || this._isDown) return;
-    this._isDown = true;
     const isByHand = this._how.value === BY_HAND;
+    if (!(isByHand || this._amount.reportValidity()) || !this._rate.reportValidity()) return;
+    this._isDown = true;
     const last = this._where.options.length - 1;
-    this._send({ do: "inject", amount: isByHand ? 200 : Number(this._amount.value), rate: Number(this._rate.value),
+    this._send({ do: "inject", amount: isByHand ? MOST : Number(this._amount.value), rate: Number(this._rate.value),
       instrument: this._where.selectedIndex === last ? null : this._where.selectedIndex });
   }
 

@@ -80,7 +80,8 @@ export class Live {
       : "agent" in message ? xray.fill(this.injector.take(message.agent)) : this._hear(message));
     connection.onclose = (reason) => panel.say([reason]);
     document.addEventListener("visibilitychange", () => document.hidden && this.pause(true));
-    addEventListener("keyup", ({ key }) => key.toLowerCase() === "e" && this.injector.release());
+    addEventListener("keyup", ({ key }) => ["e", "enter"].includes(key.toLowerCase()) && this.injector.release());
+    addEventListener("blur", () => this.injector.release());
     addEventListener("pagehide", () => this._keep());
   }
 
