@@ -53,7 +53,8 @@ export class Beam {
 
   /** The run goes on. @param {number} time s */
   pass(time) {
-    if (this.isOn && time > this._time) this.seconds += time - this._time;
+    if (time <= this._time) return; // one looks back
+    if (this.isOn) this.seconds += time - this._time || 0;
     this._time = time;
   }
 }
