@@ -30,6 +30,9 @@ export const plainLook = () => ({
   background: 0.75, noise: 0, seed: 0,
   blur: 0, isSubtracted: false, shift: [0, 0],
 });
+/** Pixels of a square picture; others have as many in all. */
+export const PIXELS = 512;
+
 /** Brightness over the background's, of what passes the contrast agent. */
 const VESSELS = {
   none: () => 1,
@@ -58,6 +61,8 @@ export class View {
     this._cells = null;
     /** Part of the blood in each cell that is contrast agent; null: nothing was injected. @type {Float64Array | null} */
     this.parts = null;
+    /** What the brightness shows of it. @type {Float64Array | null} */
+    this._partsShown = null;
     this._cellsSeen = "";
     this._agent = new Float64Array(0);
     /** The most agent that each ray has passed while it was seen from here, units. */
@@ -96,6 +101,23 @@ export class View {
     return true;
   }
 
+  /** Takes the shape of a pane. @param {HTMLElement} pane @returns {boolean} whether that is another size */
+  fit({ clientWidth: width, clientHeight: height }) {
+    if (!width || !height) return false;
+    const shape = Math.sqrt(width / height);
+    return this.resize(Math.round(PIXELS * shape), Math.round(PIXELS / shape));
+  }
+
+  /** The C-arm's angles, as texts. */
+  get angles() {
+    const { lao, cranial } = this.look;
+    const [turned, tilted] = this.patient === UNKNOWN ? [["turned", "turned −"], ["tilted", "tilted −"]]
+      : [["LAO", "RAO"], ["CRAN", "CAUD"]];
+    const text = (/** @type {number} */ value, /** @type {string[]} */ names) =>
+      `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;
+    return [text(lao, turned), text(cranial, tilted)];
+  }
+
   /** Where it is seen from. */
   get arm() {
     const { lao, cranial, centre, field } = this.look;
@@ -115,8 +137,7 @@ export class View {
       for (const lumen of this._lumens) lumen.add(arm, this._thickness);
     }
     const isFilled = this.parts !== null && this._cells !== null;
-    const shown = [seen, vessel, contrast, background, isFilled].join();
-    if (shown === this._shown && !isFilled) return false;
+    const shown = [seen, vessel, contrast, background].join();
     if (shown === this._shown && this.parts === this._partsShown) return false;
     this._seen = seen;
     this._shown = shown;

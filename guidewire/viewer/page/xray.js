@@ -2,14 +2,13 @@
 import { Beam, Cine } from "./beam.js";
 import { SecondPlane } from "./biplane.js";
 import { Fluoroscopy } from "./fluoroscopy.js";
-import { plainLook } from "./look.js";
+import { PIXELS, plainLook } from "./look.js";
 import { byId, make } from "./panel.js";
 import { PlainFluoroscopy } from "./plain.js";
 
 /** @typedef {import("./model.js").Model} Model */
 /** @typedef {import("./carm.js").Point} Point */
 
-const PIXELS = 512; // of a square picture; others have as many in all
 const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30", 30, 0], ["RAO 30", -30, 0],
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
 /** The same of a patient whose axes are unknown. */
@@ -39,7 +38,7 @@ export class Xray {
     this._table = [0, 0, 0];
     this.beam = new Beam(() => this.ask());
     this.cine = new Cine(byId("cine"));
-    this.second = new SecondPlane();
+    this.second = new SecondPlane(makeFluoroscopy);
     /** @type {{lao: number, cranial: number, field: number}[]} */
     this._stored = [];
     this._frames = 0;
@@ -111,10 +110,7 @@ export class Xray {
 
   /** Gives the picture the shape of its pane. */
   _fill() {
-    const { clientWidth: width, clientHeight: height } = byId("xray");
-    if (!width || !height) return;
-    const shape = Math.sqrt(width / height);
-    if (this.fluoroscopy.resize(Math.round(PIXELS * shape), Math.round(PIXELS / shape))) this.ask();
+    if (this.fluoroscopy.fit(byId("xray"))) this.ask();
   }
 
   /** Turns the C-arm. @param {number} lao degrees @param {number} cranial */
@@ -169,6 +165,8 @@ export class Xray {
       this._isRequested = false;
       if (this.beam.isOn) this._draw();
       else {
+        const [{ recording, frame }] = this._models;
+        this.beam.pass(recording.at("time", frame)[0]);
         this._label();
         this.onDrawn(); // the last picture stays
       }
@@ -222,11 +220,7 @@ export class Xray {
 
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
-    const angle = (/** @type {number} */ value, /** @type {string[]} */ names) =>
-      `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;
-    const [turned, tilted] = this._patient ? [["LAO", "RAO"], ["CRAN", "CAUD"]]
-      : [["turned", "turned −"], ["tilted", "tilted −"]];
-    byId("arm").textContent = `${angle(lao, turned)}  ${angle(cranial, tilted)}\n${Math.round(field ?? 0)} mm${
+    byId("arm").textContent = `${this.fluoroscopy.angles.join("  ")}\n${Math.round(field ?? 0)} mm${
       this._patient ? "" : ", axes unknown"}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
       this.beam.seconds.toFixed(1)} s`;
     this._measure(field ?? 1);
@@ -265,7 +259,7 @@ export class Xray {
         oninput: () => this.point(Number(byId("lao").value), Number(byId("cranial").value)) }));
     const stored = make("span", { className: "tools" });
     const show = () => stored.replaceChildren(...this._stored.map((view, k) => make("button", { onclick: () => {
-      this._field = view.field;
+      byId("field").value = String(this._field = view.field);
       this.point(view.lao, view.cranial);
     } }, `view ${k + 1}`)));
     const store = make("button", { id: "store", onclick: () => {
@@ -333,6 +327,7 @@ export class Xray {
       this.ask();
     } }, make("option", { value: 0 }, "fit"), ...FIELDS.map((field) => make("option", { value: field }, `${field} mm`)));
     fields.setAttribute("aria-label", "field of view");
+    fields.value = String(this._field);
     byId("armTools").replaceChildren(this.beam.button, this.beam.rates, ...this._subtraction(), this.cine.element,...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
       const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
       Object.assign(button.dataset, { lao, cranial });
