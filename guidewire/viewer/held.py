@@ -15,11 +15,13 @@ class HeldInstruments:
     Attributes
     ----------
     held : number of the one whose hub is held.
+    aim : turn that the held hub goes to, rad; None: it turns as the hand does.
     steered : what was steered of each of them since the run's start; empty before the first run.
     """
 
     def __init__(self) -> None:
         self.held = 0
+        self.aim: float | None = None
         self.steered: list[Steered] = []
         self._instruments: Sequence[Mapping[str, Any]] = ()
         self._has_hand = False
@@ -27,7 +29,7 @@ class HeldInstruments:
 
     def begin(self, session: Session, described: Mapping[str, Any], held: int = 0) -> None:
         """A run, described as by `Session.describe`, is at its start, and this hub is held."""
-        self.held = held
+        self.held, self.aim = held, None
         self._instruments = described["instruments"]
         self._has_hand = session.hand
         self._parameters = session.parameters
@@ -37,13 +39,20 @@ class HeldInstruments:
         """Take another one; raises ValueError where there is none of this number."""
         if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self._instruments):
             raise ValueError("no such instrument")
-        self.held = number
+        self.held, self.aim = number, None
 
     def key_of(self, number: int, name: str) -> str:
         """The key that names an instrument; raises ValueError where it cannot have this name."""
         if name not in self._instruments[number]["choices"]:
             raise ValueError("no such instrument")
         return self._instruments[number]["key"]
+
+    def towards_aim(self, state: State, steps: int, most: float) -> float:
+        """Turn in each of so many steps that brings the held hub to its aim, rad, of at most this size."""
+        hub = state.hub if self.held == 0 else state.catheters[self.held - 1]
+        if self.aim is None or hub is None:
+            return 0.0
+        return min(max((self.aim - hub.turn) / steps, -most), most)
 
     def in_a_step(self, push: float, turn: float) -> tuple[float, float]:
         """What is asked of the held hub in a step, units and rad, such that a table can say it."""

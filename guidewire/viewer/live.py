@@ -163,7 +163,9 @@ class LiveRun:
             mark = self._mark
             instruments = self._instruments
             hub = instruments.held
-            moves = instruments.moves(*((PUSH_SPEED * push * dt, TURN_SPEED * turn * dt) for push, turn in self._hands))
+            hand, other = [[PUSH_SPEED * push * dt, TURN_SPEED * turn * dt] for push, turn in self._hands]
+            hand[1] += instruments.towards_aim(session.state, steps, TURN_SPEED * dt)
+            moves = instruments.moves(hand, other)
             began = time.monotonic()
             try:
                 state = await self._in_thread(lambda: _step(session, moves, steps, hub))
@@ -224,6 +226,7 @@ class LiveRun:
                 self._hand = None
                 self._is_paused = True
                 self._hands = [_REST, _REST]
+                self._instruments.aim = None
             await self._tell()
 
     async def close(self) -> None:
@@ -261,6 +264,14 @@ class LiveRun:
         if not all(abs(one) <= 1.0 for hand in hands for one in hand):
             raise ValueError("steering takes push and turn from -1 to 1")
         self._hands, self._mark = hands, int(message["mark"])
+        if hands[0][1]:
+            self._instruments.aim = None
+
+    async def _do_aim(self, message: Mapping[str, Any]) -> None:
+        turn = float(message["turn"])
+        if not math.isfinite(turn):
+            raise ValueError("a hub turns to a number")
+        self._instruments.aim = turn
 
     async def _do_hold(self, message: Mapping[str, Any]) -> None:
         self._instruments.hold(message["instrument"])
@@ -462,7 +473,7 @@ class LiveRun:
 
 
 _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
-    "hand": LiveRun._do_hand, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
+    "hand": LiveRun._do_hand, "aim": LiveRun._do_aim, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
     "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name, "pace": LiveRun._do_pace,
     "open": LiveRun._do_open, "set": LiveRun._do_set,
 }

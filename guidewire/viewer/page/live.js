@@ -64,7 +64,7 @@ export class Live {
     /** Times from a key to the picture that shows what it did, ms. @type {number[]} */
     this.delays = [];
     this.steering = new Steering((...hands) => this._tell(...hands), (button) => this._press(button));
-    desk.onDial = (turn) => this.steering.aim(turn);
+    desk.onDial = (turn) => this._aim(turn);
     /** The frame that is looked back at; null: the newest. @type {number | null} */
     this._back = null;
     this.injector = new Injector((message) => this.send(message));
@@ -162,12 +162,22 @@ export class Live {
    * @param {number} otherTurn */
   _tell(push, turn, otherPush, otherTurn) {
     this._marks.set(++this._mark, performance.now());
-    if ((push || turn || otherPush || otherTurn) && this.status?.isPaused && !this.status.outcome) {
-      this._steeredAt = performance.now();
-      setTimeout(() => this._label(), REMINDED + 50);
-      this._label();
-    }
+    if (push || turn || otherPush || otherTurn) this._remind();
     this.send({ do: "hand", push, turn, otherPush, otherTurn, mark: this._mark });
+  }
+
+  /** Turns the held hub until it is there. @param {number} turn rad */
+  _aim(turn) {
+    this._remind();
+    this.send({ do: "aim", turn });
+  }
+
+  /** Says that nothing moves while the run is paused. */
+  _remind() {
+    if (!this.status?.isPaused || this.status.outcome) return;
+    this._steeredAt = performance.now();
+    setTimeout(() => this._label(), REMINDED + 50);
+    this._label();
   }
 
   /** @param {Status} status */
@@ -234,7 +244,6 @@ export class Live {
     if (recording.forgotten > before) this._desk.score?.forget(recording.forgotten - before);
     this._back = null;
     this.model.frame = recording.count - 1;
-    this.steering.follow(this._desk.turn);
     this._xray.beam.pass(recording.at("time", this.model.frame)[0]);
     this.show();
     this._label();

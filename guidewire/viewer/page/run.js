@@ -91,9 +91,13 @@ export class Run {
       case "hand":
         this._hands = [[message.push, message.turn], [message.otherPush ?? 0, message.otherTurn ?? 0]];
         this._mark = message.mark;
+        if (this._held && message.turn) this._held.aim = null;
+        break;
+      case "aim":
+        if (this._held) this._held.aim = message.turn;
         break;
       case "hold":
-        if (this._held) this._held.held = message.instrument;
+        this._held?.hold(message.instrument);
         break;
       case "inject":
         this._tellAgent(this._program.ask({ session: "agent", amount: message.amount, rate: message.rate,
@@ -222,6 +226,7 @@ export class Run {
     this._stepsAsked = Math.max(0, this._stepsAsked - steps);
     const held = /** @type {HeldInstruments} */ (this._held);
     const [hand, other] = this._hands.map(([push, turn]) => [pushSpeed * push * dt, turnSpeed * turn * dt]);
+    hand[1] += held.towardsAim(this._state, steps, turnSpeed * dt);
     const moves = held.moves(hand, other);
     const began = performance.now();
     const numbers = this._program.step(moves.flat(), steps);

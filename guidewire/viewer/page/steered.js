@@ -98,7 +98,22 @@ export class HeldInstruments {
     this._instruments = instruments;
     this._hasHand = hasHand;
     this.held = held;
+    /** Turn that the held hub goes to, rad; null: it turns as the hand does. @type {number | null} */
+    this.aim = null;
     this.steered = instruments.map(() => new Steered(rules, parameters));
+  }
+
+  /** Takes another one. @param {number} number */
+  hold(number) {
+    this.held = number;
+    this.aim = null;
+  }
+
+  /** Turn in each of some steps that brings the held hub to its aim, rad. @param {import("./channels.js").State} state
+   * @param {number} steps @param {number} most its size */
+  towardsAim(state, steps, most) {
+    const hub = this.held === 0 ? state.hub : state[`catheter${this.held}`];
+    return this.aim === null || !hub ? 0 : Math.min(Math.max((this.aim - hub[1]) / steps, -most), most);
   }
 
   /** What is asked of the held hub in a step, units and rad. @param {number} push @param {number} turn */

@@ -7,13 +7,11 @@ const DRIVES = {
   u: ["otherPush", 1], j: ["otherPush", -1], l: ["otherTurn", 1], k: ["otherTurn", -1],
 };
 const FINE = 0.2; // of the speed
-const REACH = 0.6; // rad from an aim, from which on one turns more slowly
-const NEAR = 0.01; // rad
 const DEAD_ZONE = 0.15; // of a stick's travel
 const STEPS = 50; // of a stick from 0 to 1: a message is sent where it is at another
 const PAD_BUTTONS = { 0: "pause", 1: "inject", 2: "fine", 3: "reset", 4: "hold", 5: "beam" };
 
-/** What keys, held buttons, a touch pad, a dial and a gamepad ask for: push and turn of both hands from -1 to 1. */
+/** What keys, held buttons, a touch pad and a gamepad ask for: push and turn of both hands from -1 to 1. */
 export class Steering {
   /**
    * @param {(push: number, turn: number, otherPush: number, otherTurn: number) => void} onChange called where that has
@@ -27,9 +25,6 @@ export class Steering {
     this._held = new Set();
     this._touch = [0, 0];
     this._pad = [0, 0, 0, 0];
-    this._dial = 0;
-    /** Turn of the hub that a dial asks for, rad; null: none. @type {number | null} */
-    this._aim = null;
     /** Whether all goes slowly. */
     this.isFine = false;
     this.otherPush = this.otherTurn = 0;
@@ -63,25 +58,9 @@ export class Steering {
     this._update();
   }
 
-  /** Turns until the hub is there. @param {number | null} turn rad; null: no farther */
-  aim(turn) {
-    this._aim = turn;
-    if (turn === null) this.follow(NaN);
-  }
-
-  /** Goes on towards the aim. @param {number} turn of the hub now, rad */
-  follow(turn) {
-    const left = this._aim === null ? 0 : this._aim - turn;
-    if (Math.abs(left) < NEAR) this._aim = null;
-    this._dial = this._aim === null ? 0 : limited(left / REACH);
-    this._update();
-  }
-
   /** Lets go of everything. */
   release() {
     this._held.clear();
-    this._aim = null;
-    this._dial = 0;
     this._touch = [0, 0];
     this._update();
   }
@@ -135,7 +114,7 @@ export class Steering {
     for (const key of this._held) keys[DRIVES[key][0]] += DRIVES[key][1];
     const speed = this.isFine ? FINE : 1;
     const [push, turn, otherPush, otherTurn] = [Math.sign(keys.push) + this._touch[0] + this._pad[0],
-      Math.sign(keys.turn) + this._touch[1] + this._pad[1] + this._dial / speed, Math.sign(keys.otherPush) + this._pad[2],
+      Math.sign(keys.turn) + this._touch[1] + this._pad[1], Math.sign(keys.otherPush) + this._pad[2],
       Math.sign(keys.otherTurn) + this._pad[3]].map((value) => speed * limited(value));
     if (push === this.push && turn === this.turn && otherPush === this.otherPush && otherTurn === this.otherTurn) return;
     Object.assign(this, { push, turn, otherPush, otherTurn });

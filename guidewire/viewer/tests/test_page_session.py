@@ -2,9 +2,11 @@
 
 import base64
 import json
+import math
 import random
 import shutil
 import subprocess
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -155,7 +157,12 @@ const moves = data.calls.map(({ hub, push, turn, step, insertions }) => {
   held.add(...move, step, { hub: [insertions[0]], catheter1: [insertions[1]] });
   return move;
 });
-console.log(JSON.stringify({ exact: told(exact), turns: told(turns), moves: told(moves.flat()),
+const aims = data.aims.map(([number, aim, turn, steps, most]) => {
+  held.hold(number);
+  held.aim = aim;
+  return held.towardsAim({ [number ? "catheter1" : "hub"]: [0, turn] }, steps, most);
+});
+console.log(JSON.stringify({ exact: told(exact), turns: told(turns), moves: told(moves.flat()), aims: told(aims),
   tables: held.steered.map((one) => one.toCsv()) }));
 """
 
@@ -180,10 +187,20 @@ def test_pushes_turns_and_drive_tables_are_those_of_the_server(runner_command):
             calls.append({**call, "step": state.step, "moved": (push, turn),
                           "insertions": [state.hub.insertion, state.catheters[0].insertion]})
         parameters = dict(session.parameters)
-    got = follow(STEERED, pushes=pushes, turns=turns, rules=RULES, parameters=parameters, described=described,
+    aims = [(dice.choice([0, 1]), dice.choice([None, 0.0, 2.0]), dice.uniform(-1, 3), 2 ** dice.randrange(5),
+             dice.uniform(0, 0.3)) for _ in range(100)]
+    towards = []
+    for number, aim, turn, steps, most in aims:
+        own.hold(number)
+        own.aim, hubs = aim, [SimpleNamespace(turn=math.nan), SimpleNamespace(turn=math.nan)]
+        hubs[number].turn = turn
+        towards.append(own.towards_aim(SimpleNamespace(hub=hubs[0], catheters=hubs[1:]), steps, most))
+    assert {one == 0 for one in towards} == {True, False}
+    got = follow(STEERED, aims=aims, pushes=pushes, turns=turns, rules=RULES, parameters=parameters, described=described,
                  calls=calls)
     np.testing.assert_array_equal(doubles(got["exact"]), [exact_push(*one) for one in pushes])
     np.testing.assert_array_equal(doubles(got["turns"]), [exact_turn(one) for one in turns])
+    np.testing.assert_array_equal(doubles(got["aims"]), towards)
     np.testing.assert_array_equal(doubles(got["moves"]), np.ravel([one["moved"] for one in calls]))
     tables = [np.loadtxt(own.to_csv(k).splitlines(), delimiter=",", skiprows=1) for k in range(2)]
     assert max(np.diff(tables[1][:, 1])) > 0 and (np.diff(tables[1][:, 1]) == 0).sum() > 100

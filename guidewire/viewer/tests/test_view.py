@@ -229,10 +229,10 @@ def test_a_page_that_was_busy_gets_the_last_frame_before_the_pause(live):
 
         await take_hand(page)
         await page.send_json({"do": "pause", "value": True})
-        await see(page, 1)
+        await hear(page, lambda status: status["isPaused"])
         first = await rest(page)
-        await page.send_json({"do": "shown"})    # all that may be on the way
-        await page.send_json({"do": "shown"})
+        for _ in range(6):    # more than may be on the way, with one that waits
+            await page.send_json({"do": "shown"})
         for k in range(1, 6):    # and says of none that it is shown
             await page.send_json({"do": "step"})
             while (await recorded())["step"][1][-1, 0] < first + k:
@@ -329,10 +329,41 @@ def test_a_start_anew_ends_a_step_that_takes_too_long(runner_command, tmp_path, 
     asyncio.run(talk())
 
 
+def test_a_dial_is_followed_to_its_turn_however_late_its_page_sees_it(runner_command):
+    """Here no page sees anything at all."""
+    async def talk():
+        run = LiveRun({"one": ROOT / "params" / "catheter.json"}, "one", {})
+        run.open()
+        run._hand, run._is_paused = object(), False
+        session, going = run._session, asyncio.ensure_future(run.go())
+        await run._do_hold({"instrument": 1})
+        for aim in (0.7, -0.2):
+            await run._do_aim({"turn": aim})
+            while abs(session.state.catheters[0].turn - aim) > 1e-9:
+                await asyncio.sleep(0.01)
+            step = session.state.step
+            while session.state.step < step + 20:
+                await asyncio.sleep(0.01)
+        turns = np.loadtxt(run.steered_csv(1).splitlines(), delimiter=",", skiprows=1)[:, 2]
+        turned = np.loadtxt(run.steered_csv(0).splitlines(), delimiter=",", skiprows=1)[:, 2]
+        await run._do_hand({"push": 0, "turn": 0.5, "mark": 1})    # a key takes over
+        await run._do_hand({"push": 0, "turn": 0, "mark": 2})
+        assert run._instruments.aim is None
+        going.cancel()
+        await asyncio.gather(going, return_exceptions=True)
+        await run.close()
+        highest = turns.argmax()
+        assert (np.diff(turns[:highest + 1]) >= 0).all() and (np.diff(turns[highest:]) <= 0).all(), "no overshoot"
+        assert turns[highest] == pytest.approx(0.7, abs=1e-9) and turns[-1] == pytest.approx(-0.2, abs=1e-9)
+        assert (turned == 0).all()
+
+    asyncio.run(asyncio.wait_for(talk(), 120))
+
+
 @pytest.mark.parametrize("said", [
     "x" * 100_000_000, "no JSON", "[]", '{"do": "nothing"}', '{"do": "open", "scene": "../secret.json"}',
     '{"do": "set", "key": "logFilePath", "value": "/tmp"}', '{"do": "hand", "push": 2, "turn": 0, "mark": 1}',
-    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', "[" * (LONGEST_MESSAGE - 1), b"bytes",
+    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', '{"do": "aim", "turn": NaN}', "[" * (LONGEST_MESSAGE - 1), b"bytes",
 ], ids=lambda said: str(said[:30]))
 def test_a_page_that_says_what_no_page_says_is_closed_and_the_run_goes_on(live, said):
     async def talk(page):
