@@ -25,6 +25,7 @@ PAGES = (*COUNTED, ROOT / "CONTRIBUTING.md", ROOT / "CHANGELOG.md")
 
 _FENCE = re.compile(r"^( *)```.*?^\1```[^\n]*$", re.MULTILINE | re.DOTALL)
 _COMMENT = re.compile(r"<!--.*?-->", re.DOTALL)
+_PRINTED = (("warnings", r"(?m)^(\|) [^|]* \|"), ("keys", r"(?m)^(\| `[^|]*\|)[^|]* \|"))
 _CODE = "\x01"        # stands for a passage of code, one word
 _END = re.compile(r"(?<!\be\.g)(?<!\bi\.e)(?<!\beq)(?<!\beqs)(?<!\bfig)[.!?][)\"*]*\s+(?=[^a-z])")
 _ITEM = re.compile(r"^\s*(?:[-*]|\d+\.)\s+")
@@ -79,10 +80,11 @@ def shown(text: str) -> str:
 
 
 def read(text: str) -> Prose:
-    """Take a page in Markdown apart. What the program itself prints, the first column between the marks of its warnings,
-    is no prose."""
-    text = re.sub(r"(<!-- warnings -->.*?<!-- /warnings -->)",
-                  lambda block: re.sub(r"(?m)^\| [^|]* \|", "| |", block[0]), text, flags=re.DOTALL)
+    """Take a page in Markdown apart. The lines of warnings and what a key allows, in the tables that the program itself
+    prints, are no prose."""
+    for mark, column in _PRINTED:
+        text = re.sub(rf"<!-- {mark} -->.*?<!-- /{mark} -->", lambda block: re.sub(column, r"\1 |", block[0]), text,
+                      flags=re.DOTALL)
     first = _FENCE.search(text)
     opening = words(_plain(text[:first.start()])) if first else None
     text = _COMMENT.sub("\n", _FENCE.sub("\n\n", text))

@@ -61,15 +61,15 @@ namespace Guidewire.Core
         /// <summary>A mesh that goes through itself.</summary>
         public static readonly WarningKind SelfIntersection = AtStart("selfIntersection",
             "*file*: the mesh intersects itself: *k* edges pierce a triangle, the first at (*x:G6*, *y:G6*, *z:G6*); "
-            + "there the inside is not defined", "a wire may pass where the sheets cross; if it does, `passages` or "
-            + "`maxPenetration` says so, and the run is not reliable. `anatomy repair` mends such a mesh");
+            + "there the inside is not defined", "a wire may pass where the sheets cross; then `passages` or "
+                + "`maxPenetration` makes the run unreliable. `anatomy FILE` mends such a mesh");
 
         /// <summary>xpbd: steps that have not converged.</summary>
         public static readonly WarningKind NotConverged = AfterReason("notConverged",
             "*a* of *b* steps had not converged (*kind* up to *p:0.#* % off); raise substeps or "
             + "constraintSolverSteps",
-            "xpbd: the error that the iterations left is above 0.5 % of the largest bending, twist, or stretch and "
-            + "shear, or another iteration would move a contact by 0.5 % of the wire's radius");
+            "xpbd: an error above 0.5 % of the largest bending, twist, or stretch and shear, or contacts that move by "
+            + "0.5 % of the radius");
 
         /// <summary>pbd: a drive that does not get on.</summary>
         public static readonly WarningKind DriveStuck = AfterReason("driveStuck",
@@ -85,10 +85,8 @@ namespace Guidewire.Core
 
         /// <summary>direct: a hub that did not move as far as asked.</summary>
         public static readonly WarningKind HubShortfall = AfterReason("hubShortfall",
-            "*hub* fell short by *s:G3* m: *why*", "direct: by more than a thousandth of the motion asked of it. The "
-            + "hub slipped at `hubForceLimit`, as a torque device slides along a wire that is stuck. Or the hub or the "
-            + "tip reached an end of the `sheath`. With `catheters`: hubs met, or a tip was withdrawn to the first "
-            + "element of the catheter around it");
+            "*hub* fell short by *s:G3* m: *why*", "direct: over a thousandth of its motion is missing. It slipped at "
+                + "`hubForceLimit`, an end of the `sheath` was reached, or hubs or tips met");
 
         /// <summary>direct: a hub that exceeded its limit.</summary>
         public static readonly WarningKind HubForce = AfterReason("hubForce",
@@ -99,8 +97,8 @@ namespace Guidewire.Core
         /// <summary>direct: a wire too stiff for its elements.</summary>
         public static readonly WarningKind Rounding = AfterReason("rounding",
             "rounding of positions makes the forces at both ends uncertain by *F:G2* N: the wire is too stiff "
-            + "(youngsModulus, wireRadius) for such short elements", "direct: a wire held at both ends whose EA/l is "
-            + "so large that one unit in the last place of its length is a force above 1e-7 N");
+            + "(youngsModulus, wireRadius) for such short elements", "direct, both ends held: a last bit of the length "
+                + "is a force above 1e-7 N");
 
         /// <summary>direct: a free wire that spins too fast for its steps.</summary>
         public static readonly WarningKind SpinLost = AfterReason("spinLost",
@@ -130,10 +128,8 @@ namespace Guidewire.Core
         /// <summary>Bent to less than five times its radius.</summary>
         public static readonly WarningKind Strain = AtEnd("strain",
             "the outermost fibre was strained by up to *p:0* %: a real instrument would have kinked",
-            "direct: `strain` of `extremes` above 20 %: the instrument was bent to less than five times its own "
-            + "radius. The wire's law is linear, while metals leave their elastic range at 1 to 8 %. Twist does not "
-            + "count. "
-            + "`stress` shows where");
+            "direct: `strain` of `extremes` above 20 %, a bend of less than five radii. Twist does not count. `stress` "
+            + "shows where");
 
         /// <summary>A drive that the walls kept back.</summary>
         public static readonly WarningKind DriveShortfall = AtEnd("driveShortfall",
@@ -145,15 +141,14 @@ namespace Guidewire.Core
         public static readonly WarningKind Play = AtEnd("play",
             "the *inner* has *d:G3* mm of play in the *outer*, which is not simulated: at the tip their axes may "
             + "differ by up to *a:G3* degrees, and *l:G3* mm of *o:G3* mm of overlap are not coupled",
-            "with `catheters`: the play neglected by the shared centreline is not small: 15 degrees or more, or 5 "
-            + "degrees and a tenth of the overlap ([coaxial.md](coaxial.md)). The direction of such a tip is not that "
-            + "of a real one");
+            "with `catheters`: by 15 degrees or more, or 5 degrees and a tenth of the overlap. A real tip has another "
+            + "direction ([coaxial.md](coaxial.md))");
 
         /// <summary>A tip that left by an open rim.</summary>
         public static readonly WarningKind OpenRim = Add("openRim", WarningPlace.End, true,
             "the tip left the vessel by an open rim at (*x:G4*, *y:G4*, *z:G4*) at t = *t:G6* s",
-            "where and when the tip was first outside; there is no wall beyond the rim. With direct the outside of a "
-            + "mesh is a wall, too. This is not an error");
+            "the tip was first outside there and then. It is no error. There is no wall beyond, but with direct the "
+            + "mesh's outside is one");
 
         /// <summary>All of them, in the order of the docs.</summary>
         public static IReadOnlyList<WarningKind> All => Kinds;

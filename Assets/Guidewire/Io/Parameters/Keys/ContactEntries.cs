@@ -12,20 +12,19 @@ namespace Guidewire.Io
         {
             new NumberEntry("sphereRadius", "units", NumberRange.Positive, "r") { Methods = Takers.Pbd },
             new NumberEntry("contactDistance", "m", NumberRange.NotNegative,
-                "gap between the wire's surface and a wall below which the contact force acts; 0: the larger of a "
-                + "tenth of the wire's radius and a twentieth of the drive's displacement per step, at most half of "
-                + "the narrowest clearance and, in a mesh, 0.3 radii") { Methods = Takers.Only(Solver.Direct) },
+                "gap between the wire's surface and a wall below which the contact force acts; 0: chosen from radius, "
+                + "drive and clearance") { Methods = Takers.Only(Solver.Direct) },
             new NumberEntry("contactStiffness", "N/m", NumberRange.NotNegative,
-                "stiffness k of a contact; direct: the normal force is 1.19 k contactDistance at half that gap, 0:"
-                + " chosen as EI/(90 r)^2 over contactDistance, or more where the walls straighten the wire; xpbd: the"
-                + " normal force is k times the penetration depth, 0: rigid contacts")
+                "k; direct: the normal force at half the contactDistance is 1.19 k times it, 0: chosen; xpbd: k times "
+                + "the penetration depth, 0: rigid")
             {
                 Methods = Takers.Only(Solver.Xpbd, Solver.Direct),
             },
             new NumberEntry("elasticSlip", "m", NumberRange.NotNegative,
-                "elastic tangential displacement up to which a contact sticks; its tangential stiffness is"
-                + " frictionCoefficient times the normal force over elasticSlip; 0: a hundredth of the wire's"
-                + " radius") { Methods = Takers.Only(Solver.Direct) },
+                "elastic tangential displacement up to which a contact sticks; 0: a hundredth of the wire's radius")
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "gap kept beyond the radius")
             {
                 Methods = Takers.Pbd,

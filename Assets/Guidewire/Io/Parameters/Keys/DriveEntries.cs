@@ -10,9 +10,8 @@ namespace Guidewire.Io
             "drive", "what moves the proximal end", p => p.Simulation.Drive, new ParameterEntry[]
         {
             new ChoiceEntry<Drive>("drive",
-                "what moves sphere 0: hold: one displacement at the start, then held; displace: each step along a"
-                + " fixed axis; push: each step along the first element; force: externalForce on a free sphere 0"
-                + " (with a material, proximalEnd \"free\")") { Property = nameof(DriveParameters.Kind) },
+                "hold: one displacement at the start; displace: each step along a fixed axis; push: along the first "
+                + "element; force: externalForce on a free sphere 0") { Property = nameof(DriveParameters.Kind) },
             new SwitchEntry("SteadyState", "older name of drive: true is \"hold\", false is \"displace\", by"
                 + " displacement each step where displacementPerStep is not given")
             {
@@ -25,8 +24,8 @@ namespace Guidewire.Io
             new NumberEntry("displacementPerStep", "units per step", NumberRange.Any,
                 "motion of sphere 0 with drive \"displace\" or \"push\""),
             new NumberEntry("twistPerStep", "radians per step", NumberRange.Any,
-                "rotation of element 0 about its own axis, with a material that of its clamp; with pbd, a value other "
-                + "than 0 also fixes the element's frame"),
+                "rotation of element 0 about its own axis, with a material of its clamp; with pbd a value other than 0 "
+                + "fixes the frame"),
             new NumberEntry("insertionSpeed", "m/s", NumberRange.Any,
                 "speed of sphere 0 with drive \"displace\" or \"push\", instead of displacementPerStep;"
                 + " negative values pull") { Methods = Takers.Material },
@@ -35,16 +34,14 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
-            new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp,"
-                + " instead of the speeds; a first line of words names the columns, in any order and with other"
-                + " units: time_ms,rotation_deg,insertion_mm; linear between rows, at rest before the first and after "
-                + "the last; only differences matter; the path is relative to the parameter file's folder")
+            new TextEntry("driveFile", "CSV file of time (s), insertion (m) and rotation (rad) of the proximal clamp, "
+                + "instead of the speeds; only differences matter")
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("hubForceLimit", "N", NumberRange.NotNegative,
-                "between walls: axial force at which the hub slips, the largest with which it pushes or pulls; the "
-                + "lost displacement is driveShortfall; 0: it never slips") { Methods = Takers.Only(Solver.Direct) },
+                "between walls: the largest axial force with which the hub pushes or pulls; beyond it the hub slips; "
+                + "0: it never slips") { Methods = Takers.Only(Solver.Direct) },
             new VectorEntry("externalForce", "mass unit * unit/s^2", true,
                 "force on sphere 0 with drive \"force\"")
             {

@@ -15,24 +15,20 @@ namespace Guidewire.Io
                 "format of the log: positions.json, or positions.npz with arrays of 64-bit or 32-bit numbers"),
             new SwitchEntry("logOrientations", "whether orientations are logged too"),
             new SwitchEntry("logStrains",
-                "whether each log entry also has \"stress\": curvature and twist (rad/m) and couple (N m) at the n + 1"
-                + " joints, strain (shear, shear, stretch) and force (N) of the n elements, their angular velocities"
-                + " (rad/s, own axes), and kinetic, elastic and potential energy (J); forces and couples are those "
-                + "of the distal part on the proximal one, in world axes, from strains only, without damping")
+                "whether each log entry also has \"stress\": curvature, couple, strain and force along the wire, "
+                + "angular velocities and energies")
             {
                 Methods = Takers.Material,
             },
             new SwitchEntry("logHub",
-                "whether each log entry also has \"hub\": insertion (m), turn (rad), force (N) and torque (N m)"
-                + " of the hub, direction of the tip, twist from hub to tip (rad), largest curvature (1/m)")
+                "whether each log entry also has \"hub\": insertion, turn, force, torque, direction of the tip, twist, "
+                + "largest curvature")
             {
                 Methods = Takers.Only(Solver.Direct),
             },
             new SwitchEntry("logContacts",
-                "whether each log entry also has \"contact\": the walls' force on each sphere they touch, their"
-                + " total, and the first sphere's reaction (mass unit * unit/s^2; with a material N, averaged over the"
-                + " step); with direct also the normal force on each element and of each wall, and the largest pressure"
-                + " (Pa); xpbd reports it only between walls")
+                "whether each log entry also has \"contact\": the walls' forces and the first sphere's reaction; xpbd "
+                + "has them only between walls")
             {
                 Getter = p => p.LogContacts,
                 Setter = (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v,

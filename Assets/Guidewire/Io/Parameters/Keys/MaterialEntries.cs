@@ -10,10 +10,8 @@ namespace Guidewire.Io
             "material", "the wire as a material", p => p.Simulation.Material, new ParameterEntry[]
         {
             new TextEntry(InstrumentLayer.Key,
-                "name of a file in the folder instruments beside the parameter file or in the program's: it stands for"
-                + " the wire's length, elements, radii, stiffnesses, density, sections and tip shape, and for the"
-                + " frictionCoefficient of walls that state none (docs/instruments.md); other keys of the file override"
-                + " it; on the command line it replaces the file's wire, except guidewireLength and numberRodElements")
+                "name of a file in the folder instruments beside this file or in the program's; it stands for keys of "
+                + "the wire (docs/instruments.md)")
                 .OnlyWith(Takers.Material),
             new NumberEntry("youngsModulus", "Pa", NumberRange.Positive, "E"),
             new NumberEntry("shearModulus", "Pa", NumberRange.Positive, "G"),
@@ -35,10 +33,8 @@ namespace Guidewire.Io
                 "rho A of the whole wire, which determines rho instead of density"),
             new VectorEntry("restCurvature", "rad/m", true, "curvature about d1 and d2 and twist about d3 at rest"),
             new SectionsEntry("wireSections",
-                "sections of the wire with their own material, rest curvature or elements, such as a soft, bent tip;"
-                + " an element across a boundary has the length-weighted mean of compliance, mass and rest curvature;"
-                + " stiffness and mass given directly replace those from material and radius, and the rotary inertia"
-                + " about each axis is then massPerLength EI/EA")
+                "sections with their own material, rest curvature or elements, such as a soft, bent tip; stiffness and "
+                + "mass given directly replace the material's")
             {
                 Property = nameof(MaterialParameters.Sections),
             },
@@ -48,9 +44,8 @@ namespace Guidewire.Io
                 "b in the stress b K times the strain rate (Kelvin-Voigt): damping ratio b w/2 at any timeStep")
                 .OnlyWith(Takers.Only(Solver.Direct)),
             new ChoiceEntry<ClampRule>("clampRule",
-                "weights of the joints at a clamp: order 4 under transverse loads, order 2 (exact for an arc), order"
-                + " 1; with any of them a buckling load is too low by (k l)^2/12, k the wave number of the buckled "
-                + "shape (clamped at both ends: 0.8 % at 20 elements)"),
+                "weights of the joints at a clamp: order 4 under transverse loads, order 2 (exact for an arc), order "
+                + "1"),
             new ChoiceEntry<MassRule>("massRule",
                 "mass matrix; xpbd and explicit take \"consistent\" as \"lumped\""),
             new ChoiceEntry<BendLaw>("bendLaw", "couple of a joint: K times the angle, or K sin(angle)"),

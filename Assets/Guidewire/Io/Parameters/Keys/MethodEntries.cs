@@ -25,9 +25,7 @@ namespace Guidewire.Io
             },
             new ChoiceEntry<Integrator>("integrator",
                 "pbd: how positions are predicted; direct: esdirk3 for most motions, esdirk4 for smooth ones, trbdf2 "
-                    + "if steps are short anyway; bdf2 loses 0.2 % in a release and 0.1 % in a spin, implicitEuler "
-                    + "damps all but slow motions; with a stiff EA, rotations converge with order 2 to 2.5 in all of "
-                    + "them")
+                + "for short steps; bdf2 and implicitEuler damp more")
             {
                 OlderWords = new Dictionary<string, Integrator>
                 {
@@ -52,14 +50,14 @@ namespace Guidewire.Io
                 Methods = Takers.Only(Solver.Xpbd, Solver.Explicit),
             },
             new NumberEntry("solverTolerance", "rad, or displacement over L", NumberRange.PositiveUpTo(1e-2),
-                "residual error allowed in a stage of the direct solver, and in the force balance of a step, "
-                + "relative to the largest force; forces between walls need 1e-5 or less")
+                "residual error allowed in a stage of direct, and in a step's force balance over the largest force; "
+                + "forces between walls need 1e-5")
             {
                 Methods = Takers.Material,
             },
             new NumberEntry("timeStepError", "rad, or displacement over L", NumberRange.NotNegative,
-                "tolerance of the step size control, for the error estimate of trbdf2, esdirk3 and esdirk4: steps are "
-                + "subdivided within timeStep, down to 1/1024 of it; 0: no step size control")
+                "tolerance of the step size control with trbdf2, esdirk3 and esdirk4, which subdivides steps, down to "
+                + "1/1024 of timeStep; 0: no control")
             {
                 Methods = Takers.Only(Solver.Direct),
             },
@@ -74,8 +72,8 @@ namespace Guidewire.Io
                 Instead = "massDamping (1/s), which is damping over timeStep, or materialDamping (s)",
             }.OnlyWith(Takers.Pbd),
             new NumberEntry("deltaThreshold", "units", NumberRange.NotNegative,
-                "ends the run in a steady state: with pbd, prediction errors below it; with a material, distance from"
-                + " the rest shape and amplitude of any swing below it, whatever the timeStep; 0: never"),
+                "ends the run in a steady state; pbd: prediction errors below it; a material: distance from rest and "
+                + "any swing below it; 0: never"),
             new IntegerEntry("steadyStateHold", "steps", 1, 1_000_000_000,
                 "number of successive prediction errors below deltaThreshold that make a steady state")
                 { Methods = Takers.Pbd },
