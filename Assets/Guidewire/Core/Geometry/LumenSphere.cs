@@ -7,6 +7,7 @@ namespace Guidewire.Core
     internal sealed class LumenSphere
     {
         private const double Golden = 0.6180339887498949;
+        private const double Coarse = 0.25;   // the last step over the room that is left
         private const int Sections = 12;
         private readonly ContactShape _wall;
         private int _hint = -1;
@@ -31,14 +32,16 @@ namespace Guidewire.Core
         /// across it: there the distance is largest.</remarks>
         /// <param name="finest">The last step.</param>
         /// <param name="enough">Radius.</param>
-        public void Climb(in Vector3d x, in Vector3d along, double finest, double enough)
+        /// <param name="needed">Radius: the more room there is beyond it, the coarser is the last step.</param>
+        public void Climb(in Vector3d x, in Vector3d along, double finest, double enough,
+            double needed = double.PositiveInfinity)
         {
             Vector3d u = Vector3d.Perpendicular(along);
             Vector3d v = Vector3d.Cross(along, u);
             Centre = x;
             Width = DistanceAt(x);
             double step = 0.5 * Width;
-            while (step > finest && Width < enough)
+            while (step > Math.Max(finest, Coarse * (Width - needed)) && Width < enough)
             {
                 Vector3d start = Centre;
                 double width = Width;

@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>Width of a vessel's lumen along a path: the radius of the largest sphere centred in the plane across
     /// the path at each position. Lengths in units.</summary>
     /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the path is followed ball by ball, each
-    /// centred across the path by a search whose last step is <see cref="Fineness"/> of the radius asked for, so that a
-    /// width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire
+    /// centred across the path by a search whose last step is <see cref="Fineness"/> of the radius asked for where the
+    /// lumen is no wider, so that such a width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire
     /// the direction of the walk is smoothed, so that it never turns back at a closed end.</remarks>
     internal sealed class LumenWidth
     {
@@ -112,7 +112,7 @@ namespace Guidewire.Core
 
         private void Measure(in Vector3d x, in Vector3d along, double enough)
         {
-            _ball.Climb(x, along, Fineness * _radius, enough);
+            _ball.Climb(x, along, Fineness * _radius, enough, _radius);
         }
 
         private bool IsTooNarrow(TubeShape tube, Vector3d[] wire, double travel)
