@@ -1,4 +1,4 @@
-"""Compares two builds of the runner: 40 scenes of the direct solver, by both.
+"""Compares two builds of the runner: 41 scenes of the direct solver, by both.
 
     python3 guidewire.py python experiments/compare_builds.py BEFORE.dll AFTER.dll [--scenes WORD] [--bench ROUNDS]
 
