@@ -93,7 +93,8 @@ def read(text: str) -> Prose:
     for line in text.splitlines():
         if line.lstrip().startswith("|"):
             if not re.fullmatch(r"[\s|:-]+", line):
-                cells += [_plain(cell) for cell in line.strip().strip("|").split("|")]
+                found = [_plain(cell) for cell in line.strip().strip("|").split("|")]
+                cells += ["" if not re.search(r"\w", cell) else cell for cell in found]    # a list of names is no phrase
             blocks.append([])
         elif not line.strip() or line.startswith("#"):
             blocks.append([])
