@@ -6,8 +6,9 @@ namespace Guidewire.Core
     /// the path at each position. Lengths in units.</summary>
     /// <remarks>In a tube of numbers that is the radius of its knots. In a mesh the path is followed ball by ball, each
     /// centred across the path by a search whose last step is <see cref="Fineness"/> of the radius asked for where the
-    /// lumen is no wider, so that such a width is found to about 1 %; at a branch the walk goes on straight. Where the lumen is narrower than the wire
-    /// the direction of the walk is smoothed, so that it never turns back at a closed end.</remarks>
+    /// lumen is no wider, so that such a width is found to about 1 %; at a branch the walk goes on straight. Where the
+    /// lumen is narrower than the wire the direction of the walk is smoothed, so that it never turns back at a closed
+    /// end.</remarks>
     internal sealed class LumenWidth
     {
         private const double Fineness = 0.005;
