@@ -137,7 +137,8 @@ def _install_with_apt(packages):
     options = ["-q", "-y", "-o", "DPkg::Lock::Timeout=120"]
     install = [apt] + options + ["install", "--no-install-recommends"] + names
     _log_run([apt] + options + ["update"], seconds=300)
-    return SYSTEM_PYTHON if _log_run(install, seconds=_PIP_SECONDS) else None
+    # Without a limit: apt that is killed while it unpacks leaves Debian's packages broken.
+    return SYSTEM_PYTHON if _log_run(install, seconds=None) else None
 
 
 def _log_run(command, seconds):
