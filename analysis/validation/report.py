@@ -13,7 +13,7 @@ from matplotlib.figure import Figure
 
 from analysis.validation import (
     balance, clamp, coaxial, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint,
-    order, planes, ring, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
+    order, planes, ring, soft_walls, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
 )
 from analysis.validation.pictures import SOLVER_MARKERS
 from guidewire.figures.style import add_caption, captioned, new_figure, styled
@@ -24,8 +24,8 @@ from guidewire.sweeps.check import Check, Finding, Result, replay
 ROWS: tuple[Check, ...] = (
     *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,
     *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
-    *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *twisted_tube.CHECKS, *whip.CHECKS,
-    *tube_buckling.CHECKS, *coaxial.CHECKS, *independence.CHECKS, *suite.CHECKS,
+    *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *soft_walls.CHECKS, *twisted_tube.CHECKS,
+    *whip.CHECKS, *tube_buckling.CHECKS, *coaxial.CHECKS, *independence.CHECKS, *suite.CHECKS,
 )
 _QUICK = (
     "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",

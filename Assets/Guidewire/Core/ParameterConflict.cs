@@ -181,7 +181,8 @@ namespace Guidewire.Core
         /// <summary>The first conflict of parameters that are complete, or null.</summary>
         public static ParameterConflict? FindInScene(SimulationParameters parameters)
         {
-            return First(Always, parameters) ?? First(InScene, parameters) ?? FindInCatheters(parameters);
+            return First(Always, parameters) ?? First(InScene, parameters) ?? FindInCatheters(parameters)
+                ?? SoftWallConflict.Find(parameters);
         }
 
         private static ParameterConflict? First(Rule[] rules, SimulationParameters parameters)

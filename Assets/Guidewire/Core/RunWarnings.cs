@@ -18,7 +18,8 @@ namespace Guidewire.Core
         public RunWarnings(SimulationParameters parameters)
         {
             _length = parameters.Scene.GuidewireLength;
-            _rims = new RimMonitor(parameters.Scene.Walls);
+            _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
+                wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)));
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);

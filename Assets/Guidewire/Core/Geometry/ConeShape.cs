@@ -140,7 +140,8 @@ namespace Guidewire.Core
             }
             double weight = 1.0;
             Vector3d slope = ConvexEdge.Fade(u, _axis, _slope * _slope, ref weight);
-            var contact = new EdgeContact(nearest.Position, nearest.Distance, nearest.Normal, weight, -slope, slope);
+            var contact = new EdgeContact(nearest.Position, nearest.Distance, nearest.Normal, weight, -slope, slope,
+                Math.PI, _radius + (_last - _first <= double.MaxValue ? 0.5 * _slope * (_first + _last) : 0.0));
             Foot foot = At(Vector3d.Lerp(a, b, nearest.Position));
             edgeContacts.Add(nearest.Position > 0.0 && nearest.Position < 1.0 && foot.IsOnSide && weight > 0.0
                 ? ConvexEdge.Sliding(contact, u, Generator(foot), foot.FromAxis) : contact);

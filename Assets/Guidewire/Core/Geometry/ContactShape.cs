@@ -13,10 +13,15 @@ namespace Guidewire.Core
         private const double SlidingLoss = 1e-7;
         private const double Resolved = 1e-3;
         private FeatureCache? _cache;         // of a surface, with the skin of the last request
+        private ContactShape? _outward;       // the last one asked for
+        private double _outwardBy;            // units
 
         /// <summary>mu, Coulomb's coefficient of friction between the wire and this wall, 0 or more,
         /// dimensionless.</summary>
         public double FrictionCoefficient { get; set; }
+
+        /// <summary>How the wall gives way; null where it is rigid.</summary>
+        public WallSoftness? Softness { get; set; }
 
         /// <summary>The point where segment a b comes nearest to the wall, if that is no farther than <paramref
         /// name="range"/>; a = b for a sphere's centre.</summary>
@@ -114,6 +119,37 @@ namespace Guidewire.Core
         /// or a lumen: the sign of a distance is then known only near it, and points of the wire have features of their
         /// own.</summary>
         internal virtual bool IsSurface => false;
+
+        /// <summary>The same wall moved away from its free side by a distance, units: it is farther by as much from
+        /// every point. Null where only a shape of another kind would be.</summary>
+        internal ContactShape? MovedOut(double distance)
+        {
+            if (_outward == null || _outwardBy != distance)
+            {
+                _outward = Outward(distance);
+                _outwardBy = distance;
+            }
+            if (_outward != null)
+            {
+                _outward.FrictionCoefficient = FrictionCoefficient;
+                _outward.Softness = Softness;
+            }
+            return _outward;
+        }
+
+        /// <summary>The wall where it has given way as far as it may, if a core line may go beyond the wall itself.
+        /// </summary>
+        /// <param name="units">Per metre.</param>
+        internal ContactShape AtLimit(double units)
+        {
+            return (Softness == null || Softness.Limit == 0.0 ? null : MovedOut(units * Softness.Limit)) ?? this;
+        }
+
+        /// <summary>Makes the wall of <see cref="MovedOut"/>.</summary>
+        private protected virtual ContactShape? Outward(double distance)
+        {
+            return null;
+        }
 
         /// <summary>Distance of a guarded wire's element from the wall, 0 where it lies across it, by its signed
         /// distance, units. Spheres never get behind a wall that has no exit: an element of negative distance lies

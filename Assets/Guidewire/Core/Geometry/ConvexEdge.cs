@@ -26,10 +26,11 @@ namespace Guidewire.Core
         /// <param name="end">Second end of the edge.</param>
         /// <param name="radius">By which the edge is widened, units.</param>
         /// <param name="weight">Of an edge across the segment.</param>
+        /// <param name="angle">By which the wall turns there, radians.</param>
         /// <param name="range">Units.</param>
         /// <param name="contacts">Receives it.</param>
         public static void Add(in Vector3d a, in Vector3d b, in Vector3d start, in Vector3d end, double radius,
-            double weight, double range, StructList<EdgeContact> contacts)
+            double weight, double angle, double range, StructList<EdgeContact> contacts)
         {
             double squared = ClosestPoints.SegmentSegment(a, b, start, end, out double s, out double t);
             double limit = range + radius;
@@ -41,8 +42,9 @@ namespace Guidewire.Core
             Vector3d normal = (Vector3d.Lerp(a, b, s) - Vector3d.Lerp(start, end, t)) / distance;
             Vector3d u = b - a;
             Vector3d along = Vector3d.Normalize(end - start);
+            double perWeight = angle / weight;
             Vector3d slope = Fade(u, along, 0.0, ref weight);
-            var contact = new EdgeContact(s, distance - radius, normal, weight, -slope, slope);
+            var contact = new EdgeContact(s, distance - radius, normal, weight, -slope, slope, perWeight, radius);
             contacts.Add(s > 0.0 && s < 1.0 && t > 0.0 && t < 1.0 ? Sliding(contact, u, along, distance) : contact);
         }
 

@@ -178,7 +178,7 @@ namespace Guidewire.Core
             foreach (HullEdges.Edge edge in _edges)
             {
                 ConvexEdge.Add(a, b, _points[edge.Start], _points[edge.End], _radius,
-                    ConvexEdge.Weight(edge.Angle), range, edgeContacts);
+                    ConvexEdge.Weight(edge.Angle), edge.Angle, range, edgeContacts);
             }
         }
     }

@@ -37,17 +37,26 @@ namespace Guidewire.Core
         /// q = ((1 - s) H u - n, s H u + n).</summary>
         public readonly Symmetric3 Curvature;
 
+        /// <summary>By which the wall turns at the edge over its weight, radians.</summary>
+        public readonly double Angle;
+
+        /// <summary>Radius over which it turns, units; 0 of a sharp edge.</summary>
+        public readonly double Rounding;
+
         /// <summary>A crossing with these values.</summary>
         public EdgeContact(double position, double distance, in Vector3d normal, double weight,
-            in Vector3d weightAlongA, in Vector3d weightAlongB)
-            : this(position, distance, normal, weight, weightAlongA, weightAlongB, default, default, default)
+            in Vector3d weightAlongA, in Vector3d weightAlongB, double angle, double rounding)
+            : this(position, distance, normal, weight, weightAlongA, weightAlongB, angle, rounding, default, default,
+                default)
         {
         }
 
         private EdgeContact(double position, double distance, in Vector3d normal, double weight,
-            in Vector3d weightAlongA, in Vector3d weightAlongB, in Vector3d slideAlongA, in Vector3d slideAlongB,
-            in Symmetric3 curvature)
+            in Vector3d weightAlongA, in Vector3d weightAlongB, double angle, double rounding,
+            in Vector3d slideAlongA, in Vector3d slideAlongB, in Symmetric3 curvature)
         {
+            Angle = angle;
+            Rounding = rounding;
             SlideAlongA = slideAlongA;
             SlideAlongB = slideAlongB;
             Curvature = curvature;
@@ -62,15 +71,21 @@ namespace Guidewire.Core
         /// <summary>The same of the segment b a.</summary>
         public EdgeContact Reversed()
         {
-            return new EdgeContact(1.0 - Position, Distance, Normal, Weight, WeightAlongB, WeightAlongA,
-                -SlideAlongB, -SlideAlongA, Curvature);
+            return new EdgeContact(1.0 - Position, Distance, Normal, Weight, WeightAlongB, WeightAlongA, Angle,
+                Rounding, -SlideAlongB, -SlideAlongA, Curvature);
         }
 
         /// <summary>The same with what its second derivative takes.</summary>
         public EdgeContact Sliding(in Vector3d alongA, in Vector3d alongB, in Symmetric3 curvature)
         {
-            return new EdgeContact(Position, Distance, Normal, Weight, WeightAlongA, WeightAlongB, alongA, alongB,
-                curvature);
+            return new EdgeContact(Position, Distance, Normal, Weight, WeightAlongA, WeightAlongB, Angle, Rounding,
+                alongA, alongB, curvature);
+        }
+
+        /// <summary>By which the wall turns under a segment of this length, units, over the weight: radians.</summary>
+        public double TurnUnder(double length)
+        {
+            return Angle * Rounding > length ? length / Rounding : Angle;
         }
     }
 }

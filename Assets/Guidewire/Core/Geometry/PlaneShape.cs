@@ -49,6 +49,11 @@ namespace Guidewire.Core
             return contact.Distance;
         }
 
+        private protected override ContactShape? Outward(double distance)
+        {
+            return new PlaneShape(_point - distance * _normal, _normal);
+        }
+
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {

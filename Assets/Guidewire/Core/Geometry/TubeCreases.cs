@@ -158,7 +158,7 @@ namespace Guidewire.Core
             }
             double fraction = Vector3d.Dot(c.First, u) / along;
             Vector3d slide = (-1.0 / along) * m;
-            contact = new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope).Sliding(
+            contact = new EdgeContact(s, c.Distance, normal, weight, (1.0 - s) * slope, s * slope, 1.0, 0.0).Sliding(
                 (1.0 - s) * slide, s * slide, (1.0 - fraction) * first + fraction * second);
             return true;
         }

@@ -78,6 +78,20 @@ namespace Guidewire.Core
         /// <summary>Radius at each knot, units.</summary>
         internal double[] Radii => _radii;
 
+        /// <summary>All radii are larger: every distance is, by as much.</summary>
+        private protected override ContactShape? Outward(double distance)
+        {
+            int count = LastKnot + 1 - FirstKnot;
+            var knots = new Vector3d[count];
+            Array.Copy(_knots, FirstKnot, knots, 0, count);
+            var radii = new double[count];
+            for (int i = 0; i < count; i++)
+            {
+                radii[i] = _radii[FirstKnot + i] + distance;
+            }
+            return new TubeShape(knots, radii, FirstKnot > 0, LastKnot + 1 < _knots.Length);
+        }
+
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {
@@ -226,7 +240,7 @@ namespace Guidewire.Core
                 Vector3d x = Vector3d.Lerp(a, b, s);
                 _tree.Pieces[piece].Distance(x, out Vector3d centre, out _);
                 edgeContacts.Add(new EdgeContact(s, distance, Vector3d.Normalize(centre - x), 0.0, Vector3d.Zero,
-                    Vector3d.Zero));
+                    Vector3d.Zero, 1.0, 0.0));
             }
         }
 

@@ -2,7 +2,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Checks where a wire with a material starts: the surface of no element may touch a wall.</summary>
+    /// <summary>Checks where a wire with a material starts: the surface of no element may touch a rigid wall, nor the
+    /// limit of a soft one.</summary>
     internal static class MaterialStart
     {
         private const string Wire = "the wire";
@@ -29,7 +30,7 @@ namespace Guidewire.Core
             double units = 1.0 / scene.Metres;
             foreach (ContactShape wall in scene.Walls)
             {
-                for (int j = 0; j < scene.Rod.ElementCount; j++)
+                for (int j = 0; j < scene.Rod.ElementCount && wall.Softness == null; j++)
                 {
                     double radius = units * scene.Rod.Radius[j];
                     int hint = -1;
@@ -75,9 +76,9 @@ namespace Guidewire.Core
             double units = 1.0 / scene.Metres;
             for (int j = from; j < to; j++)
             {
-                double radius = units * scene.Rod.Radius[j];
                 foreach (ContactShape wall in scene.Walls)
                 {
+                    double radius = units * (scene.Rod.Radius[j] - (wall.Softness?.MostOf(scene.Rod.Radius[j]) ?? 0.0));
                     if (!WireStart.IsFree(wall, scene.IsReached, x, j, fraction * radius, out double distance))
                     {
                         return name + Text(j, x[j], x[j + 1], radius, distance, wall);

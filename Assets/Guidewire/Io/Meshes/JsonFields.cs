@@ -43,6 +43,15 @@ namespace Guidewire.Io
             }
         }
 
+        /// <summary>Where the object stands.</summary>
+        public string Key => _key;
+
+        /// <summary>Whether there is a field of this name.</summary>
+        public bool Has(string name)
+        {
+            return _object.ContainsKey(name);
+        }
+
         /// <summary>A text; an empty one where it is missing.</summary>
         public string Text(string name)
         {

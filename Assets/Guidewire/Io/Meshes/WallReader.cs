@@ -30,6 +30,7 @@ namespace Guidewire.Io
                 var fields = new JsonFields(sourceOf, "vessel", values.Vessel);
                 ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"), last);
                 vessel.FrictionCoefficient = Friction(fields);
+                vessel.Softness = SoftnessReader.Read(fields);
                 walls.Add(vessel);
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);
@@ -41,6 +42,7 @@ namespace Guidewire.Io
                 var fields = new JsonFields(sourceOf, "obstacles[" + count++ + "]", item);
                 ContactShape obstacle = Obstacle(fields);
                 obstacle.FrictionCoefficient = Friction(fields);
+                obstacle.Softness = SoftnessReader.Read(fields);
                 walls.Add(obstacle);
             }
             return walls.ToArray();
@@ -65,14 +67,14 @@ namespace Guidewire.Io
                 switch (fields.Text("shape"))
                 {
                     case "plane":
-                        fields.Allow("shape", "frictionCoefficient", "point", "normal");
+                        Allow(fields, "point", "normal");
                         return Plane(fields, scene, placement);
                     case "tube":
-                        fields.Allow("shape", "frictionCoefficient", "knots", "radius", "openStart", "openEnd",
+                        Allow(fields, "knots", "radius", "openStart", "openEnd",
                             "smooth");
                         return Tube(fields, scene, placement);
                     case "mesh":
-                        fields.Allow("shape", "frictionCoefficient", "file", "metresPerUnit", "openRims",
+                        Allow(fields, "file", "metresPerUnit", "openRims",
                             "anatomy", Sha256);
                         return Mesh(fields, scene, placement, fileSource, last);
                     default:
@@ -83,6 +85,14 @@ namespace Guidewire.Io
             {
                 throw fields.Refused(error.Message);
             }
+        }
+
+        private static void Allow(JsonFields fields, params string[] own)
+        {
+            var names = new List<string> { "shape", "frictionCoefficient" };
+            names.AddRange(own);
+            names.AddRange(SoftnessReader.Keys);
+            fields.Allow(names.ToArray());
         }
 
         private static double Friction(JsonFields fields)
@@ -177,30 +187,30 @@ namespace Guidewire.Io
                 switch (fields.Text("shape"))
                 {
                     case "sphere":
-                        fields.Allow("shape", "frictionCoefficient", "centre", "radius");
+                        Allow(fields, "centre", "radius");
                         return ConvexObstacle.Sphere(fields.Vector("centre", null), fields.Number("radius", null));
                     case "capsule":
-                        fields.Allow("shape", "frictionCoefficient", "from", "to", "radius");
+                        Allow(fields, "from", "to", "radius");
                         return ConvexObstacle.Capsule(
                             fields.Vector("from", null), fields.Vector("to", null), fields.Number("radius", null));
                     case "box":
-                        fields.Allow("shape", "frictionCoefficient", "centre", "halfSize", "rotation");
+                        Allow(fields, "centre", "halfSize", "rotation");
                         return ConvexObstacle.Box(
                             fields.Vector("centre", null), fields.Vector("halfSize", null),
                             Placement.FromEulerDegrees(fields.Vector("rotation", Vector3d.Zero)));
                     case "hull":
-                        fields.Allow("shape", "frictionCoefficient", "points", "radius");
+                        Allow(fields, "points", "radius");
                         return new ConvexObstacle(fields.Vectors("points"), fields.Number("radius", 0.0));
                     case "cylinder":
-                        fields.Allow("shape", "frictionCoefficient", "point", "axis", "radius");
+                        Allow(fields, "point", "axis", "radius");
                         return ConeShape.Cylinder(
                             fields.Vector("point", null), fields.Vector("axis", null), fields.Number("radius", null));
                     case "cone":
-                        fields.Allow("shape", "frictionCoefficient", "from", "to", "fromRadius", "toRadius");
+                        Allow(fields, "from", "to", "fromRadius", "toRadius");
                         return ConeShape.Cone(fields.Vector("from", null), fields.Vector("to", null),
                             fields.Number("fromRadius", null), fields.Number("toRadius", null));
                     case "plane":
-                        fields.Allow("shape", "frictionCoefficient", "point", "normal");
+                        Allow(fields, "point", "normal");
                         return new PlaneShape(fields.Vector("point", Vector3d.Zero), fields.Vector("normal", null));
                     default:
                         throw fields.Wrong("shape",

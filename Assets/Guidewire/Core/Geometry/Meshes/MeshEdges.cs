@@ -12,6 +12,7 @@ namespace Guidewire.Core
         private const double RimWeight = 1.0;
         private readonly MeshGeometry _mesh;
         private readonly double[] _weight;        // of the edge that a half-edge represents, else 0
+        private readonly double[] _angle;         // by which the wall turns there, radians
         private readonly StructList<int> _edges = new StructList<int>(64);
 
         /// <summary>For this mesh where it stands.</summary>
@@ -19,16 +20,19 @@ namespace Guidewire.Core
         {
             _mesh = mesh;
             _weight = new double[mesh.Corners.Length];
+            _angle = new double[mesh.Corners.Length];
             for (int halfEdge = 0; halfEdge < _weight.Length; halfEdge++)
             {
                 int edge = mesh.EdgeOf(halfEdge);
                 if (mesh.IsRimEdge(edge))
                 {
                     _weight[edge] = RimWeight;
+                    _angle[edge] = Math.PI;
                 }
                 else if (halfEdge != edge)
                 {
-                    _weight[edge] = ConvexEdge.Weight(Angle(edge, halfEdge));
+                    _angle[edge] = Angle(edge, halfEdge);
+                    _weight[edge] = ConvexEdge.Weight(_angle[edge]);
                 }
             }
         }
@@ -65,8 +69,8 @@ namespace Guidewire.Core
             for (int k = 0; k < _edges.Count; k++)
             {
                 _mesh.EndsOf(_edges[k], out int from, out int to);
-                ConvexEdge.Add(
-                    a, b, _mesh.Corners[from], _mesh.Corners[to], 0.0, _weight[_edges[k]], range, edgeContacts);
+                ConvexEdge.Add(a, b, _mesh.Corners[from], _mesh.Corners[to], 0.0, _weight[_edges[k]],
+                    _angle[_edges[k]], range, edgeContacts);
             }
         }
 

@@ -3,7 +3,8 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>The energy of a gap g between the wire's surface and a wall: b(g) = -k (g - g0)^2 ln(g/g0) for g below
-    /// g0, 0 beyond, infinite at 0 (Li et al. 2020, incremental potential contact).</summary>
+    /// g0, 0 beyond, infinite at 0 (Li et al. 2020, incremental potential contact). A soft wall adds that of a spring,
+    /// s (g0 - g)^2/2 (<see cref="WallLaw"/>).</summary>
     internal readonly struct Barrier
     {
         /// <summary>g0, m.</summary>
@@ -12,14 +13,24 @@ namespace Guidewire.Core
         /// <summary>k, N/m: the force at half of g0 is 1.19 k g0.</summary>
         public readonly double Stiffness;
 
+        /// <summary>s, N/m; 0 of a rigid wall.</summary>
+        public readonly double Spring;
+
         private const double ForceTolerance = 1e-3;    // relative, of where a chord ends
         private const int MostIterations = 30;
 
         /// <summary>With this distance and stiffness.</summary>
-        public Barrier(double distance, double stiffness)
+        public Barrier(double distance, double stiffness, double spring = 0.0)
         {
             Distance = distance;
             Stiffness = stiffness;
+            Spring = spring;
+        }
+
+        /// <summary>So many times as stiff.</summary>
+        public Barrier Times(double factor)
+        {
+            return new Barrier(Distance, factor * Stiffness, factor * Spring);
         }
 
         /// <summary>b(g), J, with its first and second derivatives; infinite for a gap that is closed.</summary>
@@ -38,9 +49,10 @@ namespace Guidewire.Core
             double x = gap / Distance;
             double below = x - 1.0;
             double factor = Factor(x, out double log, out double derivative);
-            slope = -Stiffness * Distance * below * factor;
-            curvature = -Stiffness * derivative;
-            return -Stiffness * Distance * Distance * below * below * log;
+            double sunk = Distance - gap;
+            slope = -Stiffness * Distance * below * factor - Spring * sunk;
+            curvature = -Stiffness * derivative + Spring;
+            return -Stiffness * Distance * Distance * below * below * log + 0.5 * Spring * sunk * sunk;
         }
 
         /// <summary>The mean stiffness on the way from a gap to where the force is so many times as large, as a
@@ -54,7 +66,8 @@ namespace Guidewire.Core
                 return force / (slope * (x - 1.0));
             }
             double asked = ratio * force;
-            // Both are below the gap that is looked for: |f| >= 3 (1 - x)^2, and |f| >= 1/x - 1 for x <= 0.6.
+            // Both are below the gap that is looked for: |f| >= 3 (1 - x)^2, and |f| >= 1/x - 1 for x <= 0.6. With a
+            // spring it is larger still.
             double end = 1.0 - Math.Sqrt(asked / 3.0);
             end = asked > 2.0 / 3.0 ? Math.Max(end, 1.0 / (1.0 + asked)) : end;
             end = ratio < 1.0 ? Math.Max(end, x) : end;
@@ -73,10 +86,12 @@ namespace Guidewire.Core
         }
 
         // Of x = g/g0: |b'|/(k g0), a convex function, and its derivative.
-        private static double ForceAt(double x, out double slope)
+        private double ForceAt(double x, out double slope)
         {
             double factor = Factor(x, out _, out slope);
-            return (x - 1.0) * factor;
+            double spring = Spring / Stiffness;
+            slope -= spring;
+            return (x - 1.0) * (factor - spring);
         }
 
         // |b'|/(k g0) over x - 1, with ln x and the derivative of the former.

@@ -28,15 +28,16 @@ namespace Guidewire.Core
         private const int MostCuts = 40;             // of a motion out of a sheath
 
         private readonly ContactShape[] _walls;
+        private readonly WallLaw[] _laws;         // by wall
         private readonly double _units;           // per metre
-        private readonly double[] _nodeRadius;    // m
-        private readonly double[] _elementRadius;
+        private readonly double[] _elementRadius; // m
         private readonly Barrier _barrier;
         private readonly NeighbourList _near;
         private readonly SheathedNodes _nodes;
         private int _inside;                      // nodes in the sheath in the current shape
         private readonly Vector3d[] _x;           // of the current shape, units
         private readonly Vector3d[] _to;          // where its nodes move to, units
+        private readonly double _mostGap;         // the least range of all barriers, m
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
         private readonly ContactSums _sums;       // of the current shape
@@ -52,30 +53,24 @@ namespace Guidewire.Core
         /// <param name="rod">The wire.</param>
         /// <param name="walls">In units.</param>
         /// <param name="metresPerUnit">m.</param>
-        /// <param name="barrier">Of each gap.</param>
+        /// <param name="barrier">Of each gap to a rigid wall.</param>
         /// <param name="sheath">In which no wall acts, or null.</param>
         public BarrierEnergy(MaterialRod rod, ContactShape[] walls, double metresPerUnit, in Barrier barrier,
             SheathEnd? sheath = null)
         {
             int n = rod.ElementCount;
-            _walls = walls;
-            _nodes = new SheathedNodes(sheath, walls, metresPerUnit);
             _units = 1.0 / metresPerUnit;
             _elementRadius = rod.Radius;
-            _nodeRadius = new double[n + 1];
-            for (int j = 0; j < n; j++)
-            {
-                _nodeRadius[j] = Math.Max(_nodeRadius[j], rod.Radius[j]);
-                _nodeRadius[j + 1] = rod.Radius[j];
-            }
             _barrier = barrier;
+            _laws = WallLaw.Of(rod, walls, _units, barrier);
+            _mostGap = WallLaw.LeastDistanceOf(_laws);
+            walls = Array.ConvertAll(_laws, law => law.Wall);
+            _walls = walls;
+            _nodes = new SheathedNodes(sheath, walls, metresPerUnit);
             _x = new Vector3d[n + 1];
             _to = new Vector3d[n + 1];
             var range = new double[n];
-            for (int j = 0; j < n; j++)
-            {
-                range[j] = _units * (Math.Max(_nodeRadius[j], _nodeRadius[j + 1]) + barrier.Distance);
-            }
+            Array.ForEach(_laws, law => law.AddRanges(_units, range));
             // Lists of features of points grow with the square of the skin, all others hardly grow.
             double skin = Array.Exists(walls, wall => wall.IsSurface)
                 ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
@@ -83,7 +78,7 @@ namespace Guidewire.Core
             _near = new NeighbourList(walls, range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
-            _sums = new ContactSums(n, walls.Length, barrier);
+            _sums = new ContactSums(n, walls.Length);
             _resultant = new Vector3d[walls.Length];
         }
 
@@ -96,8 +91,14 @@ namespace Guidewire.Core
         /// <summary>The walls, in units.</summary>
         public ContactShape[] Walls => _walls;
 
-        /// <summary>b.</summary>
+        /// <summary>b of rigid walls.</summary>
         public Barrier Barrier => _barrier;
+
+        /// <summary>The contacts of wall w.</summary>
+        public WallLaw LawOf(int w)
+        {
+            return _laws[w];
+        }
 
         /// <summary>The nodes as walls meet them.</summary>
         public SheathedNodes Nodes => _nodes;
@@ -120,12 +121,6 @@ namespace Guidewire.Core
 
         /// <summary>Units in a metre.</summary>
         public double UnitsPerMetre => _units;
-
-        /// <summary>Radius of node i, the larger of its two elements', m.</summary>
-        public double RadiusOfNode(int i)
-        {
-            return _nodeRadius[i];
-        }
 
         /// <summary>Radius of element j, m.</summary>
         public double RadiusOf(int j)
@@ -233,25 +228,30 @@ namespace Guidewire.Core
         // need, and is tested once.
         private double MaxStepAt(int w, double fraction)
         {
+            WallLaw law = _laws[w];
             double gapBefore = 0.0;       // of the element before, 0 where it is not tested
             double radiusBefore = 0.0;
+            double leftBefore = 0.0;
             for (int j = 0; j <= _elementRadius.Length; j++)
             {
                 double gap = 0.0;
                 double radius = 0.0;
+                double left = 0.0;
                 if (j < _elementRadius.Length && IsTested(w, j, fraction, out gap))
                 {
-                    radius = _units * _elementRadius[j];
+                    radius = _units * law.RadiusOf(j);
                     fraction = MaxStepOf(w, j, fraction, radius, ref gap);
+                    left = Left(gap, law.DistanceOf(j));
                 }
                 if (_walls[w].IsSurface && (gap != 0.0 || gapBefore != 0.0))
                 {
-                    bool isBefore = radiusBefore + Left(gapBefore) > radius + Left(gap);
-                    fraction = isBefore ? MaxStepOfNode(w, j, fraction, radiusBefore, gapBefore)
-                        : MaxStepOfNode(w, j, fraction, radius, gap);
+                    bool isBefore = radiusBefore + leftBefore > radius + left;
+                    fraction = isBefore ? MaxStepOfNode(w, j, fraction, radiusBefore, gapBefore, leftBefore)
+                        : MaxStepOfNode(w, j, fraction, radius, gap, left);
                 }
                 gapBefore = gap;
                 radiusBefore = radius;
+                leftBefore = left;
             }
             return fraction;
         }
@@ -265,7 +265,7 @@ namespace Guidewire.Core
                 Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
-            double most = motion + _units * (_elementRadius[j] + MostLeft * _barrier.Distance);
+            double most = motion + _units * (_laws[w].RadiusOf(j) + MostLeft * _laws[w].DistanceOf(j));
             bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
@@ -286,32 +286,32 @@ namespace Guidewire.Core
 
         private double MaxStepOf(int w, int j, double fraction, double radius, double gap, int hint)
         {
+            double left = Left(gap, _laws[w].DistanceOf(j));
             return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1],
-                radius + Left(gap), Resolution(radius, gap), hint, _near.FeaturesAlong(w, j, _x, _to, fraction),
+                radius + left, Resolution(radius, gap, left), hint, _near.FeaturesAlong(w, j, _x, _to, fraction),
                 fraction) : 0.0;
         }
 
-        private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap)
+        private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap, double left)
         {
-            double distance = _units * (_nodeRadius[i] + _nodeGap[w * _x.Length + i]);
-            double clearance = radius + Left(gap);
+            double distance = _units * (_laws[w].RadiusOfNode(i) + _nodeGap[w * _x.Length + i]);
+            double clearance = radius + left;
             if (fraction * Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
             {
                 return fraction;
             }
             return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _x[i], _to[i], _to[i], clearance,
-                Resolution(radius, gap), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction) : 0.0;
+                Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction) : 0.0;
         }
 
-        // What a step leaves of a gap.
-        private double Left(double gap)
+        // What a step leaves of a gap, units.
+        private double Left(double gap, double distance)
         {
-            return Math.Min(LeftOfGap * gap, MostLeft * _units * _barrier.Distance);
+            return Math.Min(LeftOfGap * gap, MostLeft * _units * distance);
         }
 
-        private double Resolution(double radius, double gap)
+        private static double Resolution(double radius, double gap, double left)
         {
-            double left = Left(gap);
             return Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
         }
 
@@ -340,11 +340,10 @@ namespace Guidewire.Core
             _isKnown = true;
             _value = 0.0;
             _near.Follow(_x);
-            Array.Fill(_nodeGap, _barrier.Distance);
-            Array.Fill(_edgeGap, _barrier.Distance);
-            _leastGap = _barrier.Distance;
+            _leastGap = _mostGap;
             for (int w = 0; w < _walls.Length; w++)
             {
+                _laws[w].ClearGaps(w, _nodeGap, _edgeGap);
                 AddWall(w);
             }
         }
@@ -371,10 +370,11 @@ namespace Guidewire.Core
 
         private void AddNode(int w, int i)
         {
-            double radius = _nodeRadius[i];
+            double radius = _laws[w].RadiusOfNode(i);
+            ref readonly Barrier barrier = ref _laws[w].OfNode(i);
             _contactPoints.Clear();
             double distance = _walls[w].FindContactPoints(
-                _x[i], _units * (radius + _barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _contactPoints);
+                _x[i], _units * (radius + barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _contactPoints);
             if (_contactPoints.Count == 0)
             {
                 _near.SetDistanceOfNode(w, i, _x[i], distance);
@@ -390,7 +390,7 @@ namespace Guidewire.Core
                 double gap = point.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _leastGap = Math.Min(_leastGap, gap);
-                double value = _barrier.At(gap, out double slope, out double curvature);
+                double value = barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0)
                 {
                     continue;
@@ -411,15 +411,17 @@ namespace Guidewire.Core
             }
             _resultant[w] -= gradient;
             Symmetric3 positive = second.PositivePart();
-            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest);
+            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest, barrier,
+                _laws[w].DisplacementAt(nearest, barrier.Distance));
         }
 
         private void AddElement(int w, int j)
         {
-            double radius = _elementRadius[j];
+            double radius = _laws[w].RadiusOf(j);
+            double range = _laws[w].DistanceOf(j);
             _edgeContacts.Clear();
             ref double nearest = ref _edgeGap[w * _elementRadius.Length + j];
-            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + _barrier.Distance),
+            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + range),
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
             int first = _sums.Contacts.Count;
             double stiffness = 0.0;
@@ -429,7 +431,8 @@ namespace Guidewire.Core
                 double gap = edge.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _leastGap = Math.Min(_leastGap, gap);
-                double value = _barrier.At(gap, out double slope, out double curvature);
+                Barrier barrier = _laws[w].OfEdge(j, edge);
+                double value = barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0 || edge.Weight == 0.0)
                 {
                     continue;
@@ -441,9 +444,10 @@ namespace Guidewire.Core
                 }
                 _value += edge.Weight * value;
                 stiffness += edge.Weight * curvature;
-                _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature);
+                _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature,
+                    _laws[w].DisplacementAt(gap, range));
             }
-            _sums.EndElement(w, j, first, stiffness, nearest);
+            _sums.EndElement(w, j, first, stiffness, nearest, _laws[w].BarrierOf(j));
         }
     }
 }

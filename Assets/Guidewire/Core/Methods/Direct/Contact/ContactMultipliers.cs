@@ -16,7 +16,6 @@ namespace Guidewire.Core
     internal sealed class ContactMultipliers
     {
         private readonly int _nodes;
-        private readonly Barrier _barrier;
         private readonly StructList<Contact> _contacts = new StructList<Contact>(64);    // of the current shape
         private readonly double[] _estimate;      // N, by wall and node, then element; NaN where there is none
         private readonly StructList<int> _estimated = new StructList<int>(64);    // where there is one
@@ -25,10 +24,9 @@ namespace Guidewire.Core
         private int _held = -1;                   // the node that does not move as walls see it
 
         /// <summary>Of a wire of this many elements between this many walls.</summary>
-        public ContactMultipliers(int elementCount, int wallCount, in Barrier barrier)
+        public ContactMultipliers(int elementCount, int wallCount)
         {
             _nodes = elementCount + 1;
-            _barrier = barrier;
             _estimate = new double[wallCount * (_nodes + elementCount)];
             _own = new Symmetric3[_nodes];
             _coupling = new Symmetric3[elementCount];
@@ -77,7 +75,8 @@ namespace Guidewire.Core
         /// <param name="force">On the wire, N.</param>
         /// <param name="stiffness">By its second derivative, N/m.</param>
         /// <param name="gap">m.</param>
-        public void AddNode(int w, int i, in Vector3d force, in Symmetric3 stiffness, double gap)
+        /// <param name="barrier">Of the gap, but for how stiff it is.</param>
+        public void AddNode(int w, int i, in Vector3d force, in Symmetric3 stiffness, double gap, in Barrier barrier)
         {
             bool isLast = i == _coupling.Length;
             double size = force.Length;
@@ -85,17 +84,19 @@ namespace Guidewire.Core
             {
                 Vector3d normal = (1.0 / size) * force;
                 Add(w * (_nodes + _coupling.Length) + i, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, size, normal,
-                    Vector3d.Dot(normal, stiffness.Times(normal)), gap);
+                    Vector3d.Dot(normal, stiffness.Times(normal)), gap, barrier);
             }
         }
 
         /// <summary>The interior of element j, at s, with a wall.</summary>
-        public void AddElement(int w, int j, double s, in Vector3d force, double stiffness, double gap)
+        public void AddElement(int w, int j, double s, in Vector3d force, double stiffness, double gap,
+            in Barrier barrier)
         {
             double size = force.Length;
             if (size > 0.0)
             {
-                Add(w * (_nodes + _coupling.Length) + _nodes + j, j, s, size, (1.0 / size) * force, stiffness, gap);
+                Add(w * (_nodes + _coupling.Length) + _nodes + j, j, s, size, (1.0 / size) * force, stiffness, gap,
+                    barrier);
             }
         }
 
@@ -120,13 +121,14 @@ namespace Guidewire.Core
             }
         }
 
-        private void Add(int key, int j, double s, double force, in Vector3d normal, double tangent, double gap)
+        private void Add(int key, int j, double s, double force, in Vector3d normal, double tangent, double gap,
+            in Barrier barrier)
         {
             double stiffness = tangent;
             double estimate = _estimate[key];
             if (!double.IsNaN(estimate))
             {
-                stiffness *= _barrier.ChordStiffness(gap, estimate / force);
+                stiffness *= barrier.ChordStiffness(gap, estimate / force);
                 double added = stiffness - tangent;
                 double r = 1.0 - s;
                 _own[j] += Symmetric3.Outer(added * r * r, normal);

@@ -18,9 +18,9 @@ namespace Guidewire.Core
         private readonly bool[] _isTouched;       // by node: whether these are not 0
 
         /// <summary>Of a wire of this many elements that touches none of so many walls.</summary>
-        public ContactSums(int elementCount, int wallCount, in Barrier barrier)
+        public ContactSums(int elementCount, int wallCount)
         {
-            Multipliers = new ContactMultipliers(elementCount, wallCount, barrier);
+            Multipliers = new ContactMultipliers(elementCount, wallCount);
             int nodes = elementCount + 1;
             _gradient = new Vector3d[nodes];
             _own = new Symmetric3[nodes];
@@ -65,11 +65,14 @@ namespace Guidewire.Core
         /// <param name="second">N/m.</param>
         /// <param name="bending">What the second derivative has besides, N/m.</param>
         /// <param name="gap">m.</param>
-        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second, in Symmetric3 bending, double gap)
+        /// <param name="barrier">Of the gap.</param>
+        /// <param name="displacement">Of the wall, m.</param>
+        public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second, in Symmetric3 bending, double gap,
+            in Barrier barrier, double displacement)
         {
             bool isLast = i == _coupling.Length;
-            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient, true);
-            Multipliers.AddNode(w, i, -gradient, second, gap);
+            Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient, true, displacement);
+            Multipliers.AddNode(w, i, -gradient, second, gap, barrier);
             _gradient[i] += gradient;
             _own[i] += second;
             _ownBending[i] += bending;
@@ -84,16 +87,17 @@ namespace Guidewire.Core
         /// <param name="value">b of the gap, J.</param>
         /// <param name="slope">b', N.</param>
         /// <param name="curvature">b'', N/m.</param>
+        /// <param name="displacement">Of the wall, m.</param>
         /// <returns>The sum of the gradients, N.</returns>
         public Vector3d AddEdgeContact(int w, int j, in EdgeContact edge, in Vector3d chord, double units, double value,
-            double slope, double curvature)
+            double slope, double curvature, double displacement)
         {
             double s = edge.Position;
             double r = 1.0 - s;
             Vector3d force = (edge.Weight * slope) * edge.Normal;
             Vector3d first = r * force + (value * units) * edge.WeightAlongA;
             Vector3d second = s * force + (value * units) * edge.WeightAlongB;
-            Touch(w, j, s, -force, false);
+            Touch(w, j, s, -force, false, displacement);
             _gradient[j] += first;
             _gradient[j + 1] += second;
             double stiffness = edge.Weight * curvature;
@@ -111,7 +115,8 @@ namespace Guidewire.Core
         /// <param name="first">Index of the first of them.</param>
         /// <param name="stiffness">The sum of their b'', N/m.</param>
         /// <param name="gap">The least of their gaps, m.</param>
-        public void EndElement(int w, int j, int first, double stiffness, double gap)
+        /// <param name="barrier">Of the gaps, but for how stiff it is.</param>
+        public void EndElement(int w, int j, int first, double stiffness, double gap, in Barrier barrier)
         {
             Vector3d force = Vector3d.Zero;
             double moment = 0.0;
@@ -125,7 +130,7 @@ namespace Guidewire.Core
             }
             if (force != Vector3d.Zero)
             {
-                Multipliers.AddElement(w, j, moment / sum, force, stiffness, gap);
+                Multipliers.AddElement(w, j, moment / sum, force, stiffness, gap, barrier);
             }
         }
 
@@ -190,9 +195,9 @@ namespace Guidewire.Core
             }
         }
 
-        private void Touch(int w, int j, double position, in Vector3d force, bool isNode)
+        private void Touch(int w, int j, double position, in Vector3d force, bool isNode, double displacement)
         {
-            Contacts.Add(new WallContact(w, j, position, force, isNode));
+            Contacts.Add(new WallContact(w, j, position, force, isNode, displacement));
             _isTouched[j] = true;
             _isTouched[j + 1] = true;
         }

@@ -22,9 +22,13 @@ namespace Guidewire.Core
         /// <summary>N.</summary>
         public readonly double Force;
 
+        /// <summary>By how much the wall gives way there, m.</summary>
+        public readonly double Displacement;
+
         /// <summary>A contact with these values.</summary>
-        public WallContact(int wall, int element, double position, in Vector3d force, bool isNode)
+        public WallContact(int wall, int element, double position, in Vector3d force, bool isNode, double displacement)
         {
+            Displacement = displacement;
             IsNode = isNode;
             Wall = wall;
             Element = element;

@@ -83,6 +83,10 @@ namespace Guidewire.Core
                 distance = Math.Max(OfRadius * thinnest, move / MostMove);
                 foreach (ContactShape wall in walls)
                 {
+                    if (wall.Softness != null)
+                    {
+                        continue;    // its barriers have a distance of their own
+                    }
                     distance = wall.IsSurface ? Math.Min(distance, InMesh * thinnest) : distance;
                     double narrowest = metresPerUnit * wall.NarrowestRadius(
                         thickest / metresPerUnit, (thickest + distance / OfClearance) / metresPerUnit);

@@ -88,8 +88,9 @@ namespace Guidewire.Core
                     || (!_barrier.SeesBehind && Walls[w].Contains(_from[0]) && Walls[w].Contains(_from[n]));
                 for (int j = 0; j < n && !isInside; j++)
                 {
-                    if (Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref _hint[w * n + j],
-                        out SurfaceContact contact) && Math.Abs(contact.Distance) < _radius[j])
+                    double radius = _units * _barrier.LawOf(w).RadiusOf(j);
+                    if (Walls[w].Nearest(_from[j], _from[j + 1], radius, ref _hint[w * n + j],
+                        out SurfaceContact contact) && Math.Abs(contact.Distance) < radius)
                     {
                         return string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the wire, which left the "
                             + "vessel by an open rim, would be pressed into its wall from outside at ({1:G4}, {2:G4}, "
@@ -121,11 +122,12 @@ namespace Guidewire.Core
                 for (int j = 0; j < _radius.Length; j++)
                 {
                     ref int hint = ref _hint[w * _radius.Length + j];
-                    if (_clearance[j] < _radius[j]
-                        && Walls[w].Nearest(_from[j], _from[j + 1], _radius[j], ref hint, out SurfaceContact contact))
+                    double radius = _units * _barrier.LawOf(w).RadiusOf(j);
+                    if (_clearance[j] < radius
+                        && Walls[w].Nearest(_from[j], _from[j + 1], radius, ref hint, out SurfaceContact contact))
                     {
                         double distance = Walls[w].IsSurface ? Math.Abs(contact.Distance) : contact.Distance;
-                        deepest = Math.Max(deepest, _radius[j] - distance);
+                        deepest = Math.Max(deepest, radius - distance);
                     }
                 }
             }

@@ -54,12 +54,13 @@ namespace Guidewire.Core
 
         private void ProjectNode(int w, int i, NeighbourList near, ref Vector3d x)
         {
-            double radius = _barrier.RadiusOfNode(i);
-            double distance = _barrier.Barrier.Distance;
+            double radius = _barrier.LawOf(w).RadiusOfNode(i);
+            double distance = _barrier.LawOf(w).OfNode(i).Distance;
             double before = _barrier.NodeGap(w, i);
             bool touched = before < distance;
             double asked = touched ? before : ProjectedTo * distance;
-            double nearest = touched ? Pulled * distance : asked;
+            double nearest = !touched ? asked
+                : Math.Min(Pulled * distance, distance + Pulled * _barrier.Barrier.Distance);
             _contactPoints.Clear();
             Vector3d point = _units * x;
             double range = _units * (radius + nearest);
@@ -87,8 +88,8 @@ namespace Guidewire.Core
 
         private void ProjectElement(int w, int j, NeighbourList near, RodShape shape, int last)
         {
-            double radius = _barrier.RadiusOf(j);
-            double asked = Math.Min(_barrier.EdgeGap(w, j), ProjectedTo * _barrier.Barrier.Distance);
+            double radius = _barrier.LawOf(w).RadiusOf(j);
+            double asked = Math.Min(_barrier.EdgeGap(w, j), ProjectedTo * _barrier.LawOf(w).DistanceOf(j));
             _edgeContacts.Clear();
             Vector3d start = _units * shape.X[j];
             Vector3d end = _units * shape.X[j + 1];

@@ -1,0 +1,172 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The contacts of one wall with a wire: by node and element, the distance of the core line at which the
+    /// gap is 0, and the energy of the gap.</summary>
+    /// <remarks>The gap to a rigid wall is that of the wire's surface. A soft wall is displaced by u where the wire
+    /// presses on it, at most by u_max: its gap is that to the rigid limit, G = d - (r - u_max), and u = u_max - G. A
+    /// spring k u^2/2 acts from u = 0 on, and a barrier of 0.3 k over all of u_max, which is infinite at the limit. So
+    /// the force is k u (1 + 0.9 u/u_max + ...). The wall's displacement is no unknown: it follows from the gap.
+    ///
+    /// A node has k = K l, with l half of the elements beside it. The tip has at least the wall's tipLength: the wall
+    /// beyond it gives way with it. A convex edge has tipLength times the angle by which the wall turns there, so that
+    /// a bend counts the same however finely it is divided.
+    ///
+    /// For u_max below the radius the core line stays on the free side. A plane or a tube with a larger u_max is moved
+    /// outward by it, and the gap is then that of the wire's surface. In all other walls u_max is at most 0.9 times the
+    /// radius that the wire has there.</remarks>
+    internal sealed class WallLaw
+    {
+        private const double BarrierOfSpring = 0.3;
+
+        private readonly double[] _nodeRadius;    // m
+        private readonly double[] _elementRadius;
+        private readonly Barrier[] _node;
+        private readonly Barrier[] _element;      // of a soft wall: by weight and radian
+        private readonly double[] _length;        // of the elements, units; empty for a rigid wall
+
+        /// <summary>That of a wall on a rod.</summary>
+        /// <param name="rod">The wire.</param>
+        /// <param name="nodeRadius">Of its nodes, m.</param>
+        /// <param name="wall">As it was given, in units.</param>
+        /// <param name="units">Per metre.</param>
+        /// <param name="rigid">Of each gap to a rigid wall.</param>
+        private WallLaw(MaterialRod rod, double[] nodeRadius, ContactShape wall, double units, in Barrier rigid)
+        {
+            int n = rod.ElementCount;
+            Wall = wall;
+            _nodeRadius = nodeRadius;
+            _elementRadius = rod.Radius;
+            _length = Array.Empty<double>();
+            _node = new Barrier[n + 1];
+            _element = new Barrier[n];
+            Array.Fill(_node, rigid);
+            Array.Fill(_element, rigid);
+            if (wall.Softness is WallSoftness soft)
+            {
+                IsSoft = true;
+                _length = Array.ConvertAll(rod.Length, length => units * length);
+                double thinnest = double.PositiveInfinity;
+                Array.ForEach(rod.Radius, radius => thinnest = Math.Min(thinnest, radius));
+                bool isMoved = soft.Limit >= thinnest && wall.MovedOut(units * soft.Limit) != null;
+                Wall = isMoved ? wall.MovedOut(units * soft.Limit)! : wall;
+                _nodeRadius = new double[n + 1];
+                _elementRadius = new double[n];
+                for (int i = 0; i <= n; i++)
+                {
+                    double length = 0.5 * ((i > 0 ? rod.Length[i - 1] : 0.0) + (i < n ? rod.Length[i] : 0.0));
+                    length = i == n ? Math.Max(length, soft.TipLength) : length;
+                    _node[i] = Soft(soft, isMoved, length, nodeRadius[i], out _nodeRadius[i]);
+                }
+                for (int j = 0; j < n; j++)
+                {
+                    _element[j] = Soft(soft, isMoved, soft.TipLength, rod.Radius[j], out _elementRadius[j]);
+                }
+            }
+        }
+
+        /// <summary>Those of all walls.</summary>
+        public static WallLaw[] Of(MaterialRod rod, ContactShape[] walls, double units, Barrier rigid)
+        {
+            var nodeRadius = new double[rod.ElementCount + 1];
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                nodeRadius[j] = Math.Max(nodeRadius[j], rod.Radius[j]);
+                nodeRadius[j + 1] = rod.Radius[j];
+            }
+            return Array.ConvertAll(walls, wall => new WallLaw(rod, nodeRadius, wall, units, rigid));
+        }
+
+        /// <summary>The least range of all gaps, m.</summary>
+        public static double LeastDistanceOf(WallLaw[] laws)
+        {
+            double least = double.PositiveInfinity;
+            foreach (WallLaw law in laws)
+            {
+                Array.ForEach(law._node, node => least = Math.Min(least, node.Distance));
+            }
+            return least;
+        }
+
+        /// <summary>The wall that the gaps are measured from, units.</summary>
+        public ContactShape Wall { get; }
+
+        /// <summary>Whether it gives way.</summary>
+        public bool IsSoft { get; }
+
+        /// <summary>Distance of node i from the wall at which its gap is 0, m.</summary>
+        public double RadiusOfNode(int i)
+        {
+            return _nodeRadius[i];
+        }
+
+        /// <summary>The same of element j.</summary>
+        public double RadiusOf(int j)
+        {
+            return _elementRadius[j];
+        }
+
+        /// <summary>Widens ranges, by element in units, to where the wall is felt by it or its nodes.</summary>
+        public void AddRanges(double units, double[] range)
+        {
+            for (int j = 0; j < range.Length; j++)
+            {
+                double own = Math.Max(_elementRadius[j] + _element[j].Distance, Math.Max(
+                    _nodeRadius[j] + _node[j].Distance, _nodeRadius[j + 1] + _node[j + 1].Distance));
+                range[j] = Math.Max(range[j], units * own);
+            }
+        }
+
+        /// <summary>Of the gap of node i.</summary>
+        public ref readonly Barrier OfNode(int i)
+        {
+            return ref _node[i];
+        }
+
+        /// <summary>Of the gap of element j, but for how stiff it is.</summary>
+        public ref readonly Barrier BarrierOf(int j)
+        {
+            return ref _element[j];
+        }
+
+        /// <summary>Range of the gap of element j, m.</summary>
+        public double DistanceOf(int j)
+        {
+            return _element[j].Distance;
+        }
+
+        /// <summary>Of the gap of element j at an edge of the wall.</summary>
+        public Barrier OfEdge(int j, in EdgeContact edge)
+        {
+            return IsSoft ? _element[j].Times(edge.TurnUnder(_length[j])) : _element[j];
+        }
+
+        /// <summary>By how much the wall is displaced at a gap, m.</summary>
+        public double DisplacementAt(double gap, double distance)
+        {
+            return IsSoft ? Math.Max(0.0, distance - gap) : 0.0;
+        }
+
+        /// <summary>Sets the gaps of all nodes, and of all elements, to those from which on nothing is felt.</summary>
+        /// <param name="w">Number of the wall.</param>
+        public void ClearGaps(int w, double[] nodeGap, double[] edgeGap)
+        {
+            int n = _element.Length;
+            for (int j = 0; j < n; j++)
+            {
+                nodeGap[w * (n + 1) + j] = _node[j].Distance;
+                edgeGap[w * n + j] = _element[j].Distance;
+            }
+            nodeGap[w * (n + 1) + n] = _node[n].Distance;
+        }
+
+        private static Barrier Soft(WallSoftness soft, bool isMoved, double length, double radius, out double from)
+        {
+            double most = isMoved ? soft.Limit : soft.MostOf(radius);
+            from = isMoved ? radius : radius - most;
+            double spring = soft.Stiffness * length;
+            return new Barrier(most, BarrierOfSpring * spring, spring);
+        }
+    }
+}

@@ -1,0 +1,66 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Checks whether soft walls suit the method, the wire's radius and its weight.</summary>
+    internal static class SoftWallConflict
+    {
+        /// <summary>The first value that does not, or null.</summary>
+        public static ParameterConflict? Find(SimulationParameters parameters)
+        {
+            foreach (ContactShape wall in parameters.Scene.Walls)
+            {
+                ParameterConflict? problem = wall.Softness == null ? null : Find(parameters, wall, wall.Softness);
+                if (problem != null)
+                {
+                    return problem;
+                }
+            }
+            return null;
+        }
+
+        private static ParameterConflict? Find(SimulationParameters parameters, ContactShape wall, WallSoftness soft)
+        {
+            if (!MethodTable.Of(parameters.Method.Solver).HasBarriers)
+            {
+                return Of(soft, "wallStiffness", "solver direct: with the others every wall is rigid");
+            }
+            double radius = 0.0;
+            double density = 0.0;
+            Include(parameters.Material, parameters.Scene.GuidewireLength, ref radius, ref density);
+            foreach (Catheter catheter in parameters.Scene.Catheters)
+            {
+                Include(catheter.Material, catheter.Length, ref radius, ref density);
+            }
+            if (soft.Limit >= radius && wall.MovedOut(soft.Limit / parameters.Scene.MetresPerUnit) == null)
+            {
+                return Of(soft, "softLimit", string.Format(CultureInfo.InvariantCulture, "a value below the wire's "
+                    + "radius, {0:G4} m: only planes and tubes may give way farther", radius));
+            }
+            double weight = density * parameters.Scene.Gravity.Length;
+            double most = soft.Limit > 0.0 ? soft.Limit : soft.MostOf(radius);
+            return soft.Stiffness * most > weight ? null
+                : Of(soft, "wallStiffness", string.Format(CultureInfo.InvariantCulture, "more than {0:G4} Pa: the "
+                    + "weight alone, {1:G4} N/m, would press the wall to its softLimit, {2:G4} m", weight / most,
+                    weight, most));
+        }
+
+        // The largest radius, m, and the sum of the largest masses per length, kg/m.
+        private static void Include(MaterialParameters material, double length, ref double radius, ref double density)
+        {
+            double heaviest = 0.0;
+            foreach (CrossSection piece in new WireProfile(material, length).Pieces)
+            {
+                radius = Math.Max(radius, piece.Radius);
+                heaviest = Math.Max(heaviest, piece.LineDensity);
+            }
+            density += heaviest;
+        }
+
+        private static ParameterConflict Of(WallSoftness soft, string key, string needed)
+        {
+            return new ParameterConflict(soft.Name + "." + key, needed);
+        }
+    }
+}
