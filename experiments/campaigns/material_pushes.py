@@ -11,6 +11,7 @@ import numpy as np
 from experiments.campaigns import pushes
 
 METHODS = ("direct", "sheath", "xpbd")
+SOFT = 0.9  # of the radius, by which a soft wall gives way at most
 _LONG = 400.0  # mm of wire in a sheath
 _ELEMENTS_IN_VESSEL = 2.5  # of a sheath's exit from the vessel's closed end
 
@@ -74,12 +75,24 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     return kind, scene
 
 
+def soften(scene: dict[str, Any], seed: int) -> None:
+    """Lets every wall of a push give way: wallStiffness from 1e4 to 1e7 Pa."""
+    random = np.random.default_rng([63, seed])
+    for wall in (scene["vessel"], *scene.get("obstacles", [])):
+        wall["wallStiffness"] = _between(random, 1e4, 1e7)
+
+
 def radii_of(scene: dict[str, Any]) -> np.ndarray:
     """Radius in units of each element, shape (n,). Sections of a draw are at the tip, with elements of their own."""
     radii = [scene["wireRadius"]] * scene["numberRodElements"]
     for section in scene["wireSections"]:
         radii += [section.get("wireRadius", scene["wireRadius"])] * section["numberRodElements"]
     return 1e3 * np.array(radii)
+
+
+def core_radii_of(scene: dict[str, Any]) -> np.ndarray:
+    """Those that no wall may come nearer than: of soft walls a tenth of the radii."""
+    return radii_of(scene) * (1.0 - SOFT if "wallStiffness" in scene["vessel"] else 1.0)
 
 
 def _height(plane: dict[str, Any]) -> float:

@@ -70,10 +70,14 @@ def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
     return drawn[0], path
 
 
-def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
-    """Draw, run and check one push; its files are left in the folder. None where there is nothing to check."""
+def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = False) -> Push | None:
+    """Draw, run and check one push, between soft walls if asked for; its files are left in the folder. None where there
+    is nothing to check."""
     kind, path = write(seed, method, folder)
     scene = json.loads(path.read_text())
+    if is_soft:
+        material_pushes.soften(scene, seed)
+        path.write_text(json.dumps(scene, indent=1))
     if method != "pbd" and scene["vessel"]["shape"] == "mesh":
         mesh = read_obj(Path(scene["vessel"]["file"]))
         if crosses_itself(mesh.vertices, mesh.triangles):
@@ -92,7 +96,7 @@ def make(runner: Runner, seed: int, method: str, folder: Path) -> Push | None:
     if method == "pbd":
         claims = push_claims.violations(scene, summary, positions, walls)
     else:
-        claims = material_claims.violations(scene, summary, positions, material_pushes.radii_of(scene), walls)
+        claims = material_claims.violations(scene, summary, positions, material_pushes.core_radii_of(scene), walls)
     # A mesh of a push is closed; a tube goes on beyond its last knot, where the tip has left it.
     known = OF_ENDS if scene["vessel"]["shape"] == "mesh" else (*OF_ENDS, push_claims.RIM)
     claims += [f"warning: {warning}" for warning in summary["warnings"]
@@ -114,11 +118,12 @@ def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
     return min(least) < radius
 
 
-def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd") -> Iterator[Push]:
+def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method: str = "pbd", is_soft: bool = False
+             ) -> Iterator[Push]:
     """The pushes of these seeds, one after another in one process; files of those that break nothing are removed."""
     with closing(Runner(command)) as runner:
         for seed in seeds:
-            push = make(runner, seed, method, folder)
+            push = make(runner, seed, method, folder, is_soft)
             shutil.rmtree(folder / f"run-{seed}", ignore_errors=True)
             if not push or not push.claims:
                 for path in folder.glob(f"push-{seed}.*"):
@@ -140,8 +145,11 @@ def main(arguments: Sequence[str]) -> int:
     parser = parser_of("push_campaign", __doc__)
     parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
                         help="of the runs (default pbd)")
+    parser.add_argument("--soft", action="store_true", help="walls that give way, with direct and sheath")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
+    if given.soft and given.method not in ("direct", "sheath"):
+        parser.error(f"--soft with {given.method}: only direct and sheath have soft walls")
     broken = 0
     reliable = 0
     slowest = 0.0
@@ -149,7 +157,8 @@ def main(arguments: Sequence[str]) -> int:
     with tempfile.TemporaryDirectory() as scratch:
         folder = given.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        runs = campaign(building.build(building.RUNNER, print), itertools.count(given.first), folder, given.method)
+        runs = campaign(building.build(building.RUNNER, print), itertools.count(given.first), folder, given.method,
+                        given.soft)
         for push in itertools.islice(runs, given.runs):
             slowest = max(slowest, push.seconds)
             broken += bool(push.claims)
