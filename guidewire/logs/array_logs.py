@@ -109,6 +109,9 @@ class ArrayLog:
                     "pressure": columns["wallPressure"][k].item(),
                     "element": {str(j): _vector(force) for j, force in enumerate(columns["elementForces"][k])
                                 if force.any()}}
+            if "wallDisplacements" in columns:
+                moved = columns["wallDisplacements"][k]
+                entry["contact"] |= {"largestDisplacement": moved.max().item(), "displacement": moved.tolist()}
             yield step, entry
 
 

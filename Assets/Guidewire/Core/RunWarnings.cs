@@ -10,6 +10,8 @@ namespace Guidewire.Core
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
         private const double OddStrain = 0.2;       // of the outermost fibre: bent to five times its own radius
 
+        private const double NearLimit = 0.9;       // of a soft wall's limit
+
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
@@ -59,6 +61,10 @@ namespace Guidewire.Core
                 {
                     yield return play;
                 }
+            }
+            if (extremes != null && extremes.LimitShare > NearLimit)
+            {
+                yield return WarningTable.SoftLimit.With(extremes.WallDisplacement, 100.0 * extremes.LimitShare);
             }
             if (_rims.Warning is RunWarning exit)
             {

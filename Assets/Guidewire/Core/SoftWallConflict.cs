@@ -1,13 +1,16 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
 {
     /// <summary>Checks whether soft walls suit the method, the wire's radius and its weight.</summary>
-    internal static class SoftWallConflict
+    public static class SoftWallConflict
     {
+        private const double AsRigid = 1e7;    // Pa
+
         /// <summary>The first value that does not, or null.</summary>
-        public static ParameterConflict? Find(SimulationParameters parameters)
+        internal static ParameterConflict? Find(SimulationParameters parameters)
         {
             foreach (ContactShape wall in parameters.Scene.Walls)
             {
@@ -18,6 +21,38 @@ namespace Guidewire.Core
                 }
             }
             return null;
+        }
+
+        /// <summary>Lines on walls that are as good as rigid, and on elements too long for a wall.</summary>
+        public static IEnumerable<string> Warnings(SimulationParameters parameters)
+        {
+            double[] lengths = ElementLayout.Lengths(parameters, 1.0, out double[] stations);
+            foreach (ContactShape wall in parameters.Scene.Walls)
+            {
+                if (wall.Softness == null)
+                {
+                    continue;
+                }
+                double stiffness = wall.Softness.Stiffness;
+                if (stiffness > AsRigid)
+                {
+                    yield return WarningTable.SoftStiff.Text(wall.Softness.Name, stiffness);
+                }
+                double worst = 1.0;
+                double length = 0.0;
+                for (int j = 0; j < lengths.Length; j++)
+                {
+                    CrossSection section = CrossSection.At(parameters.Material, 0.5 * (stations[j] + stations[j + 1]));
+                    double spread = Math.Sqrt(Math.Sqrt(4.0 * section.BendStiffness1 / stiffness));
+                    double own = parameters.Scene.MetresPerUnit * lengths[j];
+                    length = own > worst * spread ? own : length;
+                    worst = Math.Max(worst, own / spread);
+                }
+                if (length > 0.0)
+                {
+                    yield return WarningTable.SoftElements.Text(length, length / worst, wall.Softness.Name);
+                }
+            }
         }
 
         private static ParameterConflict? Find(SimulationParameters parameters, ContactShape wall, WallSoftness soft)

@@ -72,6 +72,23 @@ namespace Guidewire.Core
         /// and diameter. 0 with pbd.</summary>
         public double Pressure { get; internal set; }
 
+        /// <summary>Displacement of soft walls at each of the n elements, the largest of its contacts, m. Empty where
+        /// all walls are rigid.</summary>
+        public double[] Displacements { get; internal set; } = Array.Empty<double>();
+
+        /// <summary>The largest of them, m.</summary>
+        public double LargestDisplacement { get; internal set; }
+
+        /// <summary>Mean over all contacts with soft walls, m; 0 without any.</summary>
+        public double MeanDisplacement { get; internal set; }
+
+        /// <summary>Prepares what is recorded by element.</summary>
+        internal void SetElements(int count, ContactShape[] walls)
+        {
+            ElementForces = new Vector3d[count];
+            Displacements = new double[Array.Exists(walls, wall => wall.Softness != null) ? count : 0];
+        }
+
         internal void SetTotal(in Vector3d total)
         {
             Total = total;
@@ -98,6 +115,13 @@ namespace Guidewire.Core
             MeanTotal = other.MeanTotal;
             WallForces = other.WallForces;
             Pressure = other.Pressure;
+            LargestDisplacement = other.LargestDisplacement;
+            MeanDisplacement = other.MeanDisplacement;
+            for (int j = 0; j < Displacements.Length; j++)
+            {
+                int from = j - offset;
+                Displacements[j] = from >= 0 && from < other.Displacements.Length ? other.Displacements[from] : 0.0;
+            }
             other.CopyForces(Forces, offset, 0);
             for (int j = 0; j < ElementForces.Length; j++)
             {

@@ -50,6 +50,13 @@ namespace Guidewire.Core
         /// What its contacts store elastically is energy of the wire.</summary>
         public double FrictionWork { get; private set; } = double.NaN;
 
+        /// <summary>Largest displacement of a soft wall, m; NaN where all are rigid. A snapshot does not have it.
+        /// </summary>
+        public double WallDisplacement { get; private set; } = double.NaN;
+
+        /// <summary>The largest over its wall's limit.</summary>
+        internal double LimitShare { get; private set; }
+
         /// <summary>Takes what the wire's shape alone says.</summary>
         /// <param name="joints">The n + 1 joints.</param>
         /// <param name="lengths">The length that each of them stands for, m.</param>
@@ -131,6 +138,22 @@ namespace Guidewire.Core
             ElementForceTime = ElementForce >= force ? ElementForceTime : time;
             ElementForce = Larger(ElementForce, force);
             WallPressure = Larger(WallPressure, pressure);
+        }
+
+        /// <summary>Takes the displacements of soft walls.</summary>
+        /// <param name="largest">m.</param>
+        /// <param name="share">Largest over the wall's limit.</param>
+        internal void TakeDisplacements(double largest, double share)
+        {
+            WallDisplacement = Larger(WallDisplacement, largest);
+            LimitShare = Larger(LimitShare, share);
+        }
+
+        /// <summary>Writes or restores them, for a step that is repeated.</summary>
+        internal void SerializeDisplacements(Snapshot snapshot)
+        {
+            WallDisplacement = snapshot.Serialize(WallDisplacement);
+            LimitShare = snapshot.Serialize(LimitShare);
         }
 
         /// <summary>Takes what friction turned into heat in a step of dt (s).</summary>

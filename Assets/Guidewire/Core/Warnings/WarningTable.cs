@@ -64,6 +64,16 @@ namespace Guidewire.Core
             + "there the inside is not defined", "a wire may pass where the sheets cross; then `passages` or "
                 + "`maxPenetration` makes the run unreliable. `anatomy FILE` mends such a mesh");
 
+        /// <summary>A soft wall that is as good as rigid.</summary>
+        public static readonly WarningKind SoftStiff = AtStart("softStiff",
+            "*wall*: wallStiffness = *K:G3* Pa is as good as rigid; without it the run takes less time",
+            "above 1e7 Pa ([soft-walls.md](soft-walls.md))");
+
+        /// <summary>Elements that are long for a soft wall.</summary>
+        public static readonly WarningKind SoftElements = AtStart("softElements",
+            "elements of *l:G3* m are longer than *m:G3* m, over which the wire spreads a load on the wall of *wall*",
+            "longer than (4 EI/K)^(1/4): the wall's displacement depends on the number of elements");
+
         /// <summary>xpbd: steps that have not converged.</summary>
         public static readonly WarningKind NotConverged = AfterReason("notConverged",
             "*a* of *b* steps had not converged (*kind* up to *p:0.#* % off); raise substeps or "
@@ -149,6 +159,11 @@ namespace Guidewire.Core
             "the tip left the vessel by an open rim at (*x:G4*, *y:G4*, *z:G4*) at t = *t:G6* s",
             "the tip was first outside there and then. It is no error. There is no wall beyond, but with direct the "
             + "mesh's outside is one");
+
+        /// <summary>A soft wall near its limit.</summary>
+        public static readonly WarningKind SoftLimit = Add("softLimit", WarningPlace.End, true,
+            "a wall gave way by up to *u:G3* m, *p:0* % of its softLimit: there it was almost rigid",
+            "direct: above 90 %. A lower wallStiffness makes no more difference there");
 
         /// <summary>All of them, in the order of the docs.</summary>
         public static IReadOnlyList<WarningKind> All => Kinds;

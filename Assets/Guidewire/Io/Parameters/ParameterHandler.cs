@@ -284,6 +284,7 @@ namespace Guidewire.Io
                     Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles");
                 throw new ParameterException(source + ": " + problem);
             }
+            _warnings.AddRange(SoftWallConflict.Warnings(simulation));
             string? sizes = WireStart.FindOddSizes(simulation, vessel);
             if (sizes != null)
             {

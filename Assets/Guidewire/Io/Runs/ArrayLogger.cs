@@ -106,6 +106,10 @@ namespace Guidewire.Io
                     Put(contacts.MeanTotal);
                     Put(contacts.ReactionAtEnd);
                 }
+                foreach (double displacement in contacts.Displacements)
+                {
+                    Put(displacement);
+                }
             }
             _count++;
             if (elapsed - _flushed > FlushAfter)
@@ -242,6 +246,10 @@ namespace Guidewire.Io
                 Add("wallPressure", _realType);
                 Add("contactTotalMean", _realType, 3);
                 Add("reactionAtEnd", _realType, 3);
+            }
+            if (contacts.Displacements.Length > 0)
+            {
+                Add("wallDisplacements", _realType, contacts.Displacements.Length);
             }
         }
 
@@ -422,16 +430,14 @@ namespace Guidewire.Io
             _length += sizeof(float);
         }
 
-        private void Put(int value)
+        private void Put(int value) => PutBits(value);
+
+        private void PutExact(double value) => PutBits(BitConverter.DoubleToInt64Bits(value));
+
+        private void PutBits(long value)
         {
             BinaryPrimitives.WriteInt64LittleEndian(_block.AsSpan(_length), value);
             _length += sizeof(long);
-        }
-
-        private void PutExact(double value)
-        {
-            BinaryPrimitives.WriteInt64LittleEndian(_block.AsSpan(_length), BitConverter.DoubleToInt64Bits(value));
-            _length += sizeof(double);
         }
 
         private void Flush()

@@ -239,6 +239,16 @@ namespace Guidewire.Io
                 Append(", \"element\": ");
                 AppendNonzero(contacts.ElementForces);
             }
+            if (contacts.Displacements.Length > 0)
+            {
+                Append(", \"largestDisplacement\": ", contacts.LargestDisplacement);
+                Append(", \"meanDisplacement\": ", contacts.MeanDisplacement);
+                for (int j = 0; j < contacts.Displacements.Length; j++)
+                {
+                    Append(j == 0 ? ", \"displacement\": [" : ", ", contacts.Displacements[j]);
+                }
+                Append("]");
+            }
             Append("}");
         }
 

@@ -143,6 +143,7 @@ namespace Guidewire.Io
                 ["elementForce"] = Finite(extremes.ElementForce),
                 ["elementForceTime"] = Finite(extremes.ElementForceTime),
                 ["wallPressure"] = Finite(extremes.WallPressure),
+                ["wallDisplacement"] = Finite(extremes.WallDisplacement),
                 ["frictionPower"] = Finite(extremes.FrictionPower),
                 ["frictionWork"] = Finite(extremes.FrictionWork),
             };

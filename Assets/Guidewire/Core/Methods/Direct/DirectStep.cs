@@ -55,7 +55,7 @@ namespace Guidewire.Core
                 if (record != null)
                 {
                     record.WallForces = walls.Barrier.Resultants;
-                    record.ElementForces = new Vector3d[scene.Rod.ElementCount];
+                    record.SetElements(scene.Rod.ElementCount, scene.Walls);
                 }
             }
             report.Extremes ??= new RunExtremes();
@@ -239,9 +239,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            _elementForces.Take(Shape, Contacts!.ElementForces);
-            Contacts.Pressure = _elementForces.LargestPressure;
-            _extremes.TakeWalls(_elementForces.LargestForce, _elementForces.LargestPressure, Time);
+            _elementForces.Take(Shape, Contacts!, _extremes, Time);
             if (Terms.Walls()!.HoldsStart)
             {
                 _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time);
@@ -361,6 +359,7 @@ namespace Guidewire.Core
             Energy.SerializeStep(snapshot);
             Rest.Serialize(snapshot);
             _extremes.Serialize(snapshot);
+            _extremes.SerializeDisplacements(snapshot);
             _spinLoss?.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             snapshot.Serialize(ref _hubWork);

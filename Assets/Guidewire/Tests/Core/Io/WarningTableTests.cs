@@ -64,6 +64,9 @@ namespace Guidewire.Core.Tests
             ["oddSizes"] = Driven.Replace("[0, 0, 65]", "[0, 0, 65000]") + ", 'maxSimulationSteps': 1",
             ["selfIntersection"] = "'vessel': {'shape': 'mesh', 'file': 'box.obj'}, 'guidewireLength': 10,"
                 + " 'guidewireOffset': -40, 'numberRodElements': 6, 'displacement': 0, 'maxSimulationSteps': 1",
+            ["softStiff"] = Driven.Replace("'radius'", "'wallStiffness': 1e8, 'radius'") + ", 'maxSimulationSteps': 1",
+            ["softElements"] = Driven.Replace("'radius'", "'wallStiffness': 1e8, 'radius'")
+                + ", 'maxSimulationSteps': 1",
             ["notConverged"] = Tube + ", 'solver': 'xpbd', 'proximalEnd': 'clamped', 'substeps': 1, 'timeStep': 0.01,"
                 + " 'drive': 'push', 'insertionSpeed': 0.1, 'constraintSolverSteps': 1, 'maxSimulationSteps': 5,"
                 + " 'gravity': [0, -9.81, 0]",
@@ -89,6 +92,8 @@ namespace Guidewire.Core.Tests
             ["play"] = Coaxial + "'catheters': [{" + Catheter + "}]",
             ["openRim"] = Driven + ", 'displacementDirection': [0, 0, 1], 'displacementPerStep': 1,"
                 + " 'maxSimulationSteps': 8",
+            ["softLimit"] = Driven.Replace("'radius'", "'wallStiffness': 1e3, 'softLimit': 1e-5, 'radius'")
+                + ", 'displacementDirection': [0, 1, 0], 'displacementPerStep': 0.91825, 'maxSimulationSteps': 6",
         };
 
         [Test]

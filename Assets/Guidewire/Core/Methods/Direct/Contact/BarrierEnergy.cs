@@ -95,10 +95,7 @@ namespace Guidewire.Core
         public Barrier Barrier => _barrier;
 
         /// <summary>The contacts of wall w.</summary>
-        public WallLaw LawOf(int w)
-        {
-            return _laws[w];
-        }
+        public WallLaw LawOf(int w) => _laws[w];
 
         /// <summary>The nodes as walls meet them.</summary>
         public SheathedNodes Nodes => _nodes;

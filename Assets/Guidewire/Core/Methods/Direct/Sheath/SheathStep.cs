@@ -48,8 +48,8 @@ namespace Guidewire.Core
             Contacts = new ContactRecord(n + 1)
             {
                 WallForces = new Vector3d[parameters.Scene.Walls.Length],
-                ElementForces = new Vector3d[n],
             };
+            Contacts.SetElements(n, whole.Walls);
             int first = _setup.FirstElement(_shape, LeastElements);
             _setup.LimitDrive(_shape);
             _drive = whole.Drive;

@@ -25,16 +25,13 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Largest force on an element, N.</summary>
-        public double LargestForce { get; private set; }
-
-        /// <summary>Largest pressure, Pa.</summary>
-        public double LargestPressure { get; private set; }
-
-        /// <summary>Takes those of a shape.</summary>
-        /// <param name="forces">Receives the force on each element, N.</param>
-        public void Take(RodShape shape, Vector3d[] forces)
+        /// <summary>Takes those of a shape, and how far soft walls give way.</summary>
+        /// <param name="record">Receives them by element.</param>
+        /// <param name="extremes">Receives the largest.</param>
+        /// <param name="time">s.</param>
+        public void Take(RodShape shape, ContactRecord record, RunExtremes extremes, double time)
         {
+            Vector3d[] forces = record.ElementForces;
             Array.Clear(forces, 0, forces.Length);
             Array.Clear(_force, 0, _force.Length);
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
@@ -49,12 +46,19 @@ namespace Guidewire.Core
                     Add(j - 1, 0.5, contact, forces);
                 }
             }
-            LargestForce = 0.0;
-            LargestPressure = 0.0;
+            double largest = 0.0;
+            double pressure = 0.0;
             for (int j = 0; j < forces.Length; j++)
             {
-                LargestForce = Math.Max(LargestForce, forces[j].Length);
-                LargestPressure = Math.Max(LargestPressure, _force[j] / _shadow[j]);
+                largest = Math.Max(largest, forces[j].Length);
+                pressure = Math.Max(pressure, _force[j] / _shadow[j]);
+            }
+            record.Pressure = pressure;
+            extremes.TakeWalls(largest, pressure, time);
+            if (record.Displacements.Length > 0)
+            {
+                double share = TakeDisplacements(shape, record);
+                extremes.TakeDisplacements(record.LargestDisplacement, share);
             }
         }
 
@@ -62,6 +66,39 @@ namespace Guidewire.Core
         {
             forces[j] += (fraction * contact.Force) * contact.Normal;
             _force[j] += fraction * contact.Force;
+        }
+
+        // Displacements of soft walls; the largest over its wall's limit.
+        private double TakeDisplacements(RodShape shape, ContactRecord record)
+        {
+            Array.Clear(record.Displacements, 0, record.Displacements.Length);
+            StructList<WallContact> contacts = _barrier.ContactsOf(shape);
+            double sum = 0.0;
+            double share = 0.0;
+            int count = 0;
+            record.LargestDisplacement = 0.0;
+            for (int k = 0; k < contacts.Count; k++)
+            {
+                ref WallContact contact = ref contacts[k];
+                double moved = contact.Displacement;
+                WallLaw law = _barrier.LawOf(contact.Wall);
+                if (!law.IsSoft)
+                {
+                    continue;
+                }
+                sum += moved;
+                count++;
+                share = Math.Max(share, moved / law.DistanceOf(contact.Element));
+                record.LargestDisplacement = Math.Max(record.LargestDisplacement, moved);
+                for (int j = contact.Element - (contact.IsNode && contact.Position == 0.0 ? 1 : 0);
+                    j <= contact.Element; j++)
+                {
+                    int own = Math.Max(j, 0);
+                    record.Displacements[own] = Math.Max(record.Displacements[own], moved);
+                }
+            }
+            record.MeanDisplacement = count > 0 ? sum / count : 0.0;
+            return share;
         }
     }
 }
