@@ -6,8 +6,8 @@ from guidewire.prepare import ROOT
 from tools import prose
 
 DONE = {"README.md", "anatomy.md", "chart.md", "coaxial.md", "environments.md", "instruments.md", "measured.md",
-        "packages.md", "page.md", "parameters.md", "python.md", "runs.md", "site.md", "trouble.md", "tutorial.md",
-        "unity.md", "verification.md"}
+        "packages.md", "page.md", "parameters.md", "python.md", "runs.md", "site.md", "soft-walls.md", "trouble.md",
+        "tutorial.md", "unity.md", "verification.md"}
 _SPLIT = """# A heading of many words that counts for nothing; really: nothing
 
 A run is made by `python3 guidewire.py run FILE; more: code`. It writes [three files](runs.md), e.g. a log.

@@ -100,7 +100,7 @@ namespace Guidewire.Io
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
                 + " \"file\", \"metresPerUnit\", \"openRims\", \"anatomy\"}",
                 "the wall around the wire; smooth (false) rounds a tube's corners; openRims names a point near each "
-                + "open rim; anatomy is the command's file; wallStiffness makes it soft (docs/soft-walls.md)")
+                + "rim; wallStiffness makes it soft (docs/soft-walls.md)")
                 .OnlyWith(Takers.Walls),
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part; needs a vessel, proximalEnd \"clamped\" and "
