@@ -32,7 +32,8 @@ namespace Guidewire.Core.Tests
         [TestCase("'wallStiffness': 'soft'", "vessel.wallStiffness = \"soft\" is not allowed")]
         [TestCase("'wallStiffness': 1e5, 'softLimit': -1e-4", "vessel.softLimit = -0.0001 is not allowed: needs a")]
         [TestCase("'wallStiffness': 1e5, 'tipLength': 0", "vessel.tipLength = 0 is not allowed: needs a number > 0")]
-        [TestCase("'softLimit': 1e-4", "vessel.softLimit = 0.0001 is not allowed: needs a wallStiffness beside it")]
+        [TestCase("'softLimit': 1e-4",
+            "vessel.softLimit = 0.0001 is not allowed: needs a wallStiffness or a modulus beside it")]
         [TestCase("'wallSoftness': 1e5", "unknown key 'vessel.wallSoftness'")]
         [TestCase("'wallStiffness': 10}, 'gravity': [0, -9.81, 0", "vessel.wallStiffness = 10 is not allowed: needs "
             + "more than 110.4 Pa: the weight alone")]
@@ -40,6 +41,26 @@ namespace Guidewire.Core.Tests
         {
             string end = keys.EndsWith("[0, -9.81, 0") ? "]" : "}";
             Assert.That(Refusal.Of(() => Load(Tube + ", " + keys + end)), Does.Contain(line));
+        }
+
+        [TestCase("'modulus': 5e5, 'wallThickness': 1e-3", "vessel.lumenRadius = (missing) is not allowed: needs a")]
+        [TestCase("'modulus': 5e5, 'wallThickness': 2e-3, 'lumenRadius': 3e-3, 'surroundingModulus': 1e4",
+            "vessel.wallThickness = 0.002 is not allowed: needs half of the lumenRadius or less")]
+        [TestCase("'modulus': 5e5, 'wallStiffness': 1e5", "vessel.modulus = 500000.0 is not allowed: needs no wall")]
+        [TestCase("'modulus': -1, 'wallThickness': 1e-3, 'lumenRadius': 3e-3, 'surroundingModulus': 1e4",
+            "vessel.modulus = -1 is not allowed: needs a number > 0 (Pa)")]
+        public void BadTissue_IsOneLine(string keys, string line)
+        {
+            Assert.That(Refusal.Of(() => Load(Tube + ", " + keys + "}")), Does.Contain(line));
+        }
+
+        [Test]
+        public void Stiffness_OfTissue_IsThatOfAThinRingInIt()
+        {
+            ParameterHandler soft = Load(Tube + ", 'modulus': 5e5, 'wallThickness': 1e-3, 'lumenRadius': 3e-3,"
+                + " 'surroundingModulus': 1e4}");
+            Assert.That(soft.Values.Simulation.Scene.Walls[0].Softness!.Stiffness,
+                Is.EqualTo(VesselWall.Stiffness(5e5, 1e-3, 3e-3, 1e4)));
         }
 
         [TestCase("xpbd")]
