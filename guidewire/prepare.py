@@ -25,18 +25,19 @@ DRAWING = ("numpy", "scipy", "matplotlib")
 SWEEPING = ("distributed", "tqdm", "scipy")
 VIEWING = ("aiohttp",)
 ANATOMY = DRAWING + ("vtkmodules",)
+DICOM = ("pydicom",)
 TESTING = DRAWING + SWEEPING + VIEWING + ("pytest", "xdist", "hypothesis")
 
 EXTRAS = {  # of the installed package: what only some commands import
     "draw": ("scipy", "matplotlib"), "sweep": ("dask", "distributed", "tqdm"), "view": ("aiohttp",),
-    "anatomy": ("vtkmodules",), "gym": ("gymnasium",),
+    "anatomy": ("vtkmodules",), "dicom": ("pydicom",), "gym": ("gymnasium",),
 }
 
 PACKAGING = ("pip", "setuptools", "wheel")
 
 _DEBIAN_NAMES = {"vtkmodules": "vtk9", "xdist": "pytest-xdist"}  # what an import is called elsewhere
 _PIP_NAMES = {"vtkmodules": "vtk", "xdist": "pytest-xdist"}
-_MORE = (*PACKAGING, "vtkmodules")  # what only some commands need, and so is not in requirements.txt
+_MORE = (*PACKAGING, "vtkmodules", "pydicom")  # what only some commands need, and so is not in requirements.txt
 
 _HANDED_OVER = "GUIDEWIRE_HANDED_OVER"
 _PIP_SECONDS = 900

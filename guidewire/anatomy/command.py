@@ -7,12 +7,17 @@ import json
 import os
 from pathlib import Path
 
+import numpy as np
+
 from guidewire.anatomy import output, reading
-from guidewire.anatomy.centreline import find_centreline
+from guidewire.anatomy.centreline import Centreline, find_centreline
+from guidewire.anatomy.centreline_files import centreline_names, write_centreline
 from guidewire.anatomy.inspection import Inspection, inspect
+from guidewire.anatomy.masks import Taking
 from guidewire.anatomy.mesh import AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.repair import Repaired, repair
+from guidewire.anatomy.summary import Choice, summarise
 from guidewire.prepare import DOOR, ROOT, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.whole_files import whole_file, write_whole
@@ -27,7 +32,7 @@ def run(arguments: argparse.Namespace) -> int:
     """
     try:
         folder = arguments.out or default_folder(
-            reading.stem_of(arguments.file.name) if arguments.file else f"{arguments.make}-{arguments.seed}")
+            reading.stem_of(arguments.file.resolve().name) if arguments.file else f"{arguments.make}-{_number(arguments)}")
         checking.check_out(folder)
         return _run(arguments, folder)
     except AnatomyError as error:
@@ -46,9 +51,9 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     if not (arguments.look or arguments.force):
         output.check_source(folder, source)
     found = inspect(source.mesh, source.unit, source.unit_said_by)
-    found.notes += [source.axes.describe(), *source.notes]
+    found.notes += [*source.notes, *source.left_out]
     if arguments.look:
-        return _tell(folder, source.mesh, found, None, None, arguments)
+        return _tell(folder, source, found, source.mesh, None, None, None, arguments)
     if not found.unit.is_sure:
         raise AnatomyError(f"unit: {found.unit.reason}")
     repaired = repair(source.mesh)
@@ -67,9 +72,11 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     target = (output.find_end(line, arguments.target) if arguments.target
               else output.default_target(line, inlet, found.unit, wire))
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
+    write_centreline(folder, line, found.unit, source.axes)
     output.write_scene(folder, output.scene(line, found.unit, inlet, target, wire, source.axes, arguments.instrument,
                                              arguments.catheter))
-    return _tell(folder, repaired.mesh, found, repaired, line, arguments)
+    choice = Choice(inlet, target, arguments.inlet is not None, arguments.target is not None)
+    return _tell(folder, source, found, repaired.mesh, repaired, line, choice, arguments)
 
 
 def diameter_of(instrument: str) -> float:
@@ -92,29 +99,52 @@ def _source_of(arguments: argparse.Namespace) -> reading.Source:
     if arguments.make:
         from guidewire.anatomy.shapes import make
 
-        mesh, unit, notes = make(arguments.make, arguments.type, arguments.seed, arguments.stenosis, arguments.aneurysm)
-        made = f"{arguments.make}, type {arguments.type}, seed {arguments.seed}"
+        number = _number(arguments)
+        mesh, unit, notes = make(arguments.make, arguments.type, number, arguments.stenosis, arguments.aneurysm)
+        made = f"{arguments.make}, type {arguments.type}, seed {number}"
         axes = axes or Axes()    # no patient's
         return reading.Source(axes.take(mesh), unit, "as made", axes, notes, made)
-    return reading.read(arguments.file, arguments.unit, arguments.label, arguments.threshold, arguments.error,
-                        arguments.region, axes)
+    return reading.read(arguments.file, arguments.unit, axes, _taking(arguments), arguments.series,
+                        arguments.label_names)
 
 
-def _tell(folder: Path, mesh: Mesh, found: Inspection, repaired: Repaired | None, line, arguments) -> int:
+def _taking(arguments: argparse.Namespace) -> Taking:
+    box, seed = (None if numbers is None or isinstance(numbers, int) else np.array(numbers).reshape(-1, 3)
+                 for numbers in (arguments.box, arguments.seed))
+    return Taking(arguments.label, arguments.segment, arguments.threshold, arguments.region, box,
+                  None if seed is None else seed[0], arguments.error)
+
+
+def _number(arguments: argparse.Namespace) -> int:
+    """The seed of a vessel that is made."""
+    if arguments.seed is not None and not isinstance(arguments.seed, int):
+        raise AnatomyError("--seed X,Y,Z is a point of a file; of a vessel that is made it is a whole number above 0")
+    return arguments.seed or 1
+
+
+def _tell(folder: Path, source: reading.Source, found: Inspection, mesh: Mesh, repaired: Repaired | None,
+          line: Centreline | None, choice: Choice | None, arguments: argparse.Namespace) -> int:
     from guidewire.anatomy.picture import draw
 
-    lines = output.describe(found, repaired, line, arguments.wire)
-    title = str(arguments.file.name if arguments.file else arguments.make)
+    lines = summarise(source, found, repaired, line, choice)
+    more = output.describe(found, repaired, line, arguments.wire)
+    title = source.name if arguments.file else arguments.make
     folder.mkdir(parents=True, exist_ok=True)
-    write_whole(folder / output.REPORT, f"# {title}\n\n" + "\n".join(f"- {line}" for line in lines) + "\n")
-    figure = draw(mesh, found, line, title)
-    with whole_file(folder / output.PICTURE) as partial:
-        figure.savefig(partial, dpi=110)
-    for text in lines:
+    listed = ["\n".join(f"- {line}" for line in part) for part in (lines, more)]
+    write_whole(folder / output.REPORT, f"# {title}\n\n{listed[0]}\n\n## Findings\n\n{listed[1]}\n")
+    pictures = {output.PICTURE: draw(mesh, found, line, title)}
+    if source.voxels is not None:
+        from guidewire.anatomy.taken_picture import draw_taken
+
+        pictures[output.TAKEN] = draw_taken(*source.voxels, _taking(arguments), title)
+    for name, figure in pictures.items():
+        with whole_file(folder / name) as partial:
+            figure.savefig(partial, dpi=110)
+    for text in (*lines, *more):
         print(text)
-    written = [output.REPORT, output.PICTURE]
+    written = [output.REPORT, *pictures]
     if line is not None:
-        written = [output.MESH, output.ANATOMY, output.SCENE, *written]
+        written = [output.MESH, output.ANATOMY, output.SCENE, *centreline_names(source.axes), *written]
         print(f"next: {DOOR} run {os.path.relpath(folder / output.SCENE)} --check")
     print(f"written: {', '.join(written)} in {os.path.relpath(folder)}")
     return 0

@@ -3,11 +3,14 @@ stated error."""
 
 from __future__ import annotations
 
+from dataclasses import dataclass
+
 import numpy as np
 from scipy.ndimage import binary_fill_holes
 from scipy.ndimage import label as label_regions
 
 from guidewire.anatomy.images import Image
+from guidewire.anatomy.labels import told_values, values_of, voxels_with
 from guidewire.anatomy.mesh import AnatomyError, Mesh, find_bodies, signed_volume
 from guidewire.anatomy.surfaces import contour, decimate, farthest, smooth
 
@@ -19,29 +22,67 @@ _LISTED = 6  # regions, and values of voxels, that a line lists
 _AROUND = np.ones((3, 3, 3))  # neighbours of a voxel that touch it at a corner at least
 
 
-def mesh_of_image(image: Image, label: float | None, threshold: float | None, error: float | None,
-                  region: int | None = None) -> tuple[Mesh, list[str]]:
-    """The wall of a region, in mm; and what was done.
+@dataclass(frozen=True)
+class Taking:
+    """Which voxels of an image are the vessel.
 
-    Parameters
+    Attributes
     ----------
-    label : value of the voxels in the vessel.
-    threshold : or, of an image, their least value. With neither all voxels other than 0 are in it, if they are equal.
-    error : largest displacement by the decimation, mm; None: a tenth of a voxel.
+    labels : values or names, with commas between them, of its voxels in a mask.
+    segments : names of 3D Slicer's segments, with commas between them.
+    threshold : or, of an image, the value that they are above. With none of the three all voxels other than 0 are taken,
+        if they are equal.
     region : which of the connected regions, 1 the largest; None: that.
+    box : ndarray (2, 3), two corners within which voxels are taken, in the vessel's axes, mm.
+    seed : ndarray (3,), a point in the region that is taken.
+    error : largest displacement by the decimation, mm; None: a tenth of a voxel.
+    """
+
+    labels: str | None = None
+    segments: str | None = None
+    threshold: float | None = None
+    region: int | None = None
+    box: np.ndarray | None = None
+    seed: np.ndarray | None = None
+    error: float | None = None
+
+    @property
+    def needs_picture(self) -> bool:
+        """Whether what is taken is not plain from the file alone."""
+        return self.threshold is not None or self.box is not None or self.seed is not None
+
+
+@dataclass(frozen=True)
+class Taken:
+    """mesh : the wall, in mm; notes : what was done; left_out : of the image; inside, others : ndarrays of bool
+    (i, j, k), the voxels that are taken, and those of other regions."""
+
+    mesh: Mesh
+    notes: list[str]
+    left_out: list[str]
+    inside: np.ndarray
+    others: np.ndarray
+
+
+def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
+    """The wall of a region.
 
     Raises
     ------
     AnatomyError : no voxel, or every voxel, is in the vessel, or there is no such region; or it is not said which.
     """
-    regions, count = label_regions(_inside(image.values, label, threshold), structure=_AROUND)
+    asked, others = _inside(image, taking)
+    regions, count = label_regions(asked, structure=_AROUND)
     sizes = np.bincount(regions.ravel())[1:]
     order = np.argsort(-sizes, kind="stable")
+    region = taking.region
     if region is not None and not 1 <= region <= count:
         raise AnatomyError(f"--region {region}: there {'is 1 region' if count == 1 else f'are {count} regions'}")
     chosen = (region or 1) - 1
+    if taking.seed is not None:
+        chosen = int(np.flatnonzero(order == _seeded(image, regions, taking.seed) - 1)[0])
     inside = regions == 1 + order[chosen]
-    spacing = np.linalg.norm(image.to_space[:3, :3], axis=0)
+    spacing = image.spacing
     voxel = float(abs(np.linalg.det(image.to_space[:3, :3])))
     low = np.argwhere(inside).min(axis=0)
     high = np.argwhere(inside).max(axis=0) + 1
@@ -54,28 +95,32 @@ def mesh_of_image(image: Image, label: float | None, threshold: float | None, er
     if bodies.max() > 0:    # a region of voxels that share faces, without cavities, has one surface
         raise AnatomyError(f"the surface of region {chosen + 1} is of {bodies.max() + 1} pieces")
     smoothed = smooth(marched, _PASSES, _BAND)
-    allowed = error or _ERROR * float(spacing.min())
+    allowed = taking.error or _ERROR * float(spacing.min())
     mesh = decimate(smoothed, allowed)
     volumes = [voxel * int(own.sum()), *(_volume(one, image, spacing) for one in (marched, smoothed, mesh))]
-    notes = [f"{int(inside.sum())} voxels of {' x '.join(f'{s:.3g}' for s in spacing)} mm in region {chosen + 1} of "
-             f"{count}; smoothed, wall moved by {farthest(marched, smoothed, 3000):.2g} mm at most",
+    unit = image.unit or "unit"
+    notes = [f"{int(inside.sum())} voxels of {' x '.join(f'{s:.3g}' for s in spacing)} {unit} in region {chosen + 1} of "
+             f"{count}; smoothed, wall moved by {farthest(marched, smoothed, 3000):.2g} {unit} at most",
              f"{len(smoothed.triangles)} triangles decimated to {len(mesh.triangles)}, wall moved by "
-             f"{farthest(smoothed, mesh):.2g} mm at most (allowed: {allowed:.2g} mm)",
+             f"{farthest(smoothed, mesh):.2g} {unit} at most (allowed: {allowed:.2g} {unit})",
              *joined]
     if (filled != whole).any():
         notes.append(f"{int((filled & ~whole).sum())} voxels of cavities within it filled, around "
                      f"{_middle(filled & ~whole, to_part)}")
-    notes.append("volume: voxels {:.5g} mm3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} mm3 ({:+.2%})".format(
-        *volumes, volumes[-1] / volumes[0] - 1.0))
+    notes.append("volume: voxels {:.5g} {unit}3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} {unit}3 ({:+.2%})"
+                 .format(*volumes, volumes[-1] / volumes[0] - 1.0, unit=unit))
+    left_out = [*image.left_out, *([f"labels {', '.join(others[:_LISTED])}{', ..' if len(others) > _LISTED else ''}"]
+                                   if others else [])]
     if count > 1:
         listed = [f"{k} of {sizes[at]} voxels around {_middle(regions == 1 + at, image.to_space)}"
                   for k, at in enumerate(order[:_LISTED], 1)]
         left = int(sizes.sum() - sizes[order[chosen]])
-        notes.append(f"regions, of which --region takes one: {', '.join(listed)}{', ..' if count > _LISTED else ''}; "
-                     f"{left} voxels, {voxel * left:.4g} mm3, are left out")
+        left_out.append(f"regions, of which --region or --seed takes one: {', '.join(listed)}"
+                        f"{', ..' if count > _LISTED else ''}; {left} voxels, {voxel * left:.4g} {unit}3, are left out")
     axes = image.to_space[:3, :3] / spacing
     vertices = mesh.vertices @ axes.T + image.to_space[:3, 3]
-    return Mesh(vertices, mesh.triangles if np.linalg.det(axes) > 0.0 else mesh.triangles[:, ::-1]), notes
+    turned = Mesh(vertices, mesh.triangles if np.linalg.det(axes) > 0.0 else mesh.triangles[:, ::-1])
+    return Taken(turned, [*image.notes, *notes], left_out, inside, asked & ~inside)
 
 
 def _volume(mesh: Mesh, image: Image, spacing: np.ndarray) -> float:
@@ -115,25 +160,62 @@ def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray,
         *lines[:_LISTED], f"{len(lines) - _LISTED} further parts were joined so"]
 
 
-def _inside(values: np.ndarray, label: float | None, threshold: float | None) -> np.ndarray:
-    if threshold is not None:
-        inside = values > threshold
-        asked = f"--threshold {threshold:g}: "
-    elif label is not None:
-        inside = np.isclose(values, label, rtol=1e-6, atol=1e-6)    # a file's own factor may round
-        asked = f"--label {label:g}: "
+def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, tuple[str, ...]]:
+    """(i, j, k): the voxels that are asked for; and names of segments that are not."""
+    values, others = image.values, ()
+    if taking.threshold is not None:
+        if values.ndim == 4:
+            raise AnatomyError("--threshold is of an image: this is a segmentation; --segment takes one of its segments")
+        inside, asked = values > taking.threshold, f"--threshold {taking.threshold:g}: "
+    elif taking.labels is not None or taking.segments is not None or values.ndim == 4:
+        inside, asked, others = voxels_with(image, taking.labels, taking.segments)
     else:
-        found = np.unique(values)
+        found = values_of(values)
         if len(found) > 2:
-            listed = (", ".join(f"{value:g}" for value in found) if len(found) <= _LISTED
-                      else f"from {found[0]:g} to {found[-1]:g}")
-            raise AnatomyError(f"the voxels have {len(found)} values ({listed}): give --label N for a mask, "
-                               "or --threshold T for an image")
+            raise AnatomyError(f"the voxels have {len(found)} values ({told_values(image, found, _LISTED)}): give --label N for a "
+                               "mask, or --threshold T for an image")
         inside, asked = values != 0, ""
+    if taking.box is not None:
+        inside = _in_box(inside, image, taking.box)
+        asked += "--box: "
     if not inside.any() or inside.all():
         raise AnatomyError(f"{asked}{'no' if not inside.any() else 'every'} voxel is in the vessel; the values go from "
                            f"{values.min():g} to {values.max():g}")
-    return inside
+    return inside, others
+
+
+def _in_box(inside: np.ndarray, image: Image, box: np.ndarray) -> np.ndarray:
+    """The voxels whose middles lie in a box along the axes of space."""
+    low, high = box.min(axis=0), box.max(axis=0)
+    corners = np.array([[box[k, axis] for axis, k in enumerate(which)] for which in np.ndindex(2, 2, 2)])
+    back = np.linalg.inv(image.to_space)
+    index = corners @ back[:3, :3].T + back[:3, 3]
+    first = np.clip(np.floor(index.min(axis=0)), 0, inside.shape).astype(int)
+    last = np.clip(np.ceil(index.max(axis=0)) + 1, 0, inside.shape).astype(int)
+    part = tuple(slice(a, b) for a, b in zip(first, last))
+    kept = np.zeros_like(inside)
+    kept[part] = inside[part]
+    grids = np.ogrid[part]
+    for axis in range(3):
+        at = sum(image.to_space[axis, k] * grids[k] for k in range(3)) + image.to_space[axis, 3]
+        kept[part] &= (at >= low[axis]) & (at <= high[axis])
+    return kept
+
+
+def _seeded(image: Image, regions: np.ndarray, seed: np.ndarray) -> int:
+    """The region, from 1, that a point lies in."""
+    index = np.rint((np.linalg.inv(image.to_space) @ np.r_[seed, 1.0])[:3]).astype(int)
+    if (index < 0).any() or (index >= regions.shape).any():
+        ends = _listed(image.place(np.zeros(3))), _listed(image.place(np.array(regions.shape) - 1))
+        raise AnatomyError(f"--seed {_listed(seed)} lies outside of the image, which goes from {ends[0]} to {ends[1]}")
+    found = int(regions[tuple(index)])
+    if found == 0:
+        places = np.argwhere(regions) @ image.to_space[:3, :3].T + image.to_space[:3, 3]
+        away = np.linalg.norm(places - seed, axis=1)
+        value = f" has the value {image.values[tuple(index)]:g} and" if image.values.ndim == 3 else ""
+        raise AnatomyError(f"--seed {_listed(seed)}: the voxel there{value} is not in the vessel; the nearest one that "
+                           f"is lies {away.min():.3g} mm away, at {_listed(places[away.argmin()])}")
+    return found
 
 
 def _middle(inside: np.ndarray, to_space: np.ndarray) -> str:

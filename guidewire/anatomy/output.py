@@ -21,6 +21,7 @@ from guidewire.anatomy.repair import Repaired
 from guidewire.runs.whole_files import write_whole
 
 MESH, ANATOMY, SCENE, REPORT, PICTURE = "vessel.obj", "anatomy.json", "scene.json", "report.md", "picture.png"
+TAKEN = "voxels.png"
 _SPEED, _TIME_STEP = 0.02, 0.05  # m/s, s: 1 mm a step
 _TIP, _BODY = 30.0, 5.0  # mm: length of the soft tip, with elements of 1 mm; length of the other elements
 _FLEXIBLE = 2.5  # mm: length of the elements of a longer flexible section
@@ -183,11 +184,8 @@ def write_scene(folder: Path, parameters: Mapping[str, Any]) -> None:
 
 def describe(found: Inspection, repaired: Repaired | None, line: Centreline | None, diameter: float) -> list[str]:
     """The report: one line a finding."""
-    unit = found.unit
-    mm = 1e3 * unit.metres
-    size = " x ".join(f"{side:.4g}" for side in mm * (found.high - found.low))
-    lines = [f"unit: {unit.name} ({unit.reason})",
-             f"size: {size} mm; {found.triangles} triangles, {found.vertices} vertices",
+    mm = 1e3 * found.unit.metres
+    lines = [f"{found.triangles} triangles, {found.vertices} vertices",
              f"orientation: normals {'outward' if found.volume > 0.0 else 'into the lumen'}, volume "
              f"{abs(found.volume) * mm**3 / 1e3:.4g} ml"]
     lines += [f"{rim.name}: {'hole in the side' if rim.is_hole else 'end'} at {_place(rim.centre)}, radius "

@@ -4,7 +4,6 @@
 from __future__ import annotations
 
 import hashlib
-import os
 import re
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -12,11 +11,14 @@ from pathlib import Path
 import numpy as np
 from scipy.spatial import cKDTree
 
-from guidewire.anatomy.formats import CENTRELINES, ENDINGS, MASKS
-from guidewire.anatomy.images import read_image
+from guidewire.anatomy.formats import CENTRELINES, DICOM, ENDINGS, MASKS, OTHERS, is_dicom
+from guidewire.anatomy.images import Image, read_image
+from guidewire.anatomy.labels import read_names
+from guidewire.anatomy.masks import Taken, Taking, mesh_of_image
 from guidewire.anatomy.mesh import FARTHEST, AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.triangles import read_obj, read_stl
+from guidewire.anatomy.vtk_files import read_by_vtk
 
 _LARGEST = 1 << 30  # bytes of a mesh file
 _SPACE = re.compile(rb"SPACE\s*=\s*(LPS|RAS)")  # as 3D Slicer writes it into headers and comments of meshes
@@ -39,7 +41,8 @@ class Faces:
 class Source:
     """mesh : in LPS where the axes are known, else in the file's own; unit : where it is known; unit_said_by : who says
     the unit; axes : of the file; notes : what was done; name : of the file, or what was made; sha256 : of the file's
-    bytes; faces : of the wall, where the file numbers them; begin : (3,), where all lines of a file begin, or None."""
+    bytes; faces : of the wall, where the file numbers them; begin : (3,), where all lines of a file begin, or None;
+    left_out : of the file, a line each; voxels : what a picture of what is taken shows, None where none is needed."""
 
     mesh: Mesh
     unit: str | None
@@ -50,6 +53,8 @@ class Source:
     sha256: str = ""
     faces: Faces | None = None
     begin: np.ndarray | None = None
+    left_out: list[str] = field(default_factory=list)
+    voxels: tuple[Image, Taken] | None = None
 
     @property
     def stem(self) -> str:
@@ -64,60 +69,75 @@ def stem_of(name: str) -> str:
 
 
 def kind_of(file: Path) -> str:
-    """The ending of a name that is read here, such as ".nii.gz".
+    """The ending of a name that is read here, such as ".nii.gz"; that of slices for a folder too.
 
     Raises
     ------
     AnatomyError : the name has another ending, or there is no such file.
     """
+    if is_dicom(file):
+        if not file.exists():
+            raise AnatomyError(f"{file}: no such file")
+        return DICOM
     name = file.name.lower()
     for ending in ENDINGS:
         if name.endswith(ending):
             if not file.is_file():
-                raise AnatomyError(f"{file}: {'is a folder' if file.is_dir() else 'no such file'}")
+                raise AnatomyError(f"{file}: no such file")
             return ending
-    raise AnatomyError(f"{file}: the name has to end in one of {', '.join(ENDINGS)}")
+    way = next((way for ending, way in OTHERS.items() if name.endswith(ending)), "")
+    raise AnatomyError(f"{file}: " + (f"{way}; " if way else "")
+                       + f"the name has to end in one of {', '.join(ENDINGS)}, or be a folder of DICOM slices")
 
 
-def read(file: Path, unit: str | None = None, label: float | None = None, threshold: float | None = None,
-         error: float | None = None, region: int | None = None, axes: Axes | None = None) -> Source:
+def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: Taking = Taking(),
+         series: str | None = None, names: Path | None = None) -> Source:
     """The wall in a file, or one made of its mask or centreline.
 
     Parameters
     ----------
     unit, axes : of the file, in place of what it says.
-    label, threshold, error, region : as of `masks.mesh_of_image`.
+    taking : which voxels of a mask or an image.
+    series : of a folder of DICOM slices.
+    names : file with names of labels.
 
     Raises
     ------
     AnatomyError : one line, for a file that holds no vessel.
     """
     kind = kind_of(file)
-    size = file.stat().st_size
-    if size == 0:
+    if kind != DICOM and file.stat().st_size == 0:
         raise AnatomyError(f"{file}: the file is empty")
+    if kind in (DICOM, *MASKS):
+        image = read_image(file, kind, axes, series)
+        if names is not None:
+            image = image.with_names(read_names(names))
+        taken = mesh_of_image(image, taking)
+        said = "mm" if image.unit else unit
+        return Source(taken.mesh, said, "as the file says" if image.unit else "as given", image.axes, taken.notes,
+                      file.resolve().name, image.sha256 or hashlib.sha256(file.read_bytes()).hexdigest(),
+                      left_out=taken.left_out, voxels=(image, taken) if taking.needs_picture else None)
+    own = {"--series": series, "--label-names": names, "--segment": taking.segments, "--box": taking.box,
+           "--seed": taking.seed}
+    for option, value in own.items():
+        if value is not None:
+            raise AnatomyError(f"{file}: {option} is of voxels: this file has none")
     sha256 = hashlib.sha256(file.read_bytes()).hexdigest()
-    if kind in MASKS:
-        from guidewire.anatomy.masks import mesh_of_image
-
-        image = read_image(file, kind, axes)
-        mesh, notes = mesh_of_image(image, label, threshold, error, region)
-        return Source(mesh, "mm", "as the file says", image.axes, notes, file.name, sha256)
     from guidewire.anatomy import lines
 
-    data = _poly_data(file, kind) if kind in (".ply", ".vtp") else None
+    data = read_by_vtk(file, kind) if kind in (".ply", ".vtp") else None
     found = (lines.read_lines(file, kind) if kind in CENTRELINES
              else lines.lines_of_poly_data(file, data) if kind == ".vtp" else None)
     if found is not None:
         mesh, done = lines.mesh_of_lines(found.lines)
         said = unit or found.unit or None
         by = "as given" if unit else "as the file says"
-        axes = axes or found.axes
+        axes = axes or (found.axes if data is None else _stated_axes(file, data))
         begin = lines.begin_of(found.lines)
         return Source(axes.take(mesh), said, by, axes, [done], file.name, sha256,
                       begin=None if begin is None else axes.to_lps @ begin)
     mesh = read_mesh(file, data)
-    axes = axes or _stated_axes(file)
+    axes = axes or _stated_axes(file, data)
     numbers = _face_numbers(data) if data is not None else None
     taken = axes.take(mesh)
     faces = Faces(taken.corners.mean(axis=1), numbers) if numbers is not None else None
@@ -141,7 +161,7 @@ def read_mesh(file: Path, data=None) -> Mesh:
         raise AnatomyError(f"{file}: {size / 1e9:.3g} GB: a mesh file may have {_LARGEST / 1e9:.3g} GB at most")
     try:
         mesh = (read_stl(file.read_bytes()) if kind == ".stl" else read_obj(file.read_bytes()) if kind == ".obj"
-                else _triangles(data or _poly_data(file, kind)))
+                else _triangles(data or read_by_vtk(file, kind)))
     except AnatomyError as error:
         text = str(error)
         raise AnatomyError(text if text.startswith(str(file)) else f"{file}: {text}") from error
@@ -155,8 +175,11 @@ def read_mesh(file: Path, data=None) -> Mesh:
     return mesh
 
 
-def _stated_axes(file: Path) -> Axes:
-    """Axes that a mesh's header or comments state, as those of 3D Slicer do; else unknown ones."""
+def _stated_axes(file: Path, data=None) -> Axes:
+    """Axes that a mesh's header, comments or field data state, as those of 3D Slicer do; else unknown ones."""
+    space = data.GetFieldData().GetAbstractArray("SPACE") if data is not None else None
+    if space is not None and space.IsA("vtkStringArray") and space.GetNumberOfValues():
+        return axes_named(space.GetValue(0))
     with file.open("rb") as stream:
         found = _SPACE.search(stream.read(4096))
     return axes_named(found[1].decode("ascii")) if found else Axes()
@@ -192,102 +215,3 @@ def _cut(data):
     cut.SetInputData(data)
     cut.Update()
     return cut.GetOutput()
-
-
-def _poly_data(file: Path, kind: str):
-    """vtkPolyData of a .ply or .vtp.
-
-    Raises
-    ------
-    AnatomyError : one line that says what is wrong with the file.
-    """
-    size = file.stat().st_size
-    with file.open("rb") as stream:
-        head = stream.read(4096)
-    (_check_ply if kind == ".ply" else _check_vtp)(file, head, size)
-    if _crashes(file, kind):
-        raise AnatomyError(f"{file}: VTK ends when it reads this file: it is damaged")
-    lines: list[str] = []
-    reader = _reader(file, kind)
-    _update(reader, lines)
-    if lines:
-        raise AnatomyError(f"{file}: {lines[0].strip()}")
-    data = reader.GetOutput()
-    _check_points(file, data)
-    return data
-
-
-def _check_points(file: Path, data) -> None:
-    """VTK takes the numbers of points as they are, and filters read beyond the last one."""
-    from vtkmodules.util.numpy_support import vtk_to_numpy
-
-    count = data.GetNumberOfPoints()
-    for cells in (data.GetVerts(), data.GetLines(), data.GetPolys(), data.GetStrips()):
-        index = vtk_to_numpy(cells.GetConnectivityArray())
-        bad = index[(index < 0) | (index >= count)]
-        if len(bad):
-            raise AnatomyError(f"{file}: a cell has point {bad[0]}: there are {count} points, numbered from 0")
-
-
-def _reader(file: Path, kind: str):
-    if kind == ".vtp":
-        from vtkmodules.vtkIOXML import vtkXMLPolyDataReader as Reader
-    else:
-        from vtkmodules.vtkIOPLY import vtkPLYReader as Reader
-    reader = Reader()
-    reader.SetFileName(str(file))
-    return reader
-
-
-def _crashes(file: Path, kind: str) -> bool:
-    """Whether VTK's reader ends the process, tried in another one."""
-    if not hasattr(os, "fork"):
-        return False
-    reader = _reader(file, kind)
-    child = os.fork()
-    if child == 0:
-        try:
-            _update(reader, [])
-        finally:
-            os._exit(0)
-    return os.WIFSIGNALED(os.waitpid(child, 0)[1])
-
-
-def _update(reader, lines: list[str]) -> None:
-    """Run a reader; what it complains of is appended to lines, instead of printed."""
-    import vtkmodules.vtkCommonCore as core
-
-    window = core.vtkStringOutputWindow()
-    before = core.vtkOutputWindow.GetInstance()
-    core.vtkOutputWindow.SetInstance(window)
-    try:
-        reader.AddObserver("ErrorEvent", lambda *_: lines.append("VTK cannot read it"))
-        reader.Update()
-    finally:
-        core.vtkOutputWindow.SetInstance(before)
-    said = [line for line in window.GetOutput().splitlines() if line.strip() and not line.startswith("ERROR")]
-    if said and lines:
-        lines.insert(0, re.sub(r"^vtk\w+ \(0x\w+\): ", "", said[0]))
-
-
-def _check_ply(file: Path, head: bytes, size: int) -> None:
-    if not head.startswith(b"ply"):
-        raise AnatomyError(f"{file}: not a PLY: its first line is not 'ply'")
-    if b"end_header" not in head:
-        raise AnatomyError(f"{file}: the file breaks off, or its header has more than 4096 bytes")
-    text, _, _ = head.partition(b"end_header")
-    counts = {name: int(number) for name, number in re.findall(rb"element (\w+) (\d+)", text)}
-    body = size - len(text) - len(b"end_header\n")
-    least = 2 if b"format ascii" in text else 12
-    if counts.get(b"vertex", 0) * least + counts.get(b"face", 0) * 2 > body:
-        raise AnatomyError(f"{file}: the file breaks off: the header tells of {counts.get(b'vertex', 0)} vertices and "
-                           f"{counts.get(b'face', 0)} faces, behind it are {max(body, 0)} bytes")
-
-
-def _check_vtp(file: Path, head: bytes, size: int) -> None:
-    if b"PolyData" not in head:
-        raise AnatomyError(f"{file}: not a VTK file of PolyData in XML")
-    with file.open("rb") as stream:
-        stream.seek(max(0, size - 256))
-        if b"</VTKFile>" not in stream.read():
-            raise AnatomyError(f"{file}: the file breaks off: its last line is no '</VTKFile>'")

@@ -41,12 +41,13 @@ _WITHIN = 0.6  # of the vertices of the inner wall of a nested pair that crosses
 @dataclass(frozen=True)
 class Change:
     """name : what was done; count : how many; moved : largest displacement of the wall, the file's units; place : of
-    the first, or None."""
+    the first, or None; leaves_out : whether a part of the file is no part of the vessel since."""
 
     name: str
     count: int
     moved: float = 0.0
     place: np.ndarray | None = None
+    leaves_out: bool = False
 
 
 @dataclass(frozen=True)
@@ -111,9 +112,10 @@ class _Work:
         self._removed: Mesh | None = None  # the wall where triangles were taken out
         self._ends: list[tuple[Rim, np.ndarray]] = []  # before that: the rims, and their vertices' places
 
-    def _note(self, name: str, count: int, moved: float = 0.0, place: np.ndarray | None = None) -> None:
+    def _note(self, name: str, count: int, moved: float = 0.0, place: np.ndarray | None = None,
+              leaves_out: bool = False) -> None:
         if count:
-            self.changes.append(Change(name, count, moved, place))
+            self.changes.append(Change(name, count, moved, place, leaves_out))
 
     def part_rims(self) -> None:
         self.mesh, places = with_rims_apart(self.mesh)
@@ -189,7 +191,8 @@ class _Work:
                 raise AnatomyError(f"{len(np.unique(bodies))} separate surfaces; besides the largest one "
                                    f"another, around {place}, is {extent / size:.0%} of its size: a vessel is one; "
                                    "take one out, or join them")
-        self._note("stray bodies removed", len(np.unique(bodies)) - 1, 0.0, others.vertices.mean(axis=0))
+        self._note("stray bodies removed", len(np.unique(bodies)) - 1, 0.0, others.vertices.mean(axis=0),
+                   leaves_out=True)
         self.mesh = self.mesh.part(bodies == keep)
 
     def keep_inner_wall(self) -> None:
@@ -220,7 +223,7 @@ class _Work:
         for rim, depth in zip(ends, deepest):
             inside = max(depth, 0.0) + thickness
             part = cut_open(part, rim.centre + inside * rim.normal, rim.normal, 1.5 * rim.radius)
-        self._note("triangles of an outer wall removed, the lumen's kept", count)
+        self._note("triangles of an outer wall removed, the lumen's kept", count, leaves_out=True)
         self.mesh = part
 
     def cut_crowded(self) -> None:

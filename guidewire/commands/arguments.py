@@ -124,6 +124,23 @@ def finite(text: str) -> float:
     return number
 
 
+def _numbers(text: str, count: int, what: str) -> tuple[float, ...]:
+    words = text.split(",")
+    if len(words) != count:
+        raise argparse.ArgumentTypeError(f"'{text}' is not {what}")
+    return tuple(map(finite, words))
+
+
+def seed(text: str) -> int | tuple[float, ...]:
+    """A whole number from 1, or a point such as 1,2,3."""
+    return _numbers(text, 3, "a point X,Y,Z") if "," in text else positive(text)
+
+
+def box(text: str) -> tuple[float, ...]:
+    """Two corners, such as 0,0,0,10,20,30."""
+    return _numbers(text, 6, "two corners X,Y,Z,X,Y,Z")
+
+
 def above_zero(text: str) -> float:
     """A number above 0."""
     number = finite(text)

@@ -4,14 +4,15 @@ from __future__ import annotations
 
 import argparse
 import os
+import re
 from pathlib import Path
 
-from guidewire.anatomy.formats import is_anatomy
+from guidewire.anatomy.formats import is_anatomy, is_dicom
 from guidewire.commands.arguments import (
-    Commands, above_zero, assignment, ends, error_part, finite, is_list_of_ends, path, positive,
+    Commands, above_zero, assignment, box, ends, error_part, finite, is_list_of_ends, path, positive, seed,
 )
 from guidewire.installed import version
-from guidewire.prepare import ANATOMY, DRAWING, INSTALLED, PACKAGING, SWEEPING, TESTING, VIEWING
+from guidewire.prepare import ANATOMY, DICOM, DRAWING, INSTALLED, PACKAGING, SWEEPING, TESTING, VIEWING
 
 # Commands by task, as --help lists them.
 GROUPS = {
@@ -281,10 +282,16 @@ def parse(argv: list[str]) -> argparse.Namespace:
     check = commands.add_parser("unity-check", help="check the Unity project's files without Unity")
     check.add_argument("--write-metas", action="store_true", help="create missing .meta files")
     check.set_defaults(packages=())
-    arguments = commands.parse(_with_all_ends(argv))
+    arguments = commands.parse(_with_points(_with_all_ends(argv)))
     if arguments.command == "view" and is_anatomy(arguments.what[0]):
-        arguments.packages = (*arguments.packages, *ANATOMY)
+        arguments.packages = (*arguments.packages, *ANATOMY, *_for_slices(arguments.what[0]))
+    if arguments.command == "anatomy" and arguments.file is not None:
+        arguments.packages = (*arguments.packages, *_for_slices(arguments.file))
     return arguments
+
+
+def _for_slices(file: Path) -> tuple[str, ...]:
+    return DICOM if is_dicom(file) else ()
 
 
 def _studies() -> str:
@@ -300,6 +307,17 @@ def _with_all_ends(argv: list[str]) -> list[str]:
             else word for k, word in enumerate(argv)]
 
 
+def _with_points(argv: list[str]) -> list[str]:
+    """Words in which a point that begins with a minus stands behind an equals sign, so that it is no option."""
+    words: list[str] = []
+    for word in argv:
+        if argv[0] == "anatomy" and words[-1:] in (["--box"], ["--seed"]) and re.match(r"-[\d.]", word):
+            words[-1] += f"={word}"
+        else:
+            words.append(word)
+    return words
+
+
 def _add_overrides(parser: argparse.ArgumentParser) -> None:
     parser.add_argument("--set", metavar="KEY=VALUE", action="append", default=[], type=assignment, dest="overrides",
                         help="override a parameter of the file; may be given several times")
@@ -310,10 +328,12 @@ def _add_anatomy(commands: Commands) -> None:
                                                   "generated: inspected, repaired, with its centreline and a scene")
     source = anatomy.add_mutually_exclusive_group(required=True)
     source.add_argument("file", metavar="FILE", type=Path, nargs="?",
-                        help=".stl, .obj, .ply, .vtp; masks .nii, .nii.gz, .nrrd; centrelines .csv, .vtp, .mrk.json")
+                        help=".stl, .obj, .ply, .vtp; voxels .nii, .nii.gz, .nrrd, .mha, .vti, or a folder of DICOM "
+                             "slices; centrelines .csv, .vtp, .mrk.json")
     source.add_argument("--make", choices=("arch", "iliac", "siphon", "coronary"), help="make a vessel instead")
     anatomy.add_argument("--type", type=positive, default=1, metavar="K", help="of the arch: 1, 2 or 3 (1)")
-    anatomy.add_argument("--seed", type=positive, default=1, metavar="N", help="of what is made (1)")
+    anatomy.add_argument("--seed", type=seed, metavar="N", help="of what is made (1); of voxels X,Y,Z, a point in the "
+                                                                 "region that is taken, in the vessel's axes, mm")
     anatomy.add_argument("--stenosis", type=above_zero, metavar="F", help="made with a stenosis that leaves F of the "
                                                                           "diameter, such as 0.4")
     anatomy.add_argument("--aneurysm", type=above_zero, metavar="F", help="made with an aneurysm of F diameters")
@@ -325,11 +345,19 @@ def _add_anatomy(commands: Commands) -> None:
     anatomy.add_argument("--unit", choices=("mm", "cm", "m"), help="unit of the coordinates (guessed from the sizes)")
     anatomy.add_argument("--axes", metavar="XYZ", help="where x, y and z of the file point in the patient, such as RAS "
                                                        "(as the file says)")
-    anatomy.add_argument("--label", type=finite, metavar="N", help="of a mask: value of the vessel's voxels")
+    anatomy.add_argument("--series", metavar="N", help="of a folder of DICOM slices: number in the list, or "
+                                                       "description")
+    anatomy.add_argument("--label", metavar="N", help="of a mask: values of the vessel's voxels, or their names, such as "
+                                                      "1,2")
+    anatomy.add_argument("--label-names", type=path, metavar="FILE", help="names of labels: .json, or .csv with the "
+                                                                          "columns value and name")
+    anatomy.add_argument("--segment", metavar="NAME", help="of a .seg.nrrd: segments of 3D Slicer, such as Aorta,Iliacs")
     anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
     anatomy.add_argument("--region", type=positive, metavar="K",
                          help="among the voxels of --label or --threshold: the K-th largest connected region "
                               "(default 1)")
+    anatomy.add_argument("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="two corners: voxels outside are left out, in the "
+                                                                         "vessel's axes, mm")
     anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
                                                                         "(a tenth of a voxel)")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")

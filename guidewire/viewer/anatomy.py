@@ -34,6 +34,7 @@ def read_vessel(file: Path) -> VesselPicture:
     from guidewire.anatomy.mesh import AnatomyError
     from guidewire.anatomy.output import describe
     from guidewire.anatomy.repair import repair
+    from guidewire.anatomy.summary import summarise
 
     try:
         source = reading.read(file)
@@ -42,14 +43,15 @@ def read_vessel(file: Path) -> VesselPicture:
     except AnatomyError as error:
         text = str(error)
         raise PreparationError(text if text.startswith(str(file)) else f"{file}: {text}") from error
-    found.notes += [source.axes.describe(), *source.notes]
+    found.notes += [*source.notes, *source.left_out]
     try:
         repaired = repair(mesh)
         line = find_centreline(repaired.mesh, repaired.rims)
     except AnatomyError as error:
-        return VesselPicture(source, mesh, found, None, None, [*describe(found, None, None, _WIRE),
-                                                             f"not repaired: {error}"])
-    return VesselPicture(source, mesh, found, repaired.mesh, line, describe(found, repaired, line, _WIRE))
+        lines = [*summarise(source, found), *describe(found, None, None, _WIRE), f"not repaired: {error}"]
+        return VesselPicture(source, mesh, found, None, None, lines)
+    lines = [*summarise(source, found, repaired, line), *describe(found, repaired, line, _WIRE)]
+    return VesselPicture(source, mesh, found, repaired.mesh, line, lines)
 
 
 class VesselPicture:

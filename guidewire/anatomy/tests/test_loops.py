@@ -27,7 +27,7 @@ def vessel_of(*parts, size=(56, 24, 90), low=(-16.5, -7.0, -3.0)):
         inside |= np.linalg.norm(grid - start - part[..., None] * (end - start), axis=-1) < radius
     to_space = np.diag([SIDE, SIDE, SIDE, 1.0])
     to_space[:3, 3] = low
-    return repair(mesh_of_image(Image(inside.astype(np.uint8), to_space), None, None, None)[0])
+    return repair(mesh_of_image(Image(inside.astype(np.uint8), to_space)).mesh)
 
 
 TRUNKS = ([0, 0, 0], [0, 0, 10], 2.2), ([0, 0, 38], [0, 0, 47], 2.2)

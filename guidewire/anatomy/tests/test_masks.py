@@ -7,7 +7,7 @@ import pytest
 
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
-from guidewire.anatomy.masks import mesh_of_image  # noqa: E402
+from guidewire.anatomy.masks import Taking, mesh_of_image  # noqa: E402
 from guidewire.anatomy.mesh import AnatomyError, find_bodies, signed_volume  # noqa: E402
 from guidewire.anatomy.images import Image  # noqa: E402
 
@@ -32,7 +32,7 @@ def test_a_tube_keeps_its_radius_over_random_axes(radius: float, allowed: float)
     for _ in range(4):
         axis = rng.standard_normal(3)
         axis /= np.linalg.norm(axis)
-        mesh, _ = mesh_of_image(voxels(radius, axis, rng.uniform(-0.5, 0.5, 3)), None, None, None)
+        mesh = mesh_of_image(voxels(radius, axis, rng.uniform(-0.5, 0.5, 3))).mesh
         assert find_bodies(mesh).max() == 0
         area, middle = mesh.area_vectors(), mesh.corners.mean(axis=1)
         size, along = np.linalg.norm(area, axis=1), middle @ axis
@@ -51,8 +51,9 @@ def test_decimation_stays_within_its_error() -> None:
     from guidewire.anatomy.surfaces import farthest
 
     image = voxels(4.0, np.array([0.6, 0.0, 0.8]), np.zeros(3))
-    fine, _ = mesh_of_image(image, None, None, 1e-6)
-    coarse, notes = mesh_of_image(image, None, None, 0.03)
+    fine = mesh_of_image(image, Taking(error=1e-6)).mesh
+    taken = mesh_of_image(image, Taking(error=0.03))
+    coarse, notes = taken.mesh, taken.notes
     assert len(coarse.triangles) < 0.7 * len(fine.triangles)
     assert farthest(fine, coarse) <= 0.03
     assert "allowed: 0.03 mm" in notes[1]
@@ -63,8 +64,8 @@ def test_a_mirrored_image_keeps_its_place_and_its_orientation() -> None:
 
     image = voxels(3.0, np.array([0.0, 0.6, 0.8]), np.zeros(3))
     mirror = np.diag([-1.0, 1.0, 1.0, 1.0])
-    plain, _ = mesh_of_image(image, None, None, None)
-    mirrored, _ = mesh_of_image(Image(image.values, mirror @ image.to_space), None, None, None)
+    plain = mesh_of_image(image).mesh
+    mirrored = mesh_of_image(Image(image.values, mirror @ image.to_space)).mesh
     np.testing.assert_allclose(mirrored.vertices, plain.vertices * [-1.0, 1.0, 1.0], atol=1e-9)
     assert signed_volume(mirrored) == pytest.approx(signed_volume(plain), rel=1e-9)
 
@@ -74,30 +75,31 @@ def test_a_region_is_chosen_by_its_number_and_all_are_listed() -> None:
     values[2:28, 2:28, 2:6] = 1.0  # a table, larger than the vessel
     values[12:18, 12:18, 10:28] = 1.0
     image = Image(values, np.diag([0.5, 0.5, 0.5, 1.0]))
-    largest, _ = mesh_of_image(image, None, None, None)
-    second, notes = mesh_of_image(image, None, None, None, region=2)
-    assert largest.vertices[:, 2].max() < 3.5 and second.vertices[:, 2].min() > 4.0
-    assert any("2 of 648 voxels around [7.25, 7.25, 9.25]" in note for note in notes)
+    largest, second = mesh_of_image(image), mesh_of_image(image, Taking(region=2))
+    assert largest.mesh.vertices[:, 2].max() < 3.5 and second.mesh.vertices[:, 2].min() > 4.0
+    assert any("2 of 648 voxels around [7.25, 7.25, 9.25]" in line for line in second.left_out)
+    assert largest.inside.sum() == 2704 and second.inside.sum() == 648
     with pytest.raises(AnatomyError, match="--region 3: there are 2 regions"):
-        mesh_of_image(image, None, None, None, region=3)
+        mesh_of_image(image, Taking(region=3))
 
 
 @pytest.mark.parametrize("label, threshold, expected", [
-    (7.0, None, "--label 7: no voxel"), (None, 9.0, "--threshold 9: no voxel"), (None, -1.0, "every voxel"),
+    ("7", None, "--label 7: no voxel"), (None, 9.0, "--threshold 9: no voxel"), (None, -1.0, "every voxel"),
     (None, None, "give --label N"),
 ])
 def test_a_mask_without_the_label_is_one_line(label, threshold, expected) -> None:
     values = np.zeros((6, 6, 6))
     values[2:4, 2:4, 2:4] = [[[1.0, 2.0], [3.0, 1.0]], [[1.0, 1.0], [1.0, 1.0]]]
     with pytest.raises(AnatomyError, match=expected.replace("(", r"\(")):
-        mesh_of_image(Image(values, np.eye(4)), label, threshold, None)
+        mesh_of_image(Image(values, np.eye(4)), Taking(label, threshold=threshold))
 
 
 def test_blocks_that_touch_at_a_corner_are_one_surface_and_the_place_is_named() -> None:
     values = np.zeros((20, 20, 24), dtype=np.uint8)
     values[2:8, 2:8, 2:12] = 1
     values[8:13, 8:13, 12:20] = 1
-    mesh, notes = mesh_of_image(Image(values, np.diag([0.5, 0.5, 0.5, 1.0])), None, None, None)
+    taken = mesh_of_image(Image(values, np.diag([0.5, 0.5, 0.5, 1.0])))
+    mesh, notes = taken.mesh, taken.notes
     assert find_bodies(mesh).max() == 0 and mesh.vertices[:, 2].max() > 9.0 and mesh.vertices[:, 2].min() < 1.5
     assert any("a part of 200 voxels touches the rest at an edge or a corner of voxels only" in note for note in notes)
 
@@ -106,7 +108,8 @@ def test_cavities_are_filled_and_the_volume_after_each_step_is_told() -> None:
     values = np.zeros((16, 16, 24), dtype=np.uint8)
     values[3:13, 3:13, 3:21] = 1
     values[7:9, 7:9, 10:12] = 0
-    mesh, notes = mesh_of_image(Image(values, np.diag([0.5, 0.5, 0.5, 1.0])), None, None, None)
+    taken = mesh_of_image(Image(values, np.diag([0.5, 0.5, 0.5, 1.0])))
+    mesh, notes = taken.mesh, taken.notes
     assert find_bodies(mesh).max() == 0 and any("8 voxels of cavities within it filled" in note for note in notes)
     told, = (note for note in notes if note.startswith("volume: voxels 224 mm3"))
     assert f"decimated {abs(signed_volume(mesh)):.5g} mm3" in told
@@ -115,5 +118,5 @@ def test_cavities_are_filled_and_the_volume_after_each_step_is_told() -> None:
 def test_one_voxel_has_a_wall_though_no_decimation_leaves_one() -> None:
     inside = np.zeros((5, 5, 5), np.uint8)
     inside[2, 2, 2] = 1
-    mesh, _ = mesh_of_image(Image(inside, np.eye(4)), None, None, None)
+    mesh = mesh_of_image(Image(inside, np.eye(4))).mesh
     assert len(mesh.triangles) and find_bodies(mesh).max() == 0

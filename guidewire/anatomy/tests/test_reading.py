@@ -21,6 +21,7 @@ from guidewire.anatomy.mesh import AnatomyError, signed_volume  # noqa: E402
 from guidewire.anatomy.patient import axes_named  # noqa: E402
 from guidewire.anatomy.surfaces import to_vtk  # noqa: E402
 from guidewire.anatomy.tests.solids import tube, write_stl  # noqa: E402
+from guidewire.anatomy.vtk_files import read_by_vtk  # noqa: E402
 
 
 def write_with_vtk(file: Path, mesh) -> Path:
@@ -239,7 +240,7 @@ def test_bad_lines_of_a_vtp_are_one_line(tmp_path: Path, points: str, radii: str
 
 def test_points_there_twice_are_left_out_of_the_lines_of_a_vtp(tmp_path: Path) -> None:
     file = lines_of_vtp(tmp_path / "a.vtp", "0 0 0 0 0 0 0 0 2", "1 1 1.5")
-    line = lines_of_poly_data(file, reading._poly_data(file, ".vtp")).lines[0]
+    line = lines_of_poly_data(file, read_by_vtk(file, ".vtp")).lines[0]
     np.testing.assert_array_equal(line.points, [[0.0, 0.0, 0.0], [0.0, 0.0, 2.0]])
     np.testing.assert_array_equal(line.radii, [1.0, 1.5])
 
