@@ -224,7 +224,7 @@ def _in_order(stack: _Stack) -> tuple[list[_Slice], np.ndarray]:
     if len(off):
         k = int(off[0])
         missing = along[k] / usual - 1.0
-        is_whole = len(off) <= 0.1 * len(along) and missing > 0.5 and abs(missing - round(missing)) < 0.1
+        is_whole = len(off) <= max(1, 0.1 * len(along)) and missing > 0.5 and abs(missing - round(missing)) < 0.1
         what = (f"{round(missing)} slice{'s are' if round(missing) > 1 else ' is'} missing" if is_whole
                 else "the spacing changes")
         raise AnatomyError(f"{what} between {slices[k].file.name} at {_listed(places[k])} and "

@@ -18,7 +18,7 @@ from guidewire.prepare import ANATOMY, DICOM, DRAWING, INSTALLED, PACKAGING, SWE
 GROUPS = {
     "start": ("demo", "scenes", "keys", "run", "view"),
     "study": ("sweep", "figures", "advise", "compare", "identify"),
-    "look": ("render", "site", "plot", "hub", "stress", "modes"),
+    "look": ("render", "export", "site", "plot", "hub", "stress", "modes"),
     "vessel": ("anatomy", "steer"),
     "instruments": ("instrument",),
     "train": ("tasks",),
@@ -135,6 +135,13 @@ def parse(argv: list[str]) -> argparse.Namespace:
                                                                        "brightness (0.03)")
     fluoroscopy.add_argument("--blur", type=finite, metavar="MM", help="standard deviation of the focal spot (0.15)")
     render.set_defaults(packages=DRAWING)
+
+    export = commands.add_parser("export", help="a run for ParaView, 3D Slicer, tables, Omniverse and Blender")
+    export.add_argument("folder", type=Path, metavar="RUN", help="folder of a run")
+    export.add_argument("--out", type=path, metavar="DIR", help="folder of the files (RUN/export)")
+    export.add_argument("--axes", metavar="XYZ", help="where x, y and z point in the patient, such as RAS (LPS)")
+    export.add_argument("--frames", type=positive, metavar="K", help="largest number of moments (all that were logged)")
+    export.set_defaults(packages=("numpy", "scipy"))
 
     _add_anatomy(commands)
 

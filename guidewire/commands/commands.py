@@ -230,6 +230,12 @@ def _steer(arguments: argparse.Namespace) -> int:
     return navigation.run(arguments, build_runner, hand_to)
 
 
+def _export(arguments: argparse.Namespace) -> int:
+    from guidewire.export import command
+
+    return command.run(arguments)
+
+
 def _stress(arguments: argparse.Namespace) -> int:
     from guidewire.figures.stress import draw_stress
     from guidewire.logs.stress import read_stress
@@ -348,8 +354,8 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 
 _ACTIONS = {
     "run": _run, "sweep": _sweep, "advise": _advise, "plot": _plot, "anatomy": _anatomy, "steer": _steer,
-    "keys": _keys, "render": _render, "view": _view, "site": _site, "stress": _stress, "hub": _hub, "compare": _compare,
-    "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python,
+    "keys": _keys, "render": _render, "export": _export, "view": _view, "site": _site, "stress": _stress, "hub": _hub,
+    "compare": _compare, "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python,
     "native": _native,
     "scenes": _scenes, "unity-check": _unity_check,
 }

@@ -54,7 +54,7 @@ def test_the_analysers_find_nothing_in_any_project():
 # only within itself.
 PYTHON = (("prepare",), ("installed", "json_text"), ("studies",), ("logs", "runs"), ("figures", "anatomy", "sessions"),
           ("sweeps", "identification"), ("benches", "advice", "navigation", "rod_suite"), ("library", "viewer"),
-          ("env",), ("commands",),
+          ("env", "export"), ("commands",),
           ("__init__", "__main__"))
 _LAYER = {name: k for k, names in enumerate(PYTHON) for name in names}
 

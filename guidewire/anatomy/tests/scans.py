@@ -13,7 +13,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 AIR, TISSUE, CONTRAST, BONE = -1000.0, 40.0, 350.0, 900.0  # HU
-INSIDE = 195.0  # HU, half-way from tissue to contrast
+INSIDE = 180.0  # HU, just below half-way from tissue to contrast
 BRANCHES = (((0, 0, 5), (0, 0, 32), 2.5), ((0, 0, 32), (11, 0, 60), 2.1), ((0, 0, 32), (-10, 4, 58), 1.8))  # mm, LPS
 _BONE = ((9, 14, -5), (9, 14, 70), 4.0)
 _FINE = 2  # samples of a voxel along each axis
