@@ -132,12 +132,12 @@ def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: 
         mesh, done = lines.mesh_of_lines(found.lines)
         said = unit or found.unit or None
         by = "as given" if unit else "as the file says"
-        axes = axes or (found.axes if data is None else _stated_axes(file, data))
+        axes = axes or (found.axes if data is None else stated_axes(file, data))
         begin = lines.begin_of(found.lines)
         return Source(axes.take(mesh), said, by, axes, [done], file.name, sha256,
                       begin=None if begin is None else axes.to_lps @ begin)
     mesh = read_mesh(file, data)
-    axes = axes or _stated_axes(file, data)
+    axes = axes or stated_axes(file, data)
     numbers = _face_numbers(data) if data is not None else None
     taken = axes.take(mesh)
     faces = Faces(taken.corners.mean(axis=1), numbers) if numbers is not None else None
@@ -175,7 +175,7 @@ def read_mesh(file: Path, data=None) -> Mesh:
     return mesh
 
 
-def _stated_axes(file: Path, data=None) -> Axes:
+def stated_axes(file: Path, data=None) -> Axes:
     """Axes that a mesh's header, comments or field data state, as those of 3D Slicer do; else unknown ones."""
     space = data.GetFieldData().GetAbstractArray("SPACE") if data is not None else None
     if space is not None and space.IsA("vtkStringArray") and space.GetNumberOfValues():

@@ -9,7 +9,7 @@ from guidewire.anatomy.inspection import Inspection
 from guidewire.anatomy.reading import Source
 from guidewire.anatomy.repair import Repaired
 
-_ENDS, _LEFT, _DONE = 7, 3, 3  # that have a line each, of a page of twenty lines
+_ENDS, _LEFT, _DONE = 6, 2, 3  # that have a line each, of a page of twenty lines
 _LONGEST = 300  # characters of a line
 
 
