@@ -32,7 +32,8 @@ def run(arguments: argparse.Namespace) -> int:
     """
     try:
         folder = arguments.out or default_folder(
-            reading.stem_of(arguments.file.resolve().name) if arguments.file else f"{arguments.make}-{_number(arguments)}")
+            reading.stem_of(reading.name_of(arguments.file)) if arguments.file
+            else f"{arguments.make}-{_number(arguments)}")
         checking.check_out(folder)
         return _run(arguments, folder)
     except AnatomyError as error:

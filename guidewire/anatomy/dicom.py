@@ -31,8 +31,10 @@ _TAGS = ["SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID", "SeriesNumber", "
          "ImageType", "ImageOrientationPatient", "ImagePositionPatient", "PixelSpacing", "Rows", "Columns",
          "SamplesPerPixel", "NumberOfFrames", "SpecificCharacterSet", "InstanceNumber"]
 _NO_VOLUMES = {  # by SOP class
-    "1.2.840.10008.5.1.4.1.1.66.4": "a DICOM segmentation", "1.2.840.10008.5.1.4.1.1.481.3": "a set of contours (RTSTRUCT)",
-    "1.2.840.10008.5.1.4.1.1.66.5": "a DICOM surface segmentation", "1.2.840.10008.1.3.10": "a list of files (DICOMDIR)",
+    "1.2.840.10008.5.1.4.1.1.66.4": "a DICOM segmentation",
+    "1.2.840.10008.5.1.4.1.1.66.5": "a DICOM surface segmentation",
+    "1.2.840.10008.5.1.4.1.1.481.3": "a set of contours (RTSTRUCT)",
+    "1.2.840.10008.1.3.10": "a list of files (DICOMDIR)",
 }
 _WAY = "3D Slicer opens it and saves it as .nrrd"
 
@@ -194,8 +196,8 @@ def _chosen(stacks: list[_Stack], others: list[str], series: str | None) -> _Sta
         return named[0]
     volumes = [stack for stack in stacks if len(stack.slices) >= _FEWEST and not _localiser(stack.head)]
     if len(volumes) != 1:
-        raise AnatomyError(f"{len(volumes) or 'no'} series of {_FEWEST} or more slices{', choose one' if volumes else ''}: "
-                           f"{listed}")
+        raise AnatomyError(f"{len(volumes) or 'no'} series of {_FEWEST} or more slices"
+                           f"{', choose one' if volumes else ''}: {listed}")
     return volumes[0]
 
 
@@ -228,8 +230,8 @@ def _in_order(stack: _Stack) -> tuple[list[_Slice], np.ndarray]:
         what = (f"{round(missing)} slice{'s are' if round(missing) > 1 else ' is'} missing" if is_whole
                 else "the spacing changes")
         raise AnatomyError(f"{what} between {slices[k].file.name} at {_listed(places[k])} and "
-                           f"{slices[k + 1].file.name}, {along[k]:.4g} mm on; others are {usual:.4g} mm apart; 3D Slicer "
-                           "can resample the series and save it as .nrrd")
+                           f"{slices[k + 1].file.name}, {along[k]:.4g} mm on; others are {usual:.4g} mm apart; "
+                           "3D Slicer can resample the series and save it as .nrrd")
     step = (places[-1] - places[0]) / (len(places) - 1)
     away = np.linalg.norm(places - places[0] - np.arange(len(places))[:, None] * step, axis=1)
     if away.max() > _OFF * float(stack.head.PixelSpacing[0]) + _EVEN * usual:

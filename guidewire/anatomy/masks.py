@@ -30,8 +30,8 @@ class Taking:
     ----------
     labels : values or names, with commas between them, of its voxels in a mask.
     segments : names of 3D Slicer's segments, with commas between them.
-    threshold : or, of an image, the value that they are above. With none of the three all voxels other than 0 are taken,
-        if they are equal.
+    threshold : or, of an image, the value that they are above. With none of the three all voxels other than 0 are
+        taken, if they are equal.
     region : which of the connected regions, 1 the largest; None: that.
     box : ndarray (2, 3), two corners within which voxels are taken, in the vessel's axes, mm.
     seed : ndarray (3,), a point in the region that is taken.
@@ -99,16 +99,16 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
     mesh = decimate(smoothed, allowed)
     volumes = [voxel * int(own.sum()), *(_volume(one, image, spacing) for one in (marched, smoothed, mesh))]
     unit = image.unit or "unit"
-    notes = [f"{int(inside.sum())} voxels of {' x '.join(f'{s:.3g}' for s in spacing)} {unit} in region {chosen + 1} of "
-             f"{count}; smoothed, wall moved by {farthest(marched, smoothed, 3000):.2g} {unit} at most",
+    sides = " x ".join(f"{side:.3g}" for side in spacing)
+    notes = [f"{int(inside.sum())} voxels of {sides} {unit} in region {chosen + 1} of {count}; smoothed, wall moved by {farthest(marched, smoothed, 3000):.2g} {unit} at most",
              f"{len(smoothed.triangles)} triangles decimated to {len(mesh.triangles)}, wall moved by "
              f"{farthest(smoothed, mesh):.2g} {unit} at most (allowed: {allowed:.2g} {unit})",
              *joined]
     if (filled != whole).any():
         notes.append(f"{int((filled & ~whole).sum())} voxels of cavities within it filled, around "
                      f"{_middle(filled & ~whole, to_part)}")
-    notes.append("volume: voxels {:.5g} {unit}3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} {unit}3 ({:+.2%})"
-                 .format(*volumes, volumes[-1] / volumes[0] - 1.0, unit=unit))
+    notes.append("volume: voxels {:.5g} {unit}3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} {unit}3 "
+                 "({:+.2%})".format(*volumes, volumes[-1] / volumes[0] - 1.0, unit=unit))
     left_out = [*image.left_out, *([f"labels {', '.join(others[:_LISTED])}{', ..' if len(others) > _LISTED else ''}"]
                                    if others else [])]
     if count > 1:
@@ -165,15 +165,16 @@ def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, tuple[str, ...]]:
     values, others = image.values, ()
     if taking.threshold is not None:
         if values.ndim == 4:
-            raise AnatomyError("--threshold is of an image: this is a segmentation; --segment takes one of its segments")
+            raise AnatomyError("--threshold is of an image: this is a segmentation; --segment takes one of its "
+                               "segments")
         inside, asked = values > taking.threshold, f"--threshold {taking.threshold:g}: "
     elif taking.labels is not None or taking.segments is not None or values.ndim == 4:
         inside, asked, others = voxels_with(image, taking.labels, taking.segments)
     else:
         found = values_of(values)
         if len(found) > 2:
-            raise AnatomyError(f"the voxels have {len(found)} values ({told_values(image, found, _LISTED)}): give --label N for a "
-                               "mask, or --threshold T for an image")
+            raise AnatomyError(f"the voxels have {len(found)} values ({told_values(image, found, _LISTED)}): give "
+                               "--label N for a mask, or --threshold T for an image")
         inside, asked = values != 0, ""
     if taking.box is not None:
         inside = _in_box(inside, image, taking.box)

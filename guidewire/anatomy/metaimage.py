@@ -32,8 +32,8 @@ def read_metaimage(file: Path) -> Voxels:
     if end is None:
         raise AnatomyError("not a MetaImage, or its header breaks off: it has no line ElementDataFile")
     if end[1] != b"LOCAL":
-        raise AnatomyError(f"its voxels are in another file, '{end[1].decode('utf-8', 'replace')[:60]}': a .mha with its "
-                           "own voxels is needed")
+        raise AnatomyError(f"its voxels are in another file, '{end[1].decode('utf-8', 'replace')[:60]}': a .mha with "
+                           "its own voxels is needed")
     fields = {}
     for line in data[:end.start()].decode("utf-8", "replace").splitlines():
         name, _, value = line.partition("=")

@@ -195,7 +195,8 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
             f"{count} triangles around {_place(place)}" for count, place in
             zip(found.body_sizes[:_PLACES], found.body_centres)))
     if found.near_vertices:
-        lines.append(f"{found.near_vertices} vertices nearer than {found.weld_length:.3g} {unit.name} to another one")
+        lines.append(f"{found.near_vertices} vertices nearer than {found.weld_length:.3g} {found.unit.name} to another "
+                     "one")
     for name, places in (("triangles without area, or duplicates", found.slivers),
                          ("edges of more than two triangles", found.crowded),
                          ("edges whose triangles are oriented inconsistently", found.turned),

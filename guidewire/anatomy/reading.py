@@ -62,6 +62,11 @@ class Source:
         return stem_of(self.name)
 
 
+def name_of(file: Path) -> str:
+    """A file's name; of "." the folder's."""
+    return file.name or file.resolve().name
+
+
 def stem_of(name: str) -> str:
     """A file's name without the ending that is known here."""
     ending = next((one for one in ENDINGS if name.lower().endswith(one)), "")
@@ -115,7 +120,7 @@ def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: 
         taken = mesh_of_image(image, taking)
         said = "mm" if image.unit else unit
         return Source(taken.mesh, said, "as the file says" if image.unit else "as given", image.axes, taken.notes,
-                      file.resolve().name, image.sha256 or hashlib.sha256(file.read_bytes()).hexdigest(),
+                      name_of(file), image.sha256 or hashlib.sha256(file.read_bytes()).hexdigest(),
                       left_out=taken.left_out, voxels=(image, taken) if taking.needs_picture else None)
     own = {"--series": series, "--label-names": names, "--segment": taking.segments, "--box": taking.box,
            "--seed": taking.seed}

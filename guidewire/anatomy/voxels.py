@@ -28,9 +28,9 @@ class Voxels:
     """What a file says of its voxels.
 
     values : ndarray (i, j, k), or (i, j, k, layers) of a segmentation whose segments overlap; to_file : ndarray (4, 4),
-    from indices to mm in the file's axes; said : what the file says these are, empty where it says nothing; unit : "mm",
-    or empty where the file has none; segments : that the file names; left_out, notes : lines of a report; sha256 : of
-    the bytes where they are of several files.
+    from indices to mm in the file's axes; said : what the file says these are, empty where it says nothing; unit :
+    "mm", or empty where the file has none; segments : that the file names; left_out, notes : lines of a report; sha256
+    : of the bytes where they are of several files.
     """
 
     values: np.ndarray

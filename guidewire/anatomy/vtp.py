@@ -19,7 +19,8 @@ _TYPES = {"f": ("Float64", "<f8"), "i": ("Int64", "<i8"), "u": ("Int64", "<i8"),
 
 
 def write_vtp(path: Path, points: np.ndarray, lines: Sequence[np.ndarray] = (), triangles: np.ndarray | None = None,
-              at_points: Mapping[str, np.ndarray] = {}, of_cells: Mapping[str, np.ndarray] = {}, space: str = "") -> None:
+              at_points: Mapping[str, np.ndarray] = {}, of_cells: Mapping[str, np.ndarray] = {},
+              space: str = "") -> None:
     """Write lines or triangles.
 
     Parameters

@@ -354,17 +354,18 @@ def _add_anatomy(commands: Commands) -> None:
                                                        "(as the file says)")
     anatomy.add_argument("--series", metavar="N", help="of a folder of DICOM slices: number in the list, or "
                                                        "description")
-    anatomy.add_argument("--label", metavar="N", help="of a mask: values of the vessel's voxels, or their names, such as "
-                                                      "1,2")
+    anatomy.add_argument("--label", metavar="N", help="of a mask: values of the vessel's voxels, or their names, such "
+                                                      "as 1,2")
     anatomy.add_argument("--label-names", type=path, metavar="FILE", help="names of labels: .json, or .csv with the "
                                                                           "columns value and name")
-    anatomy.add_argument("--segment", metavar="NAME", help="of a .seg.nrrd: segments of 3D Slicer, such as Aorta,Iliacs")
+    anatomy.add_argument("--segment", metavar="NAME", help="of a .seg.nrrd: segments of 3D Slicer, such as "
+                                                           "Aorta,Iliacs")
     anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
     anatomy.add_argument("--region", type=positive, metavar="K",
                          help="among the voxels of --label or --threshold: the K-th largest connected region "
                               "(default 1)")
-    anatomy.add_argument("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="two corners: voxels outside are left out, in the "
-                                                                         "vessel's axes, mm")
+    anatomy.add_argument("--box", type=box, metavar="X,Y,Z,X,Y,Z", help="two corners: voxels outside are left out, in "
+                                                                         "the vessel's axes, mm")
     anatomy.add_argument("--error", type=above_zero, metavar="MM", help="of a mask: largest displacement by decimation "
                                                                         "(a tenth of a voxel)")
     anatomy.add_argument("--inlet", metavar="END", help="number or name of the end that the wire starts at (1)")

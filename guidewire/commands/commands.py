@@ -355,8 +355,8 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 _ACTIONS = {
     "run": _run, "sweep": _sweep, "advise": _advise, "plot": _plot, "anatomy": _anatomy, "steer": _steer,
     "keys": _keys, "render": _render, "export": _export, "view": _view, "site": _site, "stress": _stress, "hub": _hub,
-    "compare": _compare, "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks, "python": _python,
-    "native": _native,
+    "compare": _compare, "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks,
+    "python": _python, "native": _native,
     "scenes": _scenes, "unity-check": _unity_check,
 }
 # Commands of the repository alone: the module that executes each, and its function.

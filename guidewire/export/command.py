@@ -27,7 +27,7 @@ from guidewire.viewer.recording import Recording, read_recording
 
 SERIES, TABLE, STAGE = "run.pvd", "run.csv", "run.usda"
 _FRAME = re.compile(r"(wire|catheter-\d+)-\d{5}\.vtp")
-_HIDDEN = {"positions", "inBody", "time", "step", "stepTime", "realTime", "tipx", "tipy", "tipz", "lumen"}  # of the table
+_HIDDEN = {"inBody", "time", "step", "stepTime", "realTime", "tipx", "tipy", "tipz", "lumen"}  # of the table
 
 
 def run(arguments: argparse.Namespace) -> int:
@@ -91,8 +91,8 @@ def _write_series(folder: Path, curves: Sequence[Curve], times: np.ndarray, fram
             rows.append(f'<DataSet timestep="{time:.9g}" group="" part="{part}" name="{curve.name}" file="{name}"/>')
             names.add(name)
     write_whole(folder / SERIES, "\n".join([
-        '<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian"><Collection>', *rows,
-        "</Collection></VTKFile>"]) + "\n")
+        '<?xml version="1.0"?>', '<VTKFile type="Collection" version="0.1" byte_order="LittleEndian"><Collection>',
+        *rows, "</Collection></VTKFile>"]) + "\n")
     return names
 
 
@@ -104,8 +104,8 @@ def _table(recording: Recording, frame: Frame) -> str:
                *((f"tip {axis} ({frame.unit})", tips[:, k]) for k, axis in enumerate("xyz"))]
     if "lumen" in known:
         left, is_at_target, is_inside = known["lumen"].values.T
-        columns += [(f"left to the target ({frame.unit})", frame.scale * left), ("at the target", is_at_target.astype(int)),
-                    ("in the vessel", is_inside.astype(int))]
+        columns += [(f"left to the target ({frame.unit})", frame.scale * left),
+                    ("at the target", is_at_target.astype(int)), ("in the vessel", is_inside.astype(int))]
     columns += [(f"{channel.label or name} ({channel.unit})", channel.values[:, 0])
                 for name, channel in known.items() if channel.place == "frame" and name not in _HIDDEN]
     text = io.StringIO()

@@ -67,8 +67,8 @@ def frame_of(parameters: Mapping[str, Any], patient: Mapping[str, Any] | None, a
     scale, unit = (1.0, "units") if metres is None else (1e3 * metres, "mm")
     if patient is None:
         if asked is not None:
-            raise AnatomyError(f"--axes {asked}: nothing says how the axes of this run lie in the patient; patientAxes of "
-                               "its scene, or --axes of the command anatomy, does")
+            raise AnatomyError(f"--axes {asked}: nothing says how the axes of this run lie in the patient; patientAxes "
+                               "of its scene, or --axes of the command anatomy, does")
         return Frame(np.eye(3), scale, "", unit)
     own = _letters(patient)
     wanted = axes_named(asked or "LPS")

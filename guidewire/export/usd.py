@@ -19,8 +19,8 @@ _COLOURS = ((0.29, 0.66, 1.0), (1.0, 0.62, 0.18), (0.71, 0.55, 1.0), (0.37, 0.83
 _WALL = (0.72, 0.6, 0.58)
 
 
-def write_usd(path: Path, curves: Sequence[Curve], times: np.ndarray, walls: Sequence[tuple[str, np.ndarray, np.ndarray]],
-              frame: Frame, title: str) -> None:
+def write_usd(path: Path, curves: Sequence[Curve], times: np.ndarray,
+              walls: Sequence[tuple[str, np.ndarray, np.ndarray]], frame: Frame, title: str) -> None:
     """Write curves, and walls as meshes.
 
     Parameters

@@ -1,4 +1,4 @@
-"""Scans of known contents, in every format of voxels: a fork of vessels full of contrast agent, in a body, by a bone."""
+"""Scans of known contents, in every format of voxels: a fork of vessels with contrast agent, in a body, by a bone."""
 
 from __future__ import annotations
 
@@ -97,8 +97,8 @@ def write_metaimage(file: Path, scan: Scan, packed: bool = True) -> Path:
         f"{size}TransformMatrix = {' '.join(f'{v:.17g}' for v in turn.T.ravel())}\n"
         f"Offset = {' '.join(f'{v:.17g}' for v in scan.to_lps[:3, 3])}\nCenterOfRotation = 0 0 0\n"
         f"AnatomicalOrientation = RAI\nElementSpacing = {' '.join(f'{v:.17g}' for v in scan.spacing)}\n"
-        f"DimSize = {' '.join(map(str, scan.values.shape))}\nElementType = MET_SHORT\nElementDataFile = LOCAL\n").encode()
-        + data)
+        f"DimSize = {' '.join(map(str, scan.values.shape))}\nElementType = MET_SHORT\n"
+        "ElementDataFile = LOCAL\n").encode() + data)
     return file
 
 

@@ -15,6 +15,8 @@ from guidewire.anatomy.images import Image  # noqa: E402
 from guidewire.anatomy.inspection import Unit, inspect  # noqa: E402
 from guidewire.anatomy.lines import lines_of_poly_data, read_lines, tree_of  # noqa: E402
 from guidewire.anatomy.masks import Taking, mesh_of_image  # noqa: E402
+from guidewire.anatomy.mesh import Mesh  # noqa: E402
+from guidewire.anatomy.output import describe  # noqa: E402
 from guidewire.anatomy.patient import Axes  # noqa: E402
 from guidewire.anatomy.reading import Source, stated_axes  # noqa: E402
 from guidewire.anatomy.repair import Change, Repaired  # noqa: E402
@@ -31,18 +33,28 @@ def test_the_first_lines_say_what_a_reader_has_to_know_and_are_at_most_eighteen(
     mesh = tube()
     line = fork(*[(50 + k, 2.0) for k in range(11)])
     source = Source(mesh, "mm", "as given", Axes("RAS"), left_out=[f"region {k}" for k in range(5)])
-    changes = [Change(f"things {k}", k + 1, 0.01) for k in range(6)] + [Change("stray bodies removed", 2, leaves_out=True)]
+    changes = [*(Change(f"things {k}", k + 1, 0.01) for k in range(6)),
+               Change("stray bodies removed", 2, leaves_out=True)]
     lines = summarise(source, inspect(mesh, "mm"), Repaired(mesh, [], changes), line,
                       Choice(line.ends[0], line.ends[3], is_target_given=True))
     assert len(lines) <= 18 and all("\n" not in one for one in lines)
     text = "\n".join(lines)
-    for expected in ("axes of the patient: LPS; those of the file are RAS", "unit: mm (as given;", "end 1 'rim 1': open, ",
-                     "ends 7 to 12: below", "inlet: end 1 (the widest; --inlet", "target: end 4 (as given; ",
+    for expected in ("axes of the patient: LPS; those of the file are RAS", "unit: mm (as given;",
+                     "end 1 'rim 1': open, ", "ends 7 to 12: below", "inlet: end 1 (the widest; --inlet", "target: end 4 (as given; ",
                      "mended: things 0: 1", "mended: 4 more, below; the wall moved by 0.06 mm", "left out: region 1",
                      "left out: 4 more, below"):
         assert expected in text, expected
     clean = summarise(Source(mesh, "mm", "as given"), inspect(mesh, "mm"), Repaired(mesh, [], []), line)
     assert clean[-2:] == ["mended: nothing", "left out: nothing"] and "unknown" in clean[0]
+
+
+def test_vertices_that_are_nearly_one_are_told() -> None:
+    mesh = tube()
+    apart = Mesh(mesh.corners.reshape(-1, 3) + 1e-5 * np.arange(3 * len(mesh.triangles))[:, None] % 3e-5,
+                 np.arange(3 * len(mesh.triangles)).reshape(-1, 3))
+    found = inspect(apart, "mm")
+    assert found.near_vertices and any(f"{found.near_vertices} vertices nearer than" in one and " mm to another" in one
+                                       for one in describe(found, None, None, 0.36))
 
 
 def test_the_picture_has_what_is_taken_what_is_left_out_the_box_and_the_seed() -> None:

@@ -151,7 +151,8 @@ def test_usd_holds_curves_over_time_with_widths(tmp_path: Path) -> None:
         np.testing.assert_array_equal(values.reshape(-1, 3), own)
     for values, own in zip(samples_of(prims["Wire"]["widths.timeSamples"]).values(), radii):
         np.testing.assert_allclose(values, 2.0 * own)
-    assert [values.tolist() for values in samples_of(prims["Wire"]["curveVertexCounts.timeSamples"]).values()] == [[3], [4]]
+    counts = samples_of(prims["Wire"]["curveVertexCounts.timeSamples"])
+    assert [values.tolist() for values in counts.values()] == [[3], [4]]
     assert prims["Catheter1"]["curveVertexCounts"] == "[3]" and prims["Catheter1"]["type"] == '"linear"'
     np.testing.assert_array_equal(numbers_of(prims["Vessel"]["points"]).reshape(-1, 3), triangle)
     text = (tmp_path / "a.usda").read_text()
@@ -182,7 +183,8 @@ def test_a_run_of_a_wire_in_a_catheter_is_exported_where_it_is(live, tmp_path: P
         assert away.max() < 1e-9 and len(points) <= len(own) + 1 and space == "RAS"
         assert arrays["Radius"].min() > 0.1 and arrays["ContactForce"].shape == points.shape
     seen = samples_of(prims_of((folder / "run.usda").read_text())["Catheter1"]["points.timeSamples"])
-    np.testing.assert_allclose(list(seen.values())[-1].reshape(-1, 3), log.catheters[0][-1] * mirror, rtol=1e-6, atol=1e-6)
+    last = list(seen.values())[-1].reshape(-1, 3)
+    np.testing.assert_allclose(last, log.catheters[0][-1] * mirror, rtol=1e-6, atol=1e-6)
     with (folder / "run.csv").open() as file:
         table = list(csv.DictReader(file))
     assert [int(row["step"]) for row in table] == [0, 2, 4]
