@@ -55,12 +55,12 @@ def mesh_of_tubes(tubes: list[Tube], carina: float) -> Mesh:
     nodes = np.argwhere(near)
     for k in range(0, len(nodes), _CHUNK):
         part = nodes[k:k + _CHUNK]
-        values[tuple(part.T)] = -_union(fields, tubes, carina, low + spacing * part)
+        values[tuple(part.T)] = -_union(fields, tubes, carina, low + spacing * part, spacing)[0]
     mesh = contour(values, 0.0, low, spacing)
     mesh = mesh.part(find_bodies(mesh) == 0)
-    mesh = Mesh(_onto(mesh.vertices, spacing, lambda p: _union(fields, tubes, carina, p)), mesh.triangles)
+    mesh = Mesh(_onto(mesh.vertices, spacing, lambda p: _union(fields, tubes, carina, p, spacing)[0]), mesh.triangles)
     if len(tubes) > 1:
-        mesh = _refined(mesh, fields, tubes, carina)
+        mesh = _refined(mesh, fields, tubes, carina, spacing)
     mesh = relaxed(decimate(mesh, _FLAT * _FINE * spacing))
     if signed_volume(mesh) > 0.0:
         mesh = mesh.turned()
@@ -81,10 +81,14 @@ class _Field:
         self.points = resample(tube.points, step)
         self.radii = np.interp(np.linspace(0.0, arc[-1], len(self.points)), arc, tube.radii)
         self._tree = cKDTree(self.points)
+        self._widest = float(self.radii.max()) + step
 
-    def evaluate(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """Distances (k,) and their gradients (k, 3), of length 1, at points (k, 3)."""
-        _, nearest = self._tree.query(points)
+    def evaluate(self, points: np.ndarray, reach: float) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+        """Which of points (k, 3) may be nearer to the wall than a reach; their distances and the gradients of these, of
+        length 1."""
+        away, nearest = self._tree.query(points, distance_upper_bound=self._widest + reach)
+        near = np.flatnonzero(np.isfinite(away))
+        points, nearest = points[near], nearest[near]
         best, off, where = np.full(len(points), np.inf), np.zeros_like(points), np.zeros(len(points))
         for first in (nearest - 1, nearest):
             first = np.clip(first, 0, len(self.points) - 2)
@@ -98,19 +102,28 @@ class _Field:
             best[closer], off[closer] = size[closer], away[closer]
             where[closer] = (first + part)[closer]
         radius = np.interp(where, np.arange(len(self.radii)), self.radii)
-        return best - radius, off / np.maximum(best, 1e-12)[:, None]
+        return near, best - radius, off / np.maximum(best, 1e-12)[:, None]
 
 
-def _union(fields: list[_Field], tubes: list[Tube], carina: float, points: np.ndarray) -> np.ndarray:
-    """Outer distance (k,) of all tubes, rounded between each tube and its parent, and between tubes of one parent."""
-    found = [field.evaluate(points) for field in fields]
-    total = np.min([distance for distance, _ in found], axis=0)
+def _union(fields: list[_Field], tubes: list[Tube], carina: float, points: np.ndarray, depth: float
+           ) -> tuple[np.ndarray, np.ndarray]:
+    """Outer distance (k,) of all tubes, rounded between each tube and its parent, and between tubes of one parent, and
+    the same without rounding; exact down to so deep within, mm, and not where no tube is within reach of a carina."""
+    # A ball rounds an edge where a + cosine * (R - b) < R: the cosine is above -1, so a tube farther than this is none.
+    found = [field.evaluate(points, 2.0 * carina + 3.0 * depth) for field in fields]
+    plain = np.full(len(points), np.inf)
+    for near, distance, _ in found:
+        plain[near] = np.minimum(plain[near], distance)
+    total = plain.copy()
     for k, tube in enumerate(tubes):
         partners = [tube.parent] + [j for j in range(k) if tubes[j].parent == tube.parent]
         for j in partners:
             if j >= 0:
-                total = np.minimum(total, _rounded(*found[k], *found[j], carina))
-    return total
+                both, own, other = np.intersect1d(found[k][0], found[j][0], assume_unique=True, return_indices=True)
+                rounded = _rounded(*(part[own] for part in found[k][1:]), *(part[other] for part in found[j][1:]),
+                                   carina)
+                total[both] = np.minimum(total[both], rounded)
+    return total, plain
 
 
 def _rounded(a: np.ndarray, m: np.ndarray, b: np.ndarray, n: np.ndarray, radius: float) -> np.ndarray:
@@ -123,7 +136,7 @@ def _rounded(a: np.ndarray, m: np.ndarray, b: np.ndarray, n: np.ndarray, radius:
     return np.where(between, radius - length, np.minimum(a, b))
 
 
-def _refined(mesh: Mesh, fields: list[_Field], tubes: list[Tube], carina: float) -> Mesh:
+def _refined(mesh: Mesh, fields: list[_Field], tubes: list[Tube], carina: float, depth: float) -> Mesh:
     """The mesh with triangles at rounded edges cut until these are smooth, the new vertices on the wall."""
     for _ in range(6):
         edges = Edges.of(mesh)
@@ -131,8 +144,7 @@ def _refined(mesh: Mesh, fields: list[_Field], tubes: list[Tube], carina: float)
         long = np.flatnonzero(np.linalg.norm(ends[:, 0] - ends[:, 1], axis=1) > _EDGES * carina)
         seam = np.zeros(len(long), dtype=bool)
         for points in (ends[long, 0], ends[long].mean(axis=1), ends[long, 1]):
-            rounded = _union(fields, tubes, carina, points)
-            plain = np.min([field.evaluate(points)[0] for field in fields], axis=0)
+            rounded, plain = _union(fields, tubes, carina, points, depth)
             seam |= rounded < plain - 1e-4 * carina
         if not seam.any():
             break
@@ -141,7 +153,7 @@ def _refined(mesh: Mesh, fields: list[_Field], tubes: list[Tube], carina: float)
         known = len(mesh.vertices)
         mesh = cut_edges(mesh, edges, chosen)
         vertices = mesh.vertices.copy()
-        vertices[known:] = _onto(vertices[known:], carina, lambda p: _union(fields, tubes, carina, p))
+        vertices[known:] = _onto(vertices[known:], carina, lambda p: _union(fields, tubes, carina, p, depth)[0])
         mesh = Mesh(vertices, mesh.triangles)
     return mesh
 
