@@ -13,7 +13,7 @@ import numpy as np
 from guidewire.env.draws import Draw, draw_of, with_options
 from guidewire.env.drive import Drive, DriveState
 from guidewire.env.episode import SAFE_FORCE, Part, Report
-from guidewire.env.instruments import instruments_of, of_each
+from guidewire.env.instruments import instruments_of, names_of, of_each
 from guidewire.env.loaded import LoadedScene, LoadedScenes
 from guidewire.env.observation import Observation, Observer
 from guidewire.env.options import need_number
@@ -35,24 +35,46 @@ class Reward:
     Attributes
     ----------
     progress : for the whole distance along the centreline that an episode begins with, of the wire's tip and of those
-        catheters that are to follow.
+        catheters that are to follow; of all, or of each instrument, the wire first.
     target : once, where it is reached.
     time : a second of simulated time.
-    force : each N s of the largest force of a wall.
+    force : each N s of the largest force of a wall; or of that on each instrument, the wire first.
 
     Raises
     ------
     Error : one of them is not a finite number.
     """
 
-    progress: float = 1.0
+    progress: float | Sequence[float] = 1.0
     target: float = 1.0
     time: float = -0.02
-    force: float = 0.0
+    force: float | Sequence[float] = 0.0
 
     def __post_init__(self) -> None:
         for name, value in asdict(self).items():
-            need_number(f"reward {name}", value)
+            for one in value if name in ("progress", "force") and isinstance(value, (list, tuple)) else [value]:
+                need_number(f"reward {name}", one)
+
+    def check(self, hubs: int) -> None:
+        """Raises Error where lists are not for so many instruments."""
+        for name, value in (("progress", self.progress), ("force", self.force)):
+            if len(of_each(value, hubs)) != hubs:
+                raise Error(f"reward {name} = {value!r} is not allowed: needs a number, or one for each of the {hubs} "
+                            "instruments")
+
+    def of(self, gone: Sequence[float], forces: Sequence[float], duration: float, is_reached: bool) -> float:
+        """Of a step.
+
+        Parameters
+        ----------
+        gone : of each instrument, as a fraction of what was before all of them at first.
+        forces : largest on each, N.
+        duration : s.
+        """
+        progress = sum(weight * one for weight, one in zip(of_each(self.progress, len(gone)), gone))
+        force = (sum(weight * one for weight, one in zip(self.force, forces)) if isinstance(self.force, (list, tuple))
+                 else self.force * max(forces))
+        return progress + duration * (self.time + force) + self.target * is_reached
 
 
 class Environment(Env):
@@ -76,8 +98,8 @@ class Environment(Env):
     -----
     terminated: the target is reached, an instrument has left the vessel by an open end, or with `ends_unsafe` a force
     was too large. truncated: the task's time is over, or the simulation has ended the run. `info` of every step holds
-    "force", N, and "left", units; that of the last one also "report", see Report. Episodes are drawn by `np_random`
-    alone, so the same seeds give the same bits.
+    "force", N, and "left", units, with catheters "instruments" with these of each; that of the last one also "report",
+    see Report. Episodes are drawn by `np_random` alone, so the same seeds give the same bits.
     """
 
     metadata = {"render_modes": ["human", "rgb_array"], "render_fps": 7}
@@ -97,6 +119,7 @@ class Environment(Env):
         self.safe_force, self.ends_unsafe = safe_force, ends_unsafe
         self.hubs = self.task.hubs
         drive.check(self.hubs)
+        reward.check(self.hubs)
         self.action_space, self.observation_space = drive.space(self.hubs), observation.space(self.hubs)
         self._scenes = LoadedScenes(self.task, native)
         self._is_closed = self._is_running = False
@@ -174,7 +197,7 @@ class Environment(Env):
                         f"task's first one {self.hubs}")
         self._route = self._scene.route(self.task.targets[draw.target])
         self._places = self._found()
-        self._first = self._remaining()
+        self._first = max(sum(self._remaining()), 1e-9)
         steps = self.drive.step_time / self._scene.time_step
         self._steps = round(steps)
         if self._steps < 1 or abs(steps - self._steps) > 1e-6:
@@ -288,7 +311,7 @@ class Environment(Env):
     def _move(self, pushes: list[float], turns: list[float], steps: int
               ) -> tuple[Any, float, bool, bool, dict[str, Any]]:
         """pushes, turns : of each hub in all steps, units and rad."""
-        report, before, force = self._report, self._remaining(), 0.0
+        report, before, forces = self._report, self._remaining(), [0.0] * self.hubs
         self._calls.append((pushes[0], turns[0], steps) if self.hubs == 1 else (pushes, turns, steps))
         motion = [one / steps for one in pushes], [one / steps for one in turns]
         try:
@@ -297,7 +320,7 @@ class Environment(Env):
                     break
                 last = self._state
                 self._state = self.session.step(*motion)
-                force = max(force, report.add(last, self._state))
+                forces = list(map(max, forces, report.add(last, self._state)))
         except SessionError as error:
             self._is_running = False
             if self.session.is_open:
@@ -308,15 +331,16 @@ class Environment(Env):
         if not has_left:
             for part, (_, left) in zip(report.parts, self._places):
                 part.left = left
-        end = self._end(force, has_left)
-        reward = self.reward
-        progress = 0.0 if has_left else before - self._remaining()
-        earned = (reward.progress * progress / max(self._first, 1e-9)
-                  + self.drive.step_time * (reward.time + reward.force * force))
-        info: dict[str, Any] = {"force": force, "left": report.left}
+        end = self._end(max(forces), has_left)
+        after = before if has_left else self._remaining()
+        earned = self.reward.of([(one - other) / self._first for one, other in zip(before, after)], forces,
+                                self.drive.step_time, end == "target")
+        info: dict[str, Any] = {"force": max(forces), "left": report.left}
+        if self.hubs > 1:
+            info["instruments"] = {name: {"force": force, "left": part.left} for name, force, part in
+                                   zip(names_of(self.hubs), forces, report.parts)}
         if end:
             report.end, report.reason, report.success = end, self._state.reason, end == "target"
-            earned += reward.target * report.success
             info["report"] = report.as_info()
             self._is_running = False
         if self.render_mode == "human":
@@ -331,7 +355,7 @@ class Environment(Env):
             return "force"
         if has_left:
             return LEFT
-        if self._places[0][1] <= self.task.tolerance and all(left <= 0.0 for left in self._behind()):
+        if self._places[0][1] <= self.task.tolerance and not any(self._remaining()[1:]):
             return "target"
         return "time" if self._report.time > self.task.time - 1e-9 else ""
 
@@ -346,13 +370,11 @@ class Environment(Env):
         return any(self._route.has_left(one.positions[-1]) if one.place is None
                    else not one.place.is_inside and one.place.distance > 0.0 for one in instruments_of(self._state))
 
-    def _behind(self) -> list[float]:
-        """By how much the catheters that are to follow have not come near enough to the target, units."""
+    def _remaining(self) -> list[float]:
+        """Of the wire the distance to the target, of the catheters by how much they are not near enough, units."""
         follow = of_each(self.task.follow, self.hubs - 1)
-        return [max(left - within, 0.0) for within, (_, left) in zip(follow, self._places[1:]) if within is not None]
-
-    def _remaining(self) -> float:
-        return self._places[0][1] + sum(self._behind())
+        return [self._places[0][1], *(0.0 if within is None else max(left - within, 0.0)
+                                      for within, (_, left) in zip(follow, self._places[1:]))]
 
     def _seen(self) -> Any:
         return self._observer.of(self._state, self._places)

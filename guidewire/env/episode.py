@@ -109,13 +109,13 @@ class Report:
         """Whether the target was reached with no larger force on the way."""
         return self.success and self.largest_force <= self.safe_force
 
-    def add(self, before: State, after: State) -> float:
-        """Take in a time step, from the instruments before and after it; returns its largest force, N."""
-        dt, most = after.time - before.time, 0.0
+    def add(self, before: State, after: State) -> list[float]:
+        """Take in a time step, from the instruments before and after it; returns the largest force on each, N."""
+        dt, most = after.time - before.time, []
         for part, one, other in zip(self.parts, instruments_of(before), instruments_of(after)):
             forces = np.sqrt(np.einsum("ij,ij->i", other.contact_forces, other.contact_forces))
             largest = float(forces.max())
-            most = max(most, largest)
+            most.append(largest)
             part.largest_force = max(part.largest_force, largest)
             part.impulse += float(forces.sum()) * dt
             part.path += math.dist(other.positions[-1].tolist(), one.positions[-1].tolist())
@@ -123,7 +123,7 @@ class Report:
             part.inserted += max(insertion, 0.0)
             part.retracted += max(-insertion, 0.0)
             part.turned += abs(other.hub.turn - one.hub.turn)
-        self.forces.append(most)
+        self.forces.append(max(most))
         self.time += dt
         return most
 

@@ -8,7 +8,7 @@ from dataclasses import replace
 import numpy as np
 import pytest
 
-from guidewire.env import Drive, Environment, Observation, Picture, RecordedDrive, VectorEnvironment
+from guidewire.env import Drive, Environment, Observation, Picture, RecordedDrive, Reward, VectorEnvironment
 from guidewire.env.baselines import Chance, Follow, Lead, baseline_of
 from guidewire.env.observation import DEFAULT, PARTS, RANGES
 from guidewire.env.randomisation import drawn_from, middle_of
@@ -55,6 +55,29 @@ def test_actions_move_each_hub_and_parts_of_an_observation_are_of_each_instrumen
         for wrong in ([1.0, 0.0], [1.0, 0.0, 0.0, 1.1], 5):
             with pytest.raises(InvalidAction):
                 own.step(wrong)
+
+
+def test_rewards_and_infos_are_of_each_instrument(pair):
+    weights = {"progress": (1.0, 0.25), "force": (-2.0, -3.0)}
+    with Environment(pair, reward=Reward(**weights)) as own, Environment(pair) as plain:
+        own.reset(seed=2), plain.reset(seed=2)
+        first = None
+        for _ in range(4):
+            left = [own._places[0][1], max(own._places[1][1] - pair.follow, 0.0)]
+            first = first or sum(left)
+            _, earned, _, _, info = own.step([1.0, 0.3, 0.8, -0.2])
+            each = [info["instruments"][name] for name in ("wire", "catheter 1")]
+            now = [each[0]["left"], max(each[1]["left"] - pair.follow, 0.0)]
+            expected = sum(w * (a - b) / first for w, a, b in zip(weights["progress"], left, now)) + 0.14 * (
+                -0.02 + sum(w * one["force"] for w, one in zip(weights["force"], each)))
+            assert earned == pytest.approx(expected, abs=1e-12)
+            _, alike, _, _, _ = plain.step([1.0, 0.3, 0.8, -0.2])
+            assert alike == pytest.approx((sum(left) - sum(now)) / first - 0.14 * 0.02, abs=1e-12)
+            assert info["force"] == max(one["force"] for one in each)
+    with pytest.raises(Error, match="2 instruments"):
+        Environment(pair, reward=Reward(force=(-1.0, -1.0, -1.0)))
+    with pytest.raises(Error, match="reward progress"):
+        Reward(progress=(1.0, float("nan")))
 
 
 def test_numbers_stand_for_each_pair_of_directions_once(pair):
