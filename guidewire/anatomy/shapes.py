@@ -29,6 +29,9 @@ from guidewire.anatomy.mesh import Mesh
 from guidewire.anatomy.sampling import resample
 from guidewire.anatomy.tubes import Tube, mesh_of_tubes
 
+# Of the tubes' ends, the start of the first one first.
+_ENDS = {"arch": ("ascending aorta", "descending aorta", "", "left common carotid", "left subclavian",
+                  "right subclavian", "right common carotid")}
 _CARINA = 0.12  # radius of curvature of an edge between branches, of the largest branch's radius
 
 
@@ -76,6 +79,12 @@ def tubes_of(kind: str, number: int, seed: int) -> tuple[list[Tube], tuple[tuple
         tubes, places = _KINDS[kind](rng, number)
         if _are_apart(tubes):
             return tubes, places
+
+
+def name_of(kind: str, tubes: list[Tube], place: np.ndarray) -> str:
+    """Of the end of one of these tubes that a place (3,) is nearest to, or "" where ends of the kind have no names."""
+    ends = np.array([tubes[0].points[0], *(tube.points[-1] for tube in tubes)])
+    return _ENDS[kind][int(np.argmin(np.linalg.norm(ends - place, axis=1)))] if kind in _ENDS else ""
 
 
 def _carina(tubes: list[Tube]) -> float:

@@ -2,10 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
+
 import numpy as np
 
 from guidewire.anatomy.mesh import Edges, Mesh
-
 
 _REDUCTIONS = (0.9, 0.75, 0.5, 0.3)  # of the triangles
 _SAMPLES = 4000  # points at which the error of a decimation is measured
@@ -78,14 +79,14 @@ def smooth(mesh: Mesh, passes: int, band: float) -> Mesh:
     return from_vtk(sinc.GetOutput())
 
 
-def decimate(mesh: Mesh, error: float) -> Mesh:
+def decimate(mesh: Mesh, error: float, reductions: Sequence[float] = _REDUCTIONS) -> Mesh:
     """Fewer triangles, of which no sampled point is farther than an error from the surface before, or the other way.
 
     Quadric error of VTK, which states no bound: so the error is measured, and reductions are tried from the largest.
     """
     from vtkmodules.vtkFiltersCore import vtkQuadricDecimation
 
-    for reduction in _REDUCTIONS:
+    for reduction in reductions:
         reduce = vtkQuadricDecimation()
         reduce.SetInputData(to_vtk(mesh))
         reduce.SetTargetReduction(reduction)

@@ -96,25 +96,41 @@ class Follow(TurnAndRetry):
 
 class Lead(TurnAndRetry):
     """The catheter turns and retries, with the wire `behind` in it, so that its tip has its own bend; once it is as
-    near to the target as the task asks for, the wire goes on.
+    near to the target as the task asks for, the wire goes on. Where the wire comes no nearer to the target, or goes
+    elsewhere, the catheter tries again.
 
     Parameters
     ----------
     environment : of one catheter, with "overlap" in its observation besides.
     behind : units, from the catheter's tip to the wire's.
+    still : steps of the wire without progress.
     options : of TurnAndRetry.
     """
 
-    def __init__(self, environment: Environment, behind: float = 60.0, **options: Any) -> None:
+    def __init__(self, environment: Environment, behind: float = 60.0, still: int = 12, **options: Any) -> None:
         super().__init__(environment, hub=1, **options)
-        self._behind = behind
+        self._behind, self._still = behind, still
         self._near = of_each(environment.task.follow, 1)[0] or environment.task.tolerance
+
+    def reset(self, observation: Any) -> None:
+        """Another episode."""
+        super().reset(observation)
+        self._nearest: float | None = None    # distance of the wire since it goes on
+        self._stood = 0
 
     def act(self, observation: Any) -> np.ndarray:
         """The next action."""
         left, extension = observation["distance"], observation["overlap"][0][0]
-        if left[1] <= 0.8 * self._near or extension > 0.0 and left[1] <= self._near:
-            return np.array([1.0 if left[0] > self._environment.task.tolerance else 0.0, 0.0, 0.0, 0.0], np.float32)
+        is_trying = self._mouth is not None or self._to_turn > 1e-9
+        if not is_trying and (left[1] <= 0.8 * self._near or extension > 0.0 and left[1] <= self._near):
+            is_nearer = self._nearest is None or left[0] < self._nearest - 0.2
+            self._nearest, self._stood = (left[0], 0) if is_nearer else (self._nearest, self._stood + 1)
+            if left[0] <= self._environment.task.tolerance:
+                return np.zeros(4, dtype=np.float32)
+            if left[0] <= self._nearest + self._limit and self._stood <= self._still:
+                return np.array([1.0, 0.0, 0.0, 0.0], dtype=np.float32)
+            self._mouth = float(left[1])
+        self._nearest, self._stood = None, 0
         catheter = super().act(observation)
         wire = 1.0 if extension < -self._behind - 5.0 else -1.0 if extension > -self._behind + 5.0 else catheter[0]
         return np.array([wire, 0.0, *catheter], dtype=np.float32)

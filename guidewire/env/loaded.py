@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 import json
+import tempfile
 from collections import OrderedDict
 from collections.abc import Mapping
+from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from guidewire.env.draws import Draw
 from guidewire.env.instruments import of_each
+from guidewire.env.reshaping import reshaped
 from guidewire.env.route import Placement, Route
 from guidewire.env.spaces import Error
 from guidewire.env.task import Task
@@ -30,9 +33,15 @@ class LoadedScene:
     scene : parameters.
     anatomy : of its vessel.
     native : as of Session.
+    shape : "warp" and "entry", as of `reshaped`, where one was drawn.
     """
 
-    def __init__(self, scene: Mapping[str, Any], anatomy: Mapping[str, Any], native: bool | None) -> None:
+    def __init__(self, scene: Mapping[str, Any], anatomy: Mapping[str, Any], native: bool | None,
+                 shape: Mapping[str, Any]) -> None:
+        self._folder = None
+        if any(any(np.ravel(one)) for one in shape.values()):
+            self._folder = tempfile.TemporaryDirectory(prefix="guidewire-")
+            scene, anatomy = reshaped(scene, anatomy, shape.get("warp"), shape.get("entry"), Path(self._folder.name))
         self.scene, self.anatomy = {**scene, **ENDLESS}, anatomy
         self.session = Session(None, hand=True, native=native, **self.scene)
         self.unit = float(self.session.parameters["metresPerUnit"])    # m
@@ -49,6 +58,12 @@ class LoadedScene:
         self.longest = float("inf") if inside is None or self.hubs > 1 else length - inside - 2.0 * step
         self._starts: OrderedDict[tuple[Any, ...], bytes] = OrderedDict()
         self._routes: dict[str, Route] = {}
+
+    def close(self) -> None:
+        """End its session; a vessel that was drawn is gone."""
+        self.session.close()
+        if self._folder is not None:
+            self._folder.cleanup()
 
     def start(self, tip_turn: float, insertion: Any) -> State:
         """The instruments at the start of an episode: each by so much in its vessel, m, and all turned, rad."""
@@ -102,14 +117,15 @@ class LoadedScenes:
         if scene is not None and scene.session.is_open:
             self._scenes.move_to_end(key)
             return scene, True
-        self._scenes[key] = scene = LoadedScene(*self._task.scene_of(draw), self._native)
+        shape = {name: draw.random[name] for name in ("warp", "entry") if name in draw.random}
+        self._scenes[key] = scene = LoadedScene(*self._task.scene_of(draw), self._native, shape)
         if len(self._scenes) > _SESSIONS:
             _, oldest = self._scenes.popitem(last=False)
-            oldest.session.close()
+            oldest.close()
         return scene, False
 
     def close(self) -> None:
         """End all sessions."""
         for scene in self._scenes.values():
-            scene.session.close()
+            scene.close()
         self._scenes.clear()

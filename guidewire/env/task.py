@@ -27,7 +27,7 @@ _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
          "insertion", "time", "tolerance", "speed", "rotation", "follow", "random", "baseline"}
 # Of what `random` draws, what is no parameter of the scene by itself.
-_DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed")
+_DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
 _EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
 BASELINES = ("", "retry", "follow", "lead")
 _STIFF = ("youngsModulus", "shearModulus")
@@ -59,8 +59,8 @@ class Task:
     baseline : policy that comes with it: "retry", "follow" or "lead"; "": retry, with catheters follow.
     random : distributions by name, drawn for each episode (`randomisation`): "friction", "tip_turn" (rad), "insertion"
         (m) in place of the lists above; "noise" of the drive; "stiffness", a factor on the moduli of a wire without a
-        name; "seed" of a vessel that is generated; or any parameter of the scene by its path, such as "scale",
-        "rotation", "vessel.radius", "catheters[0].frictionCoefficient".
+        name; "seed" and "type" of a vessel that is generated; "warp" and "entry" of any (`reshaped`); or any parameter
+        of the scene by its path, such as "scale", "rotation", "vessel.radius", "catheters[0].frictionCoefficient".
     """
 
     name: str
@@ -99,10 +99,11 @@ class Task:
         Error : a file is missing, or is no JSON; the scene cannot have what was drawn.
         """
         which = self.anatomies[draw.anatomy]
-        if "seed" in draw.random:
-            if not isinstance(which, Mapping):
-                raise Error(f"random \"seed\" is not allowed: {which} is a file, not a vessel that is generated")
-            which = {**which, "seed": draw.random["seed"]}
+        made = {key: draw.random[key] for key in ("seed", "type") if key in draw.random}
+        if made and not isinstance(which, Mapping):
+            raise Error(f"random \"{next(iter(made))}\" is not allowed: {which} is a file, not a vessel that is "
+                        "generated")
+        which = {**which, **made} if made else which
         folder = made_vessel(which) if isinstance(which, Mapping) else None
         file = folder / "anatomy.json" if folder else Path(which)
         scene_file = Path(self.scene) if self.scene else file.with_name("scene.json")

@@ -11,6 +11,7 @@ import sys
 import tempfile
 import time
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +20,8 @@ from guidewire.env.spaces import Error
 _MADE_BY = ("shapes", "tubes", "surfaces", "distance_grid", "repair", "centreline", "sampling", "loops", "output",
             "mesh", "intersections")
 _ABANDONED = 3 * 3600.0  # s since something was written there
+_COARSER = 0.03  # mm, by which the wall moves at most where triangles are taken out
+_TAKEN_OUT = (0.9, 0.8, 0.7, 0.6, 0.5, 0.4, 0.3, 0.2)  # of them, the first that goes
 
 
 def made_vessel(which: Mapping[str, Any]) -> Path:
@@ -63,9 +66,11 @@ def _make(which: Mapping[str, Any], folder: Path) -> None:
     from guidewire.anatomy import output, shapes
     from guidewire.anatomy.centreline import find_centreline
     from guidewire.anatomy.inspection import inspect
+    from guidewire.anatomy.intersections import relaxed
     from guidewire.anatomy.patient import Axes
     from guidewire.anatomy.reading import Source
     from guidewire.anatomy.repair import repair
+    from guidewire.anatomy.surfaces import decimate
 
     began = time.monotonic()
 
@@ -74,13 +79,19 @@ def _make(which: Mapping[str, Any], folder: Path) -> None:
               f"({time.monotonic() - began:.0f} s)", file=sys.stderr, flush=True)
 
     tell("surface")
-    mesh, unit, notes = shapes.make(which["make"], which.get("type", 1), which["seed"], None, None)
+    kind, number = which["make"], which.get("type", 1)
+    mesh, unit, notes = shapes.make(kind, number, which["seed"], None, None)
+    # A step between walls takes a third less time with the triangles that are left, and so does all that follows here.
+    mesh = relaxed(decimate(mesh, _COARSER, _TAKEN_OUT))
     source = Source(mesh, unit, "as made", Axes(), notes, str(which))
     tell("check and repair")
     found = inspect(mesh, unit)
     repaired = repair(mesh)
     tell("centreline")
     line = find_centreline(repaired.mesh, repaired.rims)
+    tubes, _ = shapes.tubes_of(kind, number, which["seed"])
+    line = replace(line, ends=tuple(replace(end, name=shapes.name_of(kind, tubes, end.centre) or end.name)
+                                    for end in line.ends))
     inlet, target = (output.find_end(line, str(which[key])) for key in ("inlet", "target"))
     output.write_vessel(folder, repaired.mesh, line, found.unit, source)
     scene = output.scene(line, found.unit, inlet, target, which.get("diameter", 0.36), source.axes)

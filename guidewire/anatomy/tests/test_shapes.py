@@ -14,9 +14,9 @@ from guidewire.anatomy.centreline import find_centreline  # noqa: E402
 from guidewire.anatomy.inspection import inspect  # noqa: E402
 from guidewire.anatomy.medial_graph import WallDistance  # noqa: E402
 from guidewire.anatomy.mesh import AnatomyError, Edges, close_rims, find_rims  # noqa: E402
-from guidewire.anatomy.shapes import _carina, _spline, make, tube_mesh, tubes_of  # noqa: E402
+from guidewire.anatomy.shapes import _carina, _spline, make, name_of, tube_mesh, tubes_of  # noqa: E402
 from guidewire.anatomy.tests.solids import SLANT, frame, tube  # noqa: E402
-from guidewire.anatomy.tubes import Tube, mesh_of_tubes  # noqa: E402
+from guidewire.anatomy.tubes import Tube, _Field, _union, mesh_of_tubes  # noqa: E402
 
 
 # A bent stem and two bent arms of different radius.
@@ -36,6 +36,24 @@ def test_tubes_make_a_vessel_with_an_open_rim_at_each_end(fork) -> None:
     assert not (len(found.crowded) or len(found.crossings) or len(found.turned)) and len(found.body_sizes) == 1
     assert found.volume < 0.0 and not any(rim.is_hole for rim in found.rims)
     assert [rim.radius for rim in found.rims] == pytest.approx([4.0, 2.6, 2.5], rel=0.02)
+
+
+def test_tubes_out_of_reach_change_no_distance_near_the_wall(fork) -> None:
+    fields = [_Field(tube) for tube in FORK]
+    points = fork.vertices + np.random.default_rng(2).uniform(-0.4, 0.4, fork.vertices.shape)
+    for near, far in zip(_union(fields, FORK, 0.5, points, 0.8), _union(fields, FORK, 0.5, points, 1e3)):
+        np.testing.assert_array_equal(near, far)
+        assert np.abs(far).max() < 0.8
+
+
+def test_the_ends_of_an_arch_have_names() -> None:
+    tubes, _ = tubes_of("arch", 2, 2)
+    assert name_of("arch", tubes, tubes[0].points[-1]) == "descending aorta"
+    # The trunk divides: its branch towards the head is the right carotid, that of the arch the left one.
+    assert name_of("arch", tubes, tubes[5].points[-1]) == "right common carotid"
+    assert name_of("arch", tubes, tubes[2].points[-1]) == "left common carotid"
+    assert tubes[5].points[-1][0] < tubes[2].points[-1][0] < tubes[3].points[-1][0]
+    assert name_of("iliac", tubes, tubes[0].points[-1]) == ""
 
 
 def test_the_centreline_lies_on_the_tubes_axes(fork) -> None:

@@ -1,0 +1,144 @@
+"""Vessels of a drawn shape: all of a vessel moved by a smooth field, and the wire's direction at its inlet tilted."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Mapping, Sequence
+from functools import lru_cache
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from guidewire.env.spaces import Error
+
+STRAIN = 0.08  # of a coefficient of 1: of nine at most 0.24 together, so that no place meets another one
+MOST_TILT = 30.0  # degrees
+_MESH, _ANATOMY = "vessel.obj", "anatomy.json"
+
+
+class Field:
+    """A displacement of space: along each axis a sum of three waves, one along each axis, as long as the vessel's
+    diagonal.
+
+    Parameters
+    ----------
+    points : (n, 3), of the vessel, in its own units.
+    coefficients : nine from -1 to 1: of the displacement along x the waves along x, y and z, then along y, then z.
+    """
+
+    def __init__(self, points: np.ndarray, coefficients: Sequence[float]) -> None:
+        low, high = points.min(axis=0), points.max(axis=0)
+        self._middle, self._wave = 0.5 * (low + high), 2.0 * math.pi / float(np.linalg.norm(high - low))
+        self._strains = STRAIN * np.array(coefficients, dtype=float).reshape(3, 3)
+
+    def moved(self, points: np.ndarray) -> np.ndarray:
+        """Where points (n, 3) go."""
+        return points + np.sin(self._wave * (points - self._middle)) @ self._strains.T / self._wave
+
+    def gradients(self, points: np.ndarray) -> np.ndarray:
+        """(n, 3, 3): what small vectors at points (n, 3) are multiplied by."""
+        return np.eye(3) + self._strains * np.cos(self._wave * (points - self._middle))[:, None, :]
+
+
+def reshaped(scene: Mapping[str, Any], anatomy: Mapping[str, Any], warp: Sequence[float] | None,
+             entry: Sequence[float] | None, folder: Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
+    """A scene with another vessel, whose files are written into a folder, and its anatomy.
+
+    Parameters
+    ----------
+    scene, anatomy : of the vessel as it is.
+    warp : coefficients of a Field, or None.
+    entry : tilt of the inlet about two axes across it, degrees, or None.
+
+    Raises
+    ------
+    Error : the numbers are not allowed, or the vessel is no mesh that can be moved; one line.
+    """
+    _check("warp", warp, 9, 1.0)
+    _check("entry", entry, 2, MOST_TILT)
+    vessel, anatomy = dict(scene["vessel"]), json.loads(json.dumps(anatomy))
+    if warp is not None and any(warp):
+        file = Path(vessel.get("file", ""))
+        if file.suffix.lower() != ".obj":
+            raise Error(f"random \"warp\" is not allowed: it needs a vessel that is a mesh in a file .obj, not {file}")
+        vertices, rest = _read(file)
+        field = Field(vertices, warp)
+        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in field.moved(vertices).tolist()]
+        (folder / _MESH).write_text("\n".join([*lines, rest]) + "\n", encoding="utf-8")
+        vessel["file"] = str(folder / _MESH)
+        _move(anatomy, field)
+    if entry is not None and any(entry):
+        end = _inlet(anatomy, scene.get("inlet"))
+        end["direction"] = _tilted(np.array(end["direction"]), entry).tolist()
+    (folder / _ANATOMY).write_text(json.dumps(anatomy), encoding="utf-8")
+    vessel["anatomy"] = str(folder / _ANATOMY)
+    return {**scene, "vessel": vessel}, anatomy
+
+
+def _move(anatomy: dict[str, Any], field: Field) -> None:
+    """Centreline and ends where the field moves them; a radius by what is left of it across the centreline."""
+    line = anatomy["centreline"]
+    points, parents = np.array(line["points"], dtype=float), np.array(line["parents"])
+    places, radii = points[:, :3], points[:, 3]
+    before = np.maximum(parents, 0)
+    before[0] = int(np.argmax(parents == 0))
+    along = places - places[before]
+    along[0] *= -1.0
+    gradients = field.gradients(places)
+    shrunk = _across(gradients, along)
+    line["points"] = np.c_[field.moved(places), shrunk * radii].tolist()
+    for end in anatomy["ends"]:
+        centre = np.array([end["centre"]], dtype=float)
+        direction = field.gradients(centre)[0] @ np.array(end["direction"], dtype=float)
+        end["centre"] = field.moved(centre)[0].tolist()
+        end["direction"] = (direction / np.linalg.norm(direction)).tolist()
+        end["radius"] *= float(shrunk[end["point"]])
+
+
+def _across(gradients: np.ndarray, along: np.ndarray) -> np.ndarray:
+    """(n,): the least stretch of a section across (n, 3), seen along where that goes."""
+    thin = np.argmin(np.abs(along), axis=1)
+    first = np.cross(along, np.eye(3)[thin])
+    first /= np.maximum(np.linalg.norm(first, axis=1), 1e-300)[:, None]
+    second = np.cross(along, first)
+    second /= np.maximum(np.linalg.norm(second, axis=1), 1e-300)[:, None]
+    moved = np.einsum("nij,njk->nik", gradients, np.stack([first, second], axis=2))
+    axis = np.einsum("nij,nj->ni", gradients, along)
+    axis /= np.maximum(np.linalg.norm(axis, axis=1), 1e-300)[:, None]
+    moved -= axis[:, :, None] * np.einsum("ni,nik->nk", axis, moved)[:, None, :]
+    return np.linalg.svd(moved, compute_uv=False)[:, -1]
+
+
+def _inlet(anatomy: dict[str, Any], inlet: Any) -> dict[str, Any]:
+    for end in anatomy["ends"]:
+        if not isinstance(inlet, bool) and str(inlet).strip().lower() in (str(end["number"]), end["name"].lower()):
+            return end
+    raise Error(f"random \"entry\" is not allowed: it needs an inlet that is an end of the vessel, not {inlet!r}")
+
+
+def _tilted(direction: np.ndarray, degrees: Sequence[float]) -> np.ndarray:
+    """By so many degrees about two axes across: as far as their root of squares says, about one axis."""
+    first = np.cross(direction, np.eye(3)[int(np.argmin(np.abs(direction)))])
+    first /= np.linalg.norm(first)
+    second = np.cross(direction, first)
+    turn = math.radians(degrees[0]) * first + math.radians(degrees[1]) * second
+    angle = float(np.linalg.norm(turn))
+    return math.cos(angle) * direction + math.sin(angle) * np.cross(turn / angle, direction)
+
+
+def _check(name: str, numbers: Sequence[float] | None, count: int, most: float) -> None:
+    if numbers is not None and (np.shape(numbers) != (count,) or not (np.abs(numbers) <= most).all()):
+        raise Error(f"random \"{name}\" = {numbers!r} is not allowed: needs {count} numbers from {-most:g} to {most:g}")
+
+
+@lru_cache(maxsize=4)
+def _read(file: Path) -> tuple[np.ndarray, str]:
+    """Vertices (n, 3) of a mesh, and the other lines."""
+    try:
+        lines = file.read_text(encoding="utf-8").splitlines()
+        vertices = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], dtype=float)
+    except (OSError, ValueError) as error:
+        raise Error(f"{file}: {error}") from error
+    return vertices, "\n".join(line for line in lines if not line.startswith("v "))
