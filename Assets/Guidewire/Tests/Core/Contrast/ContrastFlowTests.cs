@@ -82,6 +82,10 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Amounts_AddUp_WhateverIsInjectedWhere([Range(1, 6)] int seed)
         {
+            if (seed > 2)
+            {
+                Rods.OnlyInFull("two of these trees");
+            }
             var dice = new Random(seed);
             VesselTree tree = Random(dice, 300);
             var flow = new ContrastFlow(tree, new BloodFlow
@@ -114,7 +118,10 @@ namespace Guidewire.Core.Tests
         [Test]
         public void OneLongAdvance_IsThatOfManyShortOnes([Values(0.0, 0.8)] double pulse)
         {
-            ContrastFlow[] flows = { new ContrastFlow(Straight(200), Beating()), new ContrastFlow(Straight(200), Beating()) };
+            ContrastFlow[] flows =
+            {
+                new ContrastFlow(Straight(200), Beating()), new ContrastFlow(Straight(200), Beating()),
+            };
             foreach (ContrastFlow flow in flows)
             {
                 flow.Inject(0, 1.0, 4.0);
@@ -140,8 +147,9 @@ namespace Guidewire.Core.Tests
             {
                 Given = point => point == 51 ? 1e-12 : point == 451 ? 1.0 : (double?)null,
             });
+            int aside = flow.CellOf(new Vector3d(0.0, 20.0, 50.0));
             foreach ((int cell, double amount, double rate) in new[] { (0, 1e-12, 1e-3), (0, 0.0, 1.0),
-                (flow.CellOf(new Vector3d(0.0, 20.0, 50.0)), 3.0, 100.0), (0, 1e6, 10.0), (flow.Count - 1, 1e-300, 1e300) })
+                (aside, 3.0, 100.0), (0, 1e6, 10.0), (flow.Count - 1, 1e-300, 1e300) })
             {
                 flow.Inject(cell, amount, rate);
                 flow.Advance(0.05);

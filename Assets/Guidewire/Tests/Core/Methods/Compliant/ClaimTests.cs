@@ -14,7 +14,7 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void RunThatClaimsConvergence_EndsInTheRestShape()
         {
-            Campaign(11, Rods.InFull ? 240 : 4, true, ErrorAtRest);
+            Campaign(11, Rods.InFull ? 240 : 3, true, ErrorAtRest);
         }
 
         [Test]

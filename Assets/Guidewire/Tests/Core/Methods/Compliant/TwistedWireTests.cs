@@ -20,7 +20,7 @@ namespace Guidewire.Core.Tests
                 Rods.OnlyInFull("one iteration a substep has the same limit");
             }
             // Closed, straight when free, EI = GJ: 2 pi sqrt(3) EI/GJ.
-            const int N = 32;
+            const int N = 20;
             double critical = 2.0 * Math.PI * Math.Sqrt(3.0);
             Assert.That(Ring(N, sweeps, (1.0 - Margin) * critical, 1e-3), Is.LessThan(1e-3));
             Assert.That(Ring(N, sweeps, (1.0 + Margin) * critical, 1e-2), Is.GreaterThan(1e-2));

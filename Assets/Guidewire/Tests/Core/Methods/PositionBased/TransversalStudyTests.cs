@@ -34,11 +34,13 @@ namespace Guidewire.Core.Tests
         [Category("Long")]
         public void VerletAndEuler_Agree_WithDampingToo()
         {
-            foreach (double damping in new[] { 0.0, 0.01 })
+            // Without damping both are those of the prototype, above.
+            int steps = Rods.InFull ? 500 : 200;
+            foreach (double damping in Rods.InFull ? new[] { 0.0, 0.01 } : new[] { 0.01 })
             {
-                SimulationParameters verlet = Wires.Transversal(500);
+                SimulationParameters verlet = Wires.Transversal(steps);
                 verlet.Method.Damping = damping;
-                SimulationParameters euler = Wires.Transversal(500);
+                SimulationParameters euler = Wires.Transversal(steps);
                 euler.Method.Damping = damping;
                 euler.Method.Integrator = Integrator.Euler;
                 Assert.That(Wires.Distance(Wires.Run(verlet).State, Wires.Run(euler).State), Is.LessThan(1e-9),

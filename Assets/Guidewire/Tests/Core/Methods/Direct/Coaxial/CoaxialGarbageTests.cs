@@ -16,7 +16,10 @@ namespace Guidewire.Core.Tests
         [TestCase(0.0, -0.2)]
         public void StepThatKeepsItsElements_LeavesNothing(double wire, double catheter)
         {
-            foreach (Integrator integrator in new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Esdirk3 })
+            // Schemes of several steps and of several stages keep more; implicitEuler is that of the vessels below.
+            foreach (Integrator integrator in Rods.InFull
+                ? new[] { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Esdirk3 }
+                : new[] { catheter == 0.0 ? Integrator.Bdf2 : Integrator.Esdirk3 })
             {
                 AssertNothingIsLeft(Moving(integrator, wire, catheter), 3);
             }

@@ -12,7 +12,8 @@ namespace Guidewire.Core.Tests
         {
             int wires = 0;
             int catheters = 0;
-            for (int seed = 0; seed < 12; seed++)
+            int runs = RandomGeometry.Cases(12, 3);
+            for (int seed = 0; seed < runs; seed++)
             {
                 var push = new RandomCoaxialPush(seed, hasOuter: hasOuter);
                 Simulation run = push.Simulation;
@@ -35,8 +36,8 @@ namespace Guidewire.Core.Tests
                 Assert.That(again.Contacts!.Forces, Is.EqualTo(wire));
                 Assert.That(again.Catheters().Select(one => one.ContactForces), Is.EqualTo(others));
             }
-            Assert.That(wires, Is.GreaterThan(2), "runs whose wire a wall touches at the end");
-            Assert.That(catheters, Is.GreaterThan(2), "runs whose outermost catheter a wall touches");
+            Assert.That(wires, Is.GreaterThan(runs / 6), "runs whose wire a wall touches at the end");
+            Assert.That(catheters, Is.GreaterThan(runs / 6), "runs whose outermost catheter a wall touches");
         }
 
         private static int Nearest(Vector3d[] points, Vector3d point)

@@ -16,11 +16,12 @@ namespace Guidewire.Core.Tests
         {
             Vector3d coarse = Tip(60, 0.01, Gap);
             Vector3d middle = Tip(120, 0.01, Gap);
-            Vector3d fine = Tip(240, 0.01, Gap);
-            TestContext.WriteLine(Vector3d.Distance(coarse, middle) + " and " + Vector3d.Distance(middle, fine)
-                + " mm");
             Assert.That(Vector3d.Distance(coarse, middle), Is.LessThan(0.04 * WallScenes.LumenRadius));
-            Assert.That(Vector3d.Distance(middle, fine), Is.LessThan(0.01 * WallScenes.LumenRadius));
+            if (Rods.InFull)
+            {
+                Vector3d fine = Tip(240, 0.01, Gap);
+                Assert.That(Vector3d.Distance(middle, fine), Is.LessThan(0.01 * WallScenes.LumenRadius));
+            }
         }
 
         [Test]
@@ -60,6 +61,10 @@ namespace Guidewire.Core.Tests
         [TestCase(0.001, 1e-4)]
         public void Turn_IsAsExactAsAsked_HoweverSoftTheWireIsInTorsion(double ofBending, double tolerance)
         {
+            if (ofBending != 0.01)
+            {
+                Rods.OnlyInFull("softer and stiffer wires than this one");
+            }
             // A couple S L turns the tip by S L^2/GJ; S is 25 tolerance times 3/2 GJ/L^2.
             Simulation exact = Turned(ofBending, 1e-10);
             Simulation run = Turned(ofBending, tolerance);
@@ -78,28 +83,28 @@ namespace Guidewire.Core.Tests
             Assert.That(most, Is.LessThan(37.5 * tolerance));
         }
 
-        [TestCase(0.1, 1e-3)]
-        [TestCase(0.1, 1e-4)]
-        [TestCase(0.3, 1e-4)]
-        [TestCase(0.3, 1e-5)]
-        [TestCase(0.3, 1e-6)]
-        public void Shape_IsAsExactAsAsked_WithFriction(double coefficient, double tolerance)
+        [TestCase(0.1, 1e-3, 1e-4)]
+        [TestCase(0.3, 1e-4, 1e-5, 1e-6)]
+        public void Shape_IsAsExactAsAsked_WithFriction(double coefficient, params double[] tolerances)
         {
+            if (coefficient < 0.3)
+            {
+                Rods.OnlyInFull("three times the coefficient of friction");
+            }
             // Normal forces of friction are those of a first solution, which may be looser.
             Simulation exact = Rubbed(coefficient, 1e-10);
-            Simulation run = Rubbed(coefficient, tolerance);
-            double most = 0.0;
-            while (run.Outcome == Outcome.Running)
+            Simulation[] runs = Array.ConvertAll(tolerances, tolerance => Rubbed(coefficient, tolerance));
+            while (exact.Outcome == Outcome.Running)
             {
                 exact.Step();
-                run.Step();
-                for (int i = 0; i <= 60; i++)
+                for (int k = 0; k < runs.Length; k++)
                 {
-                    most = Math.Max(most, Vector3d.Distance(run.State.Positions[i], exact.State.Positions[i]));
+                    runs[k].Step();
+                    Assert.That(Wires.Distance(runs[k].State, exact.State),
+                        Is.LessThan(25.0 / 3.0 * tolerances[k] * 300.0), "" + tolerances[k]);
                 }
             }
-            Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(most, Is.LessThan(25.0 / 3.0 * tolerance * 300.0));
+            Assert.That(Array.ConvertAll(runs, run => run.Outcome), Is.All.EqualTo(Outcome.Finished));
         }
 
         private static Simulation Rubbed(double coefficient, double tolerance)

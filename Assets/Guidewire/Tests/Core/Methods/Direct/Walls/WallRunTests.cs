@@ -266,6 +266,7 @@ namespace Guidewire.Core.Tests
         public void TwoWiresInOneMesh_InTurns_MoveAsEachAlone()
         {
             SimulationParameters parameters = WallScenes.Arch(30, 0.01, 100.0, 40.0);
+            parameters.Contact.ContactDistance = 5e-5;
             parameters.Scene.Walls = new ContactShape[] { WallScenes.ArchMesh(16, 24) };
             Vector3d alone = Wires.Run(parameters).State.Positions[30];
             parameters.Scene.Walls = new ContactShape[] { WallScenes.ArchMesh(16, 24) };
