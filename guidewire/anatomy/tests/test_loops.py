@@ -36,6 +36,7 @@ RING = [([0, 0, 10], [s * 9, 0, 19], 1.8) for s in (1, -1)] + [([s * 9, 0, 19], 
     ([s * 9, 0, 29], [0, 0, 38], 1.8) for s in (1, -1)]
 
 
+@pytest.mark.long("the graph of a fork, and of a dome, which is no end either")
 def test_a_ring_between_two_trunks_is_a_loop_and_no_end() -> None:
     repaired = vessel_of(*TRUNKS, *RING)
     assert count_loops(repaired.mesh) == 1

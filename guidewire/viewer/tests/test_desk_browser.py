@@ -39,6 +39,7 @@ def near_target(tmp_path, **more):
     return str(tmp_path / "scene.json")
 
 
+@pytest.mark.long("keys steer both hands in the tests of the suite")
 def test_lists_let_the_hand_steer_and_another_case_asks_first(browse, runner_command, tmp_path):
     focus = "document.getElementById('scenes').focus()"
     shown = "document.getElementById('scenes').value"
@@ -81,6 +82,7 @@ def test_both_pictures_have_the_head_above_turn_together_and_follow_the_held_ins
     assert seen[5][0] == seen[5][1]
 
 
+@pytest.mark.long("who has the hand stands in the tests of the server")
 def test_who_looks_on_is_told_when_the_run_is_free(browse, runner_command, tmp_path):
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
         began = threading.Event()
@@ -136,6 +138,7 @@ def test_without_webgl_there_is_a_line_and_the_x_ray_picture(browse, runner_comm
     assert seen[0] > 20 and seen[1].startswith("No WebGL") and seen[2] == "none"
 
 
+@pytest.mark.long("a pause of the server stands in its own tests")
 def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner_command, tmp_path):
     slow = "viewer.shown._note(0.4)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):

@@ -81,6 +81,7 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     assert (mapped[agent & (empty > 185)] > 195).all() and (mapped < 180).any()    # brighter, and the wire over it
 
 
+@pytest.mark.long("both planes and their angles are seen in the tests of the desk")
 def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     drawn = "viewer.xray.drawn"
     arm = f"[...{VIEW}.arm.centre]"

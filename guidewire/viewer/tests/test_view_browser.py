@@ -96,6 +96,7 @@ def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_
     assert is_drawn(tmp_path / "side.png") and is_drawn(tmp_path / "over.png")
 
 
+@pytest.mark.long("a refused value leaves the wire going in the tests of the server")
 def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(browse, runner_command, tmp_path):
     field = "[...document.querySelectorAll('#controls label')].find((one) => one.textContent === 'timeStep').firstElementChild"
     enter = (f"{{ const field = {field}; field.focus(); field.value = '-1';"
@@ -158,6 +159,7 @@ STEERED = "[viewer.shown.steering.push, viewer.shown.steering.turn]"
 HUB = "viewer.shown.model.recording.at('hubInsertion', viewer.shown.model.recording.count - 1)[0]"
 
 
+@pytest.mark.long("keys and sticks steer in the tests of the suite, and the run is repeated")
 def test_a_gamepad_and_a_finger_steer_and_what_was_steered_is_saved(browse, runner_command, tmp_path):
     touch = ("{ const pad = document.getElementById('pad'); const box = pad.getBoundingClientRect();"
              " pad.setPointerCapture = () => {}; pad.dispatchEvent(new PointerEvent('pointerdown',"
@@ -189,6 +191,7 @@ SLOW_ANSWERS = "((real) => { window.fetch = async (...all) => { const answer = a
 HUB_OF_CATHETER = HUB.replace("hubInsertion", "hub1Insertion")
 
 
+@pytest.mark.long("two hands steer wire and catheter in the tests of the suite")
 def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colour_and_its_name(
         browse, runner_command, tmp_path):
     (tmp_path / "instruments").mkdir()
@@ -271,6 +274,7 @@ def test_each_of_three_instruments_is_drawn_and_taken_into_the_hand(browse, runn
     assert is_drawn(tmp_path / "three.png")
 
 
+@pytest.mark.long("positions of each instrument stand in the tests of sessions of the page")
 def test_a_wire_is_drawn_through_the_tip_that_it_comes_out_of(browse, runner_command, tmp_path):
     subprocess.run([*runner_command, "-parameters", str(ROOT / "params/catheter.json"), "-out", str(tmp_path / "run"),
                     "-maxSimulationSteps", "60", "-logEvery", "10"], check=True, capture_output=True)

@@ -49,6 +49,7 @@ def test_an_end_that_is_not_there_writes_nothing(with_a_hole, tmp_path, monkeypa
         read_vessel(tmp_path / "text.stl")
 
 
+@pytest.mark.long("an inlet by its number stands in the tests of the command")
 def test_a_click_on_an_end_makes_it_the_inlet(browse, with_a_hole, tmp_path):
     click = """(() => {
       const [clientX, clientY] = viewer.placeOf(2);
