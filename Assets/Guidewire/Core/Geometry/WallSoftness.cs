@@ -37,6 +37,9 @@ namespace Guidewire.Core
         /// more than 0.</summary>
         public double TipLength { get; }
 
+        /// <summary>K by place instead; null where it is the same everywhere.</summary>
+        public WallRegions? Regions { get; set; }
+
         /// <summary>By how much a wall that stays where it is may be displaced by a wire of a radius, m.</summary>
         internal double MostOf(double radius)
         {

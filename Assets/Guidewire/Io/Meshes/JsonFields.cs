@@ -92,6 +92,18 @@ namespace Guidewire.Io
                 ? vector : throw Wrong(name, ThreeNumbers);
         }
 
+        /// <summary>The objects of a list; none where the field is missing.</summary>
+        public List<JsonFields> Items(string name)
+        {
+            var items = new List<JsonFields>();
+            JToken? value = _object[name];
+            foreach (JToken item in value == null ? new JArray() : value as JArray ?? throw Wrong(name, "a list"))
+            {
+                items.Add(new JsonFields(_sourceOf, _key + "." + name + "[" + items.Count + "]", item));
+            }
+            return items;
+        }
+
         /// <summary>A list of vectors.</summary>
         public Vector3d[] Vectors(string name)
         {

@@ -1,4 +1,6 @@
 using System;
+using System.Collections.Generic;
+using System.Linq;
 using Guidewire.Core;
 
 namespace Guidewire.Io
@@ -13,6 +15,10 @@ namespace Guidewire.Io
         private const string Thickness = "wallThickness";
         private const string Radius = "lumenRadius";
         private const string Surrounding = "surroundingModulus";
+
+        /// <summary>The field of a vessel that has regions.</summary>
+        public const string Regions = "regions";
+
         private const double Thin = 0.5;    // thickness over radius
 
         private static readonly string[] OfWall = { Modulus, Thickness, Radius, Surrounding };
@@ -41,6 +47,49 @@ namespace Guidewire.Io
             double tip = fields.Has(TipLength) ? Positive(fields, TipLength, "m") : WallSoftness.DefaultTipLength;
             return limit >= 0.0 ? new WallSoftness(fields.Key, stiffness, limit, tip)
                 : throw fields.Wrong(Limit, "a number >= 0 (m)");
+        }
+
+        /// <summary>Reads the regions of a vessel with a centreline: each has the branches, or the branch of the end,
+        /// that it names.</summary>
+        /// <exception cref="ParameterException">There is no such branch, or the vessel has no anatomy or is rigid.
+        /// </exception>
+        public static void ReadRegions(JsonFields fields, WallSoftness? soft, Anatomy? anatomy)
+        {
+            List<JsonFields> regions = fields.Items(Regions);
+            if (regions.Count == 0)
+            {
+                return;
+            }
+            if (soft == null || anatomy == null)
+            {
+                throw fields.Wrong(Regions, soft == null ? "a wallStiffness or a modulus of the rest of the vessel"
+                    : "an anatomy beside it, which has the branches");
+            }
+            var stiffness = new double[anatomy.Points.Length];
+            Array.Fill(stiffness, soft.Stiffness);
+            foreach (JsonFields region in regions)
+            {
+                region.Allow("branch", "end", Stiffness, Modulus, Thickness, Radius, Surrounding);
+                double own = region.Has(Stiffness) ? Positive(region, Stiffness, "Pa") : OfTissue(region);
+                int branch = BranchOf(region, anatomy);
+                for (int k = 0; k < stiffness.Length; k++)
+                {
+                    stiffness[k] = anatomy.Branches[k] == branch ? own : stiffness[k];
+                }
+            }
+            soft.Regions = new WallRegions(anatomy.Points, anatomy.Radii, stiffness);
+        }
+
+        private static int BranchOf(JsonFields region, Anatomy anatomy)
+        {
+            string key = region.Has("end") ? "end" : "branch";
+            string name = region.Text(key);
+            VesselEnd? end = key == "end" ? anatomy.Find(name) : null;
+            int branch = end != null ? anatomy.Branches[end.Point] : key == "end" ? -1
+                : anatomy.BranchNames.ToList().FindIndex(
+                    own => string.Equals(own, name, StringComparison.OrdinalIgnoreCase));
+            return branch >= 0 ? branch : throw region.Wrong(key, key == "end" ? "one of the ends " + anatomy.List()
+                : "one of the branches " + string.Join(", ", anatomy.BranchNames.Take(12)));
         }
 
         private static double OfTissue(JsonFields fields)

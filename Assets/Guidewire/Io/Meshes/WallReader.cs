@@ -31,6 +31,7 @@ namespace Guidewire.Io
                 ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"), last);
                 vessel.FrictionCoefficient = Friction(fields);
                 vessel.Softness = SoftnessReader.Read(fields);
+                SoftnessReader.ReadRegions(fields, vessel.Softness, values.Anatomy);
                 walls.Add(vessel);
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);
@@ -75,7 +76,7 @@ namespace Guidewire.Io
                         return Tube(fields, scene, placement);
                     case "mesh":
                         Allow(fields, "file", "metresPerUnit", "openRims",
-                            "anatomy", Sha256);
+                            "anatomy", SoftnessReader.Regions, Sha256);
                         return Mesh(fields, scene, placement, fileSource, last);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");

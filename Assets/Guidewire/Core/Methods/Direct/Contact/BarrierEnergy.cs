@@ -18,12 +18,8 @@ namespace Guidewire.Core
     /// changes no value. The result for one shape is cached until another is evaluated.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
     {
-        private const double LeftOfGap = 0.3;     // the least that a step leaves
-        private const double MostLeft = 0.2;      // of the barrier's distance
         private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
-        private const double Resolved = 1e-3;     // of the clearance: approaches below it are ignored
-        private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
         private const double QuickFraction = 0.9;    // of a gap known only approximately
         private const int MostCuts = 40;             // of a motion out of a sheath
 
@@ -136,6 +132,15 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override void BeginStep(RodShape shape, double dt)
+        {
+            foreach (WallLaw law in _laws)
+            {
+                _isKnown &= !law.FollowRegions(shape);
+            }
+        }
+
+        /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
             Update(shape);
@@ -238,7 +243,7 @@ namespace Guidewire.Core
                 {
                     radius = _units * law.RadiusOf(j);
                     fraction = MaxStepOf(w, j, fraction, radius, ref gap);
-                    left = Left(gap, law.DistanceOf(j));
+                    left = law.LeftOf(j, gap);
                 }
                 if (_walls[w].IsSurface && (gap != 0.0 || gapBefore != 0.0))
                 {
@@ -262,7 +267,7 @@ namespace Guidewire.Core
                 Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
-            double most = motion + _units * (_laws[w].RadiusOf(j) + MostLeft * _laws[w].DistanceOf(j));
+            double most = motion + _laws[w].MostClearance(j);
             bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
@@ -283,10 +288,10 @@ namespace Guidewire.Core
 
         private double MaxStepOf(int w, int j, double fraction, double radius, double gap, int hint)
         {
-            double left = Left(gap, _laws[w].DistanceOf(j));
+            double left = _laws[w].LeftOf(j, gap);
+            double resolution = WallLaw.Resolution(radius, gap, left);
             return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1],
-                radius + left, Resolution(radius, gap, left), hint, _near.FeaturesAlong(w, j, _x, _to, fraction),
-                fraction) : 0.0;
+                radius + left, resolution, hint, _near.FeaturesAlong(w, j, _x, _to, fraction), fraction) : 0.0;
         }
 
         private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap, double left)
@@ -298,18 +303,8 @@ namespace Guidewire.Core
                 return fraction;
             }
             return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _x[i], _to[i], _to[i], clearance,
-                Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction) : 0.0;
-        }
-
-        // What a step leaves of a gap, units.
-        private double Left(double gap, double distance)
-        {
-            return Math.Min(LeftOfGap * gap, MostLeft * _units * distance);
-        }
-
-        private static double Resolution(double radius, double gap, double left)
-        {
-            return Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
+                WallLaw.Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction)
+                : 0.0;
         }
 
         private void Update(RodShape shape)

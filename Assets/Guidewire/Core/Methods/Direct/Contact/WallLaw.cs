@@ -19,12 +19,21 @@ namespace Guidewire.Core
     internal sealed class WallLaw
     {
         private const double BarrierOfSpring = 0.3;
+        private const double LeftOfGap = 0.3;     // the least that a step leaves
+        private const double MostLeft = 0.2;      // of the barrier's distance
+        private const double Resolved = 1e-3;     // of the clearance: approaches below it are ignored
+        private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
 
+        private readonly double _units;           // per metre
         private readonly double[] _nodeRadius;    // m
         private readonly double[] _elementRadius;
         private readonly Barrier[] _node;
+        private readonly Barrier[] _current;      // the same, by the regions where the nodes are
+        private readonly double[] _factor;        // by node: the region's stiffness over the wall's
         private readonly Barrier[] _element;      // of a soft wall: by weight and radian
         private readonly double[] _length;        // of the elements, units; empty for a rigid wall
+        private readonly WallRegions? _regions;
+        private readonly double _stiffness;       // K where there are none, Pa
 
         /// <summary>That of a wall on a rod.</summary>
         /// <param name="rod">The wire.</param>
@@ -36,16 +45,22 @@ namespace Guidewire.Core
         {
             int n = rod.ElementCount;
             Wall = wall;
+            _units = units;
             _nodeRadius = nodeRadius;
             _elementRadius = rod.Radius;
             _length = Array.Empty<double>();
             _node = new Barrier[n + 1];
             _element = new Barrier[n];
+            _current = wall.Softness?.Regions == null ? _node : new Barrier[n + 1];
+            _factor = new double[n + 1];
+            Array.Fill(_factor, 1.0);
             Array.Fill(_node, rigid);
             Array.Fill(_element, rigid);
             if (wall.Softness is WallSoftness soft)
             {
                 IsSoft = true;
+                _regions = soft.Regions;
+                _stiffness = soft.Stiffness;
                 _length = Array.ConvertAll(rod.Length, length => units * length);
                 double thinnest = double.PositiveInfinity;
                 Array.ForEach(rod.Radius, radius => thinnest = Math.Min(thinnest, radius));
@@ -64,6 +79,7 @@ namespace Guidewire.Core
                     _element[j] = Soft(soft, isMoved, soft.TipLength, rod.Radius[j], out _elementRadius[j]);
                 }
             }
+            Array.Copy(_node, _current, n + 1);
         }
 
         /// <summary>Those of all walls.</summary>
@@ -121,7 +137,7 @@ namespace Guidewire.Core
         /// <summary>Of the gap of node i.</summary>
         public ref readonly Barrier OfNode(int i)
         {
-            return ref _node[i];
+            return ref _current[i];
         }
 
         /// <summary>Of the gap of element j, but for how stiff it is.</summary>
@@ -139,7 +155,37 @@ namespace Guidewire.Core
         /// <summary>Of the gap of element j at an edge of the wall.</summary>
         public Barrier OfEdge(int j, in EdgeContact edge)
         {
-            return IsSoft ? _element[j].Times(edge.TurnUnder(_length[j])) : _element[j];
+            return IsSoft ? _element[j].Times(_factor[j] * edge.TurnUnder(_length[j])) : _element[j];
+        }
+
+        /// <summary>What a step leaves of a gap of element j, units.</summary>
+        public double LeftOf(int j, double gap)
+        {
+            return Math.Min(LeftOfGap * gap, MostLeft * _units * _element[j].Distance);
+        }
+
+        /// <summary>The most that a step leaves of the distance of element j, units.</summary>
+        public double MostClearance(int j)
+        {
+            return _units * (_elementRadius[j] + MostLeft * _element[j].Distance);
+        }
+
+        /// <summary>Approaches of a step that are ignored, units.</summary>
+        public static double Resolution(double radius, double gap, double left)
+        {
+            return Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
+        }
+
+        /// <summary>Takes the stiffness of the wall where the nodes are: it stays that for a step.</summary>
+        /// <returns>Whether the wall has regions.</returns>
+        public bool FollowRegions(RodShape shape)
+        {
+            for (int i = 0; i < _node.Length && _regions != null; i++)
+            {
+                _factor[i] = _regions.StiffnessAt(_units * shape.X[i]) / _stiffness;
+                _current[i] = _node[i].Times(_factor[i]);
+            }
+            return _regions != null;
         }
 
         /// <summary>By how much the wall is displaced at a gap, m.</summary>

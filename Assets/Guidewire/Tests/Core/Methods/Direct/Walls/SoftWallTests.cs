@@ -83,13 +83,8 @@ namespace Guidewire.Core.Tests
                 Stiffness, 100.0, 0.7) };
             MaterialRod rod = MaterialRod.Round(N, 1.2, Radius, 1e6, 1e6, 1e3);
             var energy = new BarrierEnergy(rod, new ContactShape[] { plane }, 1.0, new Barrier(0.1, 10.0));
-            var shape = new RodShape(N);
             const double sunk = 1e-4;
-            for (int i = 0; i <= N; i++)
-            {
-                shape.X[i] = new Vector3d(0.0, Radius - sunk, 0.2 * i);
-            }
-            Array.Fill(shape.Q, Quaterniond.Identity);
+            RodShape shape = Lying(sunk);
             double[] length = { 0.1, 0.2, 0.2, 0.2, 0.2, 0.2, 0.7 };
             StructList<WallContact> contacts = energy.ContactsOf(shape);
             Assert.That(contacts.Count, Is.EqualTo(N + 1));
@@ -98,6 +93,28 @@ namespace Guidewire.Core.Tests
                 Assert.That(contacts[i].Displacement, Is.EqualTo(sunk).Within(1e-12));
                 double force = Stiffness * length[i] * sunk;
                 Assert.That(contacts[i].Force, Is.EqualTo(force).Within(2e-6 * force));
+            }
+        }
+
+        [Test]
+        public void Regions_GiveEachNodeTheStiffnessOfItsSphere()
+        {
+            var regions = new WallRegions(new[] { Vector3d.Zero, new Vector3d(0.0, 0.0, 0.9) }, new[] { 0.3, 0.6 },
+                new[] { Stiffness, 5.0 * Stiffness });
+            var plane = new PlaneShape(Vector3d.Zero, Vector3d.UnitY)
+            {
+                Softness = new WallSoftness("vessel", Stiffness, 100.0, 0.1) { Regions = regions },
+            };
+            MaterialRod rod = MaterialRod.Round(N, 1.2, Radius, 1e6, 1e6, 1e3);
+            var energy = new BarrierEnergy(rod, new ContactShape[] { plane }, 1.0, new Barrier(0.1, 10.0));
+            RodShape shape = Lying(1e-4);
+            energy.BeginStep(shape, 1.0);
+            StructList<WallContact> contacts = energy.ContactsOf(shape);
+            for (int i = 1; i < N; i++)
+            {
+                // The powers are equal at z = 0.3.
+                double expected = Stiffness * 0.2 * 1e-4 * (0.2 * i < 0.3 ? 1.0 : 5.0);
+                Assert.That(contacts[i].Force, Is.EqualTo(expected).Within(2e-6 * expected), "node " + i);
             }
         }
 
@@ -123,6 +140,17 @@ namespace Guidewire.Core.Tests
         public void OtherWalls_DoNotMoveOut([Values("cube", "sphere", "cone")] string name)
         {
             Assert.That(TestShapes.Make(name).MovedOut(0.1), Is.Null);
+        }
+
+        private static RodShape Lying(double sunk)
+        {
+            var shape = new RodShape(N);
+            for (int i = 0; i <= N; i++)
+            {
+                shape.X[i] = new Vector3d(0.0, Radius - sunk, 0.2 * i);
+            }
+            Array.Fill(shape.Q, Quaterniond.Identity);
+            return shape;
         }
 
         private static BarrierEnergy Create(ContactShape wall, double limit, int seed, out RodShape shape)
