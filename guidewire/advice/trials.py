@@ -9,7 +9,7 @@ other n or dt counts by how far it is from it.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -81,6 +81,8 @@ def candidates(scene: Values) -> list[Trial]:
     return list(found.values())
 
 
+_SOFTNESS = ("wallStiffness", "softLimit", "tipLength", "modulus", "wallThickness", "lumenRadius", "surroundingModulus",
+             "regions")
 _VARIED = ("solver", "integrator", "numberRodElements", "catheters", "timeStep", "constraintSolverSteps", "substeps",
            "elementContact", *_STIFFNESSES)
 
@@ -92,7 +94,8 @@ def parts(scene: Values) -> list[Trial]:
         ("iterations m, halved", _over(scene, "constraintSolverSteps", 0.5)),
         ("substeps, halved", _over(scene, "substeps", 0.5)),
         ("gravity, left out", _without(scene, "gravity", [0.0, 0.0, 0.0])),
-        ("friction, left out", _smooth(scene)),
+        ("friction, left out", _without_members(scene, ("frictionCoefficient", "lumenFriction"))),
+        ("walls that give way, as rigid ones", _without_members(scene, _SOFTNESS)),
         ("twist by the drive, left out", _without(scene, "twistPerStep", 0.0)),
         ("local element size, left out", _even(scene)),
         ("catheters, left out", {"catheters": []} if scene.get("catheters") else None),
@@ -243,21 +246,18 @@ def _without(scene: Values, key: str, neutral: Any) -> dict[str, Any] | None:
     return {key: neutral} if key in scene and scene[key] != neutral else None
 
 
-def _smooth(scene: Values) -> dict[str, Any] | None:
-    """Walls and lumens without friction."""
-    rough = ("frictionCoefficient", "lumenFriction")
+def _without_members(scene: Values, members: Sequence[str]) -> dict[str, Any] | None:
+    """Vessel, obstacles and catheters without these members; None where none of them has any."""
+    def plain(part: Values) -> dict[str, Any]:
+        return {key: value for key, value in part.items() if key not in members}
 
-    def plain(wall: Values) -> dict[str, Any]:
-        return {key: value for key, value in wall.items() if key not in rough}
-
-    vessel, obstacles = scene.get("vessel"), scene.get("obstacles") or []
     changed: dict[str, Any] = {}
-    if any(one.get(key) for one in scene.get("catheters") or () for key in rough):
-        changed["catheters"] = [plain(one) for one in scene["catheters"]]
-    if vessel and vessel.get("frictionCoefficient"):
+    for key in ("catheters", "obstacles"):
+        if any(one.get(member) for one in scene.get(key) or () for member in members):
+            changed[key] = [plain(one) for one in scene[key]]
+    vessel = scene.get("vessel") or {}
+    if any(vessel.get(member) for member in members):
         changed["vessel"] = plain(vessel)
-    if any(wall.get("frictionCoefficient") for wall in obstacles):
-        changed["obstacles"] = [plain(wall) for wall in obstacles]
     return changed or None
 
 

@@ -155,8 +155,19 @@ def test_parts_are_those_that_the_scene_has() -> None:
     more = {**bare, "massDamping": 1.0, "vessel": rough, "wireSections": [{"from": 0, "to": 1, "numberRodElements": 4}]}
     changed = {trial.name: trial.changed for trial in trials.parts(more)}
     assert changed["friction, left out"] == {"vessel": {"shape": "plane"}}
+    assert "walls that give way, as rigid ones" not in changed
     assert changed["local element size, left out"] == {"wireSections": []}
     assert "rod elements n, halved" not in changed and changed["drag, left out"] == {"massDamping": 0.0}
+
+
+def test_soft_walls_are_tried_as_rigid_ones() -> None:
+    soft = {"shape": "mesh", "wallStiffness": 1e5, "softLimit": 1e-4, "regions": [{"branch": "a", "wallStiffness": 1e4}]}
+    scene = {"solver": "direct", "numberRodElements": 8, "timeStep": 0.1, "maxSimulationSteps": 10, "shearModulus": 2.0,
+             "shearFactor": 0.9, "massDamping": 0.0, "gravity": [0.0, 0.0, 0.0], "vessel": soft,
+             "obstacles": [{"shape": "sphere", "wallStiffness": 1e5, "frictionCoefficient": 0.1}]}
+    changed = {trial.name: trial.changed for trial in trials.parts(scene)}
+    assert changed["walls that give way, as rigid ones"] == {
+        "vessel": {"shape": "mesh"}, "obstacles": [{"shape": "sphere", "frictionCoefficient": 0.1}]}
 
 
 def test_elements_of_a_catheter_change_with_those_of_the_wire() -> None:
