@@ -161,7 +161,8 @@ def test_parts_are_those_that_the_scene_has() -> None:
 
 
 def test_soft_walls_are_tried_as_rigid_ones() -> None:
-    soft = {"shape": "mesh", "wallStiffness": 1e5, "softLimit": 1e-4, "regions": [{"branch": "a", "wallStiffness": 1e4}]}
+    soft = {"shape": "mesh", "wallStiffness": 1e5, "softLimit": 1e-4,
+            "regions": [{"branch": "a", "wallStiffness": 1e4}]}
     scene = {"solver": "direct", "numberRodElements": 8, "timeStep": 0.1, "maxSimulationSteps": 10, "shearModulus": 2.0,
              "shearFactor": 0.9, "massDamping": 0.0, "gravity": [0.0, 0.0, 0.0], "vessel": soft,
              "obstacles": [{"shape": "sphere", "wallStiffness": 1e5, "frictionCoefficient": 0.1}]}
