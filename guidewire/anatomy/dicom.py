@@ -19,12 +19,13 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.anatomy.mesh import AnatomyError
+from guidewire.anatomy.mesh import FARTHEST, AnatomyError
 from guidewire.anatomy.voxels import Voxels, check_count
 
 _MOST_FILES = 20_000
 _LISTED = 8
 _FEWEST = 3  # slices of a volume
+_NAME = 64  # characters of a description, as many as DICOM allows
 _SAME = 1e-4  # of a direction's components
 _EVEN, _OFF = 0.02, 0.1  # of the median step, and of a pixel: by how much a slice may lie elsewhere
 _TAGS = ["SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID", "SeriesNumber", "SeriesDescription", "Modality",
@@ -56,13 +57,13 @@ class _Stack:
 
     @property
     def description(self) -> str:
-        return " ".join(str(self.head.get("SeriesDescription", "")).split())
+        return " ".join(str(self.head.get("SeriesDescription", "")).split())[:_NAME]
 
     def __str__(self) -> str:
         head = self.head
         name = f"'{self.description}'" if self.description else f"series {head.get('SeriesNumber', '-')}"
         count = len(self.slices)
-        return (f"{name}, {head.get('Modality', '')} of {count} slice{'s' if count > 1 else ''} of {head.Columns} x "
+        return (f"{name}, {head.get('Modality', None) or 'image'} of {count} slice{'s' if count > 1 else ''} of {head.Columns} x "
                 f"{head.Rows}, {_localiser(head)}{float(head.PixelSpacing[0]):.3g} mm")
 
 
@@ -143,6 +144,10 @@ def _check_kind(head: Any) -> None:
             raise AnatomyError(f"it has no {name}, so nothing says where its pixels lie: the series as the scanner "
                                "wrote it is needed")
     turn = np.array(head.ImageOrientationPatient, dtype=float).reshape(2, 3)
+    if np.abs(np.array(head.ImagePositionPatient, dtype=float)).max() > FARTHEST:
+        raise AnatomyError(f"its ImagePositionPatient is beyond {FARTHEST:g} mm")
+    if min(int(head.Rows), int(head.Columns)) < 1:
+        raise AnatomyError(f"{head.Columns} x {head.Rows} pixels")
     if not np.allclose(turn @ turn.T, np.eye(2), atol=1e-2) or min(map(float, head.PixelSpacing)) <= 0.0:
         raise AnatomyError("its ImageOrientationPatient is no two directions at right angles, or its PixelSpacing is "
                            "not above 0")

@@ -71,7 +71,7 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
     ------
     AnatomyError : no voxel, or every voxel, is in the vessel, or there is no such region; or it is not said which.
     """
-    asked, others = _inside(image, taking)
+    asked, left_out = _inside(image, taking)
     regions, count = label_regions(asked, structure=_AROUND)
     sizes = np.bincount(regions.ravel())[1:]
     order = np.argsort(-sizes, kind="stable")
@@ -109,8 +109,6 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
                      f"{_middle(filled & ~whole, to_part)}")
     notes.append("volume: voxels {:.5g} {unit}3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} {unit}3 "
                  "({:+.2%})".format(*volumes, volumes[-1] / volumes[0] - 1.0, unit=unit))
-    left_out = [*image.left_out, *([f"labels {', '.join(others[:_LISTED])}{', ..' if len(others) > _LISTED else ''}"]
-                                   if others else [])]
     if count > 1:
         listed = [f"{k} of {sizes[at]} voxels around {_middle(regions == 1 + at, image.to_space)}"
                   for k, at in enumerate(order[:_LISTED], 1)]
@@ -120,7 +118,7 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
     axes = image.to_space[:3, :3] / spacing
     vertices = mesh.vertices @ axes.T + image.to_space[:3, 3]
     turned = Mesh(vertices, mesh.triangles if np.linalg.det(axes) > 0.0 else mesh.triangles[:, ::-1])
-    return Taken(turned, [*image.notes, *notes], left_out, inside, asked & ~inside)
+    return Taken(turned, [*image.notes, *notes], [*image.left_out, *left_out], inside, asked & ~inside)
 
 
 def _volume(mesh: Mesh, image: Image, spacing: np.ndarray) -> float:
@@ -160,9 +158,9 @@ def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray,
         *lines[:_LISTED], f"{len(lines) - _LISTED} further parts were joined so"]
 
 
-def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, tuple[str, ...]]:
-    """(i, j, k): the voxels that are asked for; and names of segments that are not."""
-    values, others = image.values, ()
+def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, list[str]]:
+    """(i, j, k): the voxels that are asked for; and a line for each kind that is not."""
+    values, left_out = image.values, []
     if taking.threshold is not None:
         if values.ndim == 4:
             raise AnatomyError("--threshold is of an image: this is a segmentation; --segment takes one of its "
@@ -170,6 +168,8 @@ def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, tuple[str, ...]]:
         inside, asked = values > taking.threshold, f"--threshold {taking.threshold:g}: "
     elif taking.labels is not None or taking.segments is not None or values.ndim == 4:
         inside, asked, others = voxels_with(image, taking.labels, taking.segments)
+        if others:
+            left_out.append(f"labels {', '.join(others[:_LISTED])}{', ..' if len(others) > _LISTED else ''}")
     else:
         found = values_of(values)
         if len(found) > 2:
@@ -177,12 +177,13 @@ def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, tuple[str, ...]]:
                                "--label N for a mask, or --threshold T for an image")
         inside, asked = values != 0, ""
     if taking.box is not None:
-        inside = _in_box(inside, image, taking.box)
+        whole, inside = inside, _in_box(inside, image, taking.box)
+        left_out.append(f"{int(whole.sum() - inside.sum())} voxels outside of --box")
         asked += "--box: "
     if not inside.any() or inside.all():
         raise AnatomyError(f"{asked}{'no' if not inside.any() else 'every'} voxel is in the vessel; the values go from "
                            f"{values.min():g} to {values.max():g}")
-    return inside, others
+    return inside, left_out
 
 
 def _in_box(inside: np.ndarray, image: Image, box: np.ndarray) -> np.ndarray:

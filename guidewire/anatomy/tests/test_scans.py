@@ -169,6 +169,16 @@ def with_other_sizes_of_pixels(folder: Path):
     return "its PixelSpacing is not above 0"
 
 
+def without_pixels(folder: Path):
+    scans.write_dicom(folder, SMALL, changed={"Rows": 0})
+    return "no DICOM slices here, but 7 files: 5 x 0 pixels"
+
+
+def far_away(folder: Path):
+    scans.write_dicom(folder, SMALL, changed={"ImagePositionPatient": ["1e300", "0", "0"]})
+    return "its ImagePositionPatient is beyond"
+
+
 def of_nothing(folder: Path):
     folder.mkdir()
     return "no DICOM slices here: a folder with the files of a series is needed"
@@ -182,7 +192,7 @@ def with_slopes_of_their_own(folder: Path):
 
 FOLDERS = [with_a_missing_slice, with_two_spacings, with_a_localiser, with_a_tilted_gantry, of_lossless_jpeg,
            of_two_series, of_two_times, with_copies, without_places, in_colours, of_many_frames, of_a_segmentation,
-           of_one_slice, that_breaks_off, with_a_slice_beside, with_other_sizes_of_pixels, of_nothing,
+           of_one_slice, that_breaks_off, with_a_slice_beside, with_other_sizes_of_pixels, of_nothing, without_pixels, far_away,
            with_slopes_of_their_own]
 
 

@@ -61,8 +61,10 @@ def test_the_picture_has_what_is_taken_what_is_left_out_the_box_and_the_seed() -
     values = np.zeros((12, 10, 14))
     values[2:5, 2:5, 2:12], values[7:10, 7:9, 2:12] = 300.0, 900.0
     image = Image(values, np.diag([0.5, 0.6, 0.7, 1.0]), Axes("LPS"))
-    taking = Taking(threshold=200.0, seed=np.array([1.5, 1.8, 4.2]), box=np.array([[0.0, 0.0, 0.0], [9.0, 9.0, 9.0]]))
-    figure = draw_taken(image, mesh_of_image(image, taking), taking, "scan")
+    taking = Taking(threshold=200.0, seed=np.array([1.5, 1.8, 4.2]), box=np.array([[0.0, 0.0, 0.0], [4.1, 9.0, 9.0]]))
+    taken = mesh_of_image(image, taking)
+    assert taken.left_out[0] == "20 voxels outside of --box"    # those of x = 4.5 in the second block
+    figure = draw_taken(image, taken, taking, "scan")
     panels = figure.axes
     assert len(panels) == 6 and "orange is taken (90 voxels)" in figure._suptitle.get_text()
     assert "[1.5, 1.8, 4.2]" in figure._suptitle.get_text()
