@@ -11,8 +11,8 @@ namespace Guidewire.Benchmarks
         private static readonly int[] Elements = { 1, 2, 3, 5, 8, 12, 16, 24, 30, 60, 300, 1000, 10000 };
         private static readonly int[] Iterations = { 1, 2, 3, 4, 5, 8, 10, 16, 20, 50, 500 };
         private const double SlowerLimit = 1.05;
-        private const int LeastWork = 15000;       // element-iterations timed at a time
-        private const int MostWork = 600000;
+        private const int MinWork = 15000;       // element-iterations timed at a time
+        private const int MaxWork = 600000;
 
         /// <summary>Prints what the lanes gain, what filling them costs at few iterations, and where the choice between
         /// them and the scalar sweeps loses most.</summary>
@@ -59,7 +59,7 @@ namespace Guidewire.Benchmarks
                 foreach (int m in Iterations)
                 {
                     var fastest = new SteppedWire(n, m, scalar => IterationChoice.Fastest(scalar, m));
-                    if (fastest.Sweeps is ScalarIterations || (double)n * m > MostWork)
+                    if (fastest.Sweeps is ScalarIterations || (double)n * m > MaxWork)
                     {
                         continue;
                     }
@@ -88,7 +88,7 @@ namespace Guidewire.Benchmarks
 
         private static int Repeats(int n, int m)
         {
-            return Math.Max(1, LeastWork / (n * m));
+            return Math.Max(1, MinWork / (n * m));
         }
     }
 }

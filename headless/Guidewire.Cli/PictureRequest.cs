@@ -53,10 +53,10 @@ namespace Guidewire.Cli
                     view.FieldOfView = Number(name, value, double.Epsilon, 1e6, "a number > 0 and <= 1e6 (mm)");
                     break;
                 case "pixels":
-                    double pixels = Number(name, value, 1.0, CArm.MostPixels, "a whole number from 1 to "
-                        + CArm.MostPixels);
+                    double pixels = Number(name, value, 1.0, CArm.MaxPixels, "a whole number from 1 to "
+                        + CArm.MaxPixels);
                     view.Pixels = value.Type == JTokenType.Integer ? (int)pixels
-                        : throw Wrong(name, value, "a whole number from 1 to " + CArm.MostPixels);
+                        : throw Wrong(name, value, "a whole number from 1 to " + CArm.MaxPixels);
                     break;
                 case "vessel":
                     int word = Array.FindIndex(Vessels, pair => value.Type == JTokenType.String

@@ -6,7 +6,7 @@ namespace Guidewire.UnityCheck
     internal sealed class Checker
     {
         /// <summary>Largest number of errors reported of one source; more say nothing new.</summary>
-        private const int MostErrors = 20;
+        private const int MaxErrors = 20;
 
         private readonly Sources _sources = new Sources();
 
@@ -43,7 +43,7 @@ namespace Guidewire.UnityCheck
         private static void CheckSource(Source source, Reply reply)
         {
             foreach (Diagnostic error in source.Model.GetDiagnostics()
-                .Where(error => error.Severity == DiagnosticSeverity.Error).Take(MostErrors))
+                .Where(error => error.Severity == DiagnosticSeverity.Error).Take(MaxErrors))
             {
                 reply.Violations.Add(new Violation(source.Path, Source.Line(error.Location), error.Id,
                     error.GetMessage(System.Globalization.CultureInfo.InvariantCulture)));

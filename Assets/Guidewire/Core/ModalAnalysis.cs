@@ -10,7 +10,7 @@ namespace Guidewire.Core
     /// that of Rayleigh's quotient, of second order in the shape's.</remarks>
     public sealed class ModalAnalysis
     {
-        private const int MostIterations = 2000;
+        private const int MaxIterations = 2000;
         private const double Settled = 1e-13;  // relative change of w^2 in an iteration
         private const double Still = 1e-6;     // shift over L times the turn, of a mode of twist alone
 
@@ -53,10 +53,10 @@ namespace Guidewire.Core
         /// <summary>Positions of the n+1 nodes at rest, in units.</summary>
         public Vector3d[] Positions { get; }
 
-        /// <summary>Hz, ascending.</summary>
+        /// <summary>Has the natural frequencies, Hz, ascending.</summary>
         public double[] Frequencies { get; } = Array.Empty<double>();
 
-        /// <summary>Of each mode the shift of the n+1 nodes, the largest of length 1; 0 where a straight wire only
+        /// <summary>Has of each mode the shift of the n+1 nodes, the largest of length 1; 0 where a straight wire only
         /// twists.</summary>
         public Vector3d[][] Shapes { get; } = Array.Empty<Vector3d[]>();
 
@@ -115,7 +115,7 @@ namespace Guidewire.Core
             }
             _system.Project(v);
             double square = double.NaN;
-            for (int k = 0; k < MostIterations; k++)
+            for (int k = 0; k < MaxIterations; k++)
             {
                 RodVector[] next = TimesMass(v);
                 _system.Project(next);

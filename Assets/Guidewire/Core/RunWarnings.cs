@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
 
-        /// <summary>For runs of these parameters.</summary>
+        /// <summary>Collects the warnings of a run of these parameters.</summary>
         public RunWarnings(SimulationParameters parameters)
         {
             _length = parameters.Scene.GuidewireLength;

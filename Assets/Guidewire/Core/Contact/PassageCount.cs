@@ -31,7 +31,7 @@ namespace Guidewire.Core
             _left = new bool[_walls.Length * PointsOf(elementCount)];
         }
 
-        /// <summary>Passages so far.</summary>
+        /// <summary>Counts the passages so far.</summary>
         public long Total { get; private set; }
 
         /// <summary>Takes note of the points that leave across a wall in one part of a step.</summary>

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         // are a factor of 1000.
         private const double OddLengths = 100.0;
         private const double OddRadii = 300.0;
-        private const double LeastRange = 1e-9;  // units: search range for walls that the axis may cross
+        private const double MinRange = 1e-9;  // units: search range for walls that the axis may cross
 
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
         /// <exception cref="ArgumentException">There is no such start.</exception>
@@ -96,7 +96,7 @@ namespace Guidewire.Core
             if (!isInside && isReached && Array.Exists(x, node => wall.Contains(node)))
             {
                 // Behind a rim the free side of a distant wall means nothing.
-                bool isNear = wall.Nearest(a, b, Math.Max(least, LeastRange), ref hint, out SurfaceContact near);
+                bool isNear = wall.Nearest(a, b, Math.Max(least, MinRange), ref hint, out SurfaceContact near);
                 distance = isNear ? near.Distance : double.PositiveInfinity;
                 return distance > least;
             }

@@ -14,7 +14,7 @@ namespace Guidewire.Core
     /// amounts add up.</remarks>
     public sealed class ContrastFlow
     {
-        private const double MostCourant = 0.9;    // part of a cell's blood that is exchanged in a part of a step
+        private const double MaxCourant = 0.9;    // part of a cell's blood that is exchanged in a part of a step
         private const double LongestPass = 0.02;   // s that are carried on before they are spread
         private const double PerMillilitre = 1e3;  // mm^3
 
@@ -35,7 +35,7 @@ namespace Guidewire.Core
         private double _speed;                     // ml/s
         private double _time;
 
-        /// <summary>Blood without agent.</summary>
+        /// <summary>Begins with blood without agent.</summary>
         /// <param name="tree">The vessel.</param>
         /// <param name="flow">How blood flows.</param>
         /// <exception cref="ArgumentException">A value of the flow out of its range.</exception>
@@ -80,7 +80,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Number of cells.</summary>
+        /// <summary>Is the number of cells.</summary>
         public int Count => _cells.Count;
 
         /// <summary>Part of the blood in each cell that is agent, from 0 to 1.</summary>
@@ -98,7 +98,7 @@ namespace Guidewire.Core
         /// <summary>Washed out by the ends so far, ml.</summary>
         public double WashedOut { get; private set; }
 
-        /// <summary>In the vessel now, ml.</summary>
+        /// <summary>Is the agent that is in the vessel now, ml.</summary>
         public double Held
         {
             get
@@ -194,7 +194,7 @@ namespace Guidewire.Core
                 double flow = _cells.Shares[k] * inlet + _added[k] + (k == _place ? injected : 0.0);
                 most = Math.Max(most, flow / _volumes[k]);
             }
-            long parts = Math.Max(1, (long)Math.Ceiling(most * seconds / MostCourant));
+            long parts = Math.Max(1, (long)Math.Ceiling(most * seconds / MaxCourant));
             for (long part = 0; part < parts; part++)
             {
                 Carry(seconds / parts, injected);

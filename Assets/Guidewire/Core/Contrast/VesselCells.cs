@@ -63,16 +63,16 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Number of cells.</summary>
+        /// <summary>Is the number of cells.</summary>
         public int Count => Before.Length;
 
-        /// <summary>Their middles, mm.</summary>
+        /// <summary>Has the cells' middles, mm.</summary>
         public Vector3d[] Middles { get; }
 
-        /// <summary>Their radii, mm.</summary>
+        /// <summary>Has the cells' radii, mm.</summary>
         public double[] Radii { get; }
 
-        /// <summary>Their lengths, mm.</summary>
+        /// <summary>Has the cells' lengths, mm.</summary>
         public double[] Lengths { get; }
 
         /// <summary>The cell before each, smaller than its own number; -1 at the inlet.</summary>

@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// before it.</summary>
     public sealed class VesselTree
     {
-        /// <summary>A tree.</summary>
+        /// <summary>Makes a tree of points, radii and the index of the point before each.</summary>
         /// <param name="points">mm.</param>
         /// <param name="radii">Of the lumen at each, mm, above 0.</param>
         /// <param name="before">The point before each towards the inlet, smaller than its own number; -1 at the inlet,
@@ -36,10 +36,10 @@ namespace Guidewire.Core
             Before = before;
         }
 
-        /// <summary>mm.</summary>
+        /// <summary>Has the points of the centreline, mm.</summary>
         public Vector3d[] Points { get; }
 
-        /// <summary>Of the lumen at each point, mm.</summary>
+        /// <summary>Has the radius of the lumen at each point, mm.</summary>
         public double[] Radii { get; }
 
         /// <summary>The point before each; -1 at the inlet, the first.</summary>

@@ -37,10 +37,10 @@ namespace Guidewire.Core
         /// <summary>Points whose hull, widened by the radius, is the body; units.</summary>
         internal Vector3d[] Points => _points;
 
-        /// <summary>Units.</summary>
+        /// <summary>Is the radius by which the body is grown, units.</summary>
         internal double Radius => _radius;
 
-        /// <summary>A ball.</summary>
+        /// <summary>Makes a ball.</summary>
         public static ConvexObstacle Sphere(in Vector3d centre, double radius)
         {
             return new ConvexObstacle(new[] { centre }, radius);

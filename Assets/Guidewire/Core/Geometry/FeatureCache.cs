@@ -10,18 +10,18 @@ namespace Guidewire.Core
     internal sealed class FeatureCache
     {
         private const int Slots = 1 << 13;
-        private const int MostFeatures = 1 << 17;
+        private const int MaxFeatures = 1 << 17;
         private const int LongestList = 1 << 13;    // expected
-        private const int MostLists = 8;            // of all that a wire asks for at once
+        private const int MaxLists = 8;            // of all that a wire asks for at once
         private const double HalfDiagonal = 0.8661;    // of a lattice's cell, rounded up
         private readonly ContactShape _wall;
         private readonly double _size;
         private readonly double _skin;    // from a point of the lattice
         private readonly Cell[] _cells = new Cell[Slots];
-        private int _most = MostFeatures;
+        private int _most = MaxFeatures;
         private int _before;    // features at the last trim
 
-        /// <summary>For a wall that stays where it is.</summary>
+        /// <summary>Makes the cache of a wall that stays where it is.</summary>
         /// <param name="wall">A surface.</param>
         /// <param name="skin">Entries are valid within this distance of the query point at least, units.</param>
         public FeatureCache(ContactShape wall, double skin)
@@ -38,15 +38,15 @@ namespace Guidewire.Core
         /// <summary>How often the cache was cleared; what was found before then is invalid.</summary>
         public int Version { get; private set; }
 
-        /// <summary>The lists.</summary>
+        /// <summary>Has the lists of features, one behind the other.</summary>
         public StructList<WallFeature> Features { get; } =
-            new StructList<WallFeature>(MostFeatures + LongestList);
+            new StructList<WallFeature>(MaxFeatures + LongestList);
 
         /// <summary>Clears the cache where the lists have grown too long, but not before they hold several times what
         /// was queried since the last call: a wire of many elements in a fine mesh needs long lists.</summary>
         public void Trim()
         {
-            _most = Math.Max(_most, MostLists * (Features.Count - _before));
+            _most = Math.Max(_most, MaxLists * (Features.Count - _before));
             if (Features.Count > _most)
             {
                 Features.Clear();

@@ -14,13 +14,13 @@ namespace Guidewire.Core
             Distance = distance;
         }
 
-        /// <summary>Its number.</summary>
+        /// <summary>Is the feature's number in the wall.</summary>
         public int Index { get; }
 
         /// <summary>A distance, units, than which it was no nearer where it was found.</summary>
         public double Distance { get; }
 
-        /// <summary>By distance.</summary>
+        /// <summary>Orders features by distance.</summary>
         public int CompareTo(WallFeature other)
         {
             int byDistance = Distance.CompareTo(other.Distance);
@@ -49,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>Whether the features nearby are known; if not, the range is empty and meaningless.</summary>
         public bool IsKnown => _features != null;
 
-        /// <summary>First index.</summary>
+        /// <summary>Is the first index of the range.</summary>
         public int From { get; }
 
         /// <summary>Index behind the last.</summary>
@@ -62,7 +62,7 @@ namespace Guidewire.Core
         public int this[int index] => _features![index].Index;
 
         /// <summary>Lower bound of the present distance of the feature at an index, units.</summary>
-        public double LeastDistance(int index)
+        public double MinDistance(int index)
         {
             return _features![index].Distance - Moved;
         }

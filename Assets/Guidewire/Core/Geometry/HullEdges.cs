@@ -6,12 +6,12 @@ namespace Guidewire.Core
     /// <summary>The edges of the convex hull of some points.</summary>
     internal static class HullEdges
     {
-        private const double LeastAngle = 1e-6;   // radians, by which the hull turns at an edge
+        private const double MinAngle = 1e-6;   // radians, by which the hull turns at an edge
 
         /// <summary>An edge between two of the points; of a hull that is one point, from it to itself.</summary>
         public readonly struct Edge
         {
-            /// <summary>From one point to another.</summary>
+            /// <summary>Makes the edge from one point to another.</summary>
             public Edge(int start, int end, double angle)
             {
                 Start = start;
@@ -25,11 +25,11 @@ namespace Guidewire.Core
             /// <summary>Number of a point.</summary>
             public int End { get; }
 
-            /// <summary>By which the hull's surface turns there, radians, 0 to pi.</summary>
+            /// <summary>Is the angle by which the hull's surface turns there, radians, 0 to pi.</summary>
             public double Angle { get; }
         }
 
-        /// <summary>Every edge once.</summary>
+        /// <summary>Finds every edge once.</summary>
         /// <remarks>Seen along the line through two points, the hull is a flat one; the line is an edge where it is a
         /// corner of that, so that all other points lie in a sector of less than half a turn.</remarks>
         /// <param name="points">One or more.</param>
@@ -43,7 +43,7 @@ namespace Guidewire.Core
                 {
                     Vector3d along = points[j] - points[i];
                     if (along.Length > flatness && Sector(points, i, j, flatness) is double sector
-                        && Math.PI - sector > LeastAngle)
+                        && Math.PI - sector > MinAngle)
                     {
                         edges.Add(new Edge(i, j, Math.PI - sector));
                     }

@@ -12,16 +12,16 @@ namespace Guidewire.Core
         private readonly ContactShape _wall;
         private int _hint = -1;
 
-        /// <summary>In the lumen of this wall.</summary>
+        /// <summary>Makes a sphere in the lumen of this wall.</summary>
         public LumenSphere(ContactShape wall)
         {
             _wall = wall;
         }
 
-        /// <summary>Radius.</summary>
+        /// <summary>Is the sphere's radius.</summary>
         public double Width { get; set; } = double.PositiveInfinity;
 
-        /// <summary>Centre.</summary>
+        /// <summary>Is the sphere's centre.</summary>
         public Vector3d Centre { get; set; }
 
         /// <summary>Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough:

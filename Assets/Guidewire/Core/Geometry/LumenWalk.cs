@@ -24,9 +24,9 @@ namespace Guidewire.Core
         private const double ShortestStep = 0.02;    // of the width, at the end of a vessel
         private const double Same = 0.5;             // of the width: positions that count as one
         private const double Probe = 0.5;            // h over d
-        private const double LeastTurn = 0.02;       // rad, of e
+        private const double MinTurn = 0.02;       // rad, of e
         private const double EndLength = 3.0;        // widths before an end of the vessel that do not count
-        private const int MostSteps = 2000;
+        private const int MaxSteps = 2000;
         private const int Thirds = 16;               // of the last bracket
         private readonly LumenSphere _ball;
         private readonly double _above;
@@ -37,7 +37,7 @@ namespace Guidewire.Core
         private Vector3d _position;
         private Vector3d _along;
 
-        /// <summary>For a wall, and positions that are wider than a radius.</summary>
+        /// <summary>Makes the walk for a wall, past positions that are wider than a radius.</summary>
         public LumenWalk(ContactShape wall, double above)
         {
             _ball = new LumenSphere(wall);
@@ -96,7 +96,7 @@ namespace Guidewire.Core
             double travel = 0.0;
             bool isAside = false;
             last = double.PositiveInfinity;
-            for (int k = 0; k < MostSteps && fraction > ShortestStep && width <= WideningFactor * _narrowest; k++)
+            for (int k = 0; k < MaxSteps && fraction > ShortestStep && width <= WideningFactor * _narrowest; k++)
             {
                 _ball.Climb(centre + fraction * width * along, along, Fineness * width, 2.0 * WideningFactor * width);
                 double distance = Vector3d.Distance(centre, _ball.Centre);
@@ -214,7 +214,7 @@ namespace Guidewire.Core
             double h = Probe * width;
             Vector3d best = first;
             double most = Lesser(x, h * best);
-            for (double turn = 0.3; turn > LeastTurn; turn *= 0.5)
+            for (double turn = 0.3; turn > MinTurn; turn *= 0.5)
             {
                 Vector3d u = Vector3d.Perpendicular(best);
                 Vector3d v = Vector3d.Cross(best, u);

@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private const double Fineness = 0.005;
         private const double StepFraction = 0.25;   // from one position of the walk to the next
         private const double Ample = 4.0;            // radii, from which on nothing is centred
-        private const int MostSteps = 4000;
+        private const int MaxSteps = 4000;
         private readonly ContactShape _wall;
         private readonly LumenSphere _ball;
         private readonly double _radius;
@@ -78,7 +78,7 @@ namespace Guidewire.Core
             double narrowest = double.PositiveInfinity;
             Vector3d narrow = Centre;
             double gone = 0.0;
-            for (int k = 0; k < MostSteps && gone < travel && Width > Fineness * _radius; k++)
+            for (int k = 0; k < MaxSteps && gone < travel && Width > Fineness * _radius; k++)
             {
                 Vector3d before = Centre;
                 Vector3d next = before + (StepFraction * Math.Min(Width, Ample * _radius)) * along;

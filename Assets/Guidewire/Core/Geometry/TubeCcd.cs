@@ -18,11 +18,11 @@ namespace Guidewire.Core
     {
         private const int MaxHalvings = 14;
         private const int TimeHalvings = 6;
-        private const int MostParts = 32;         // of the time, between crossings of planes
-        private const int MostPieces = 64;        // of the segment
-        private const double LeastPart = 1e-6;    // of the time
-        private const double LeastFraction = 0.05;   // of what is proven: the least gain for which the search continues
-        private const double LeastGrowth = 0.25;
+        private const int MaxParts = 32;         // of the time, between crossings of planes
+        private const int MaxPieces = 64;        // of the segment
+        private const double MinPart = 1e-6;    // of the time
+        private const double MinFraction = 0.05;   // of what is proven: the least gain for which the search continues
+        private const double MinGrowth = 0.25;
         private const double SmallFraction = 0.01;   // below it, the segment is divided at the creases
         private const int CreaseIterations = 20;     // from the plane to the crease
         private readonly TubePiece[] _pieces;
@@ -37,7 +37,7 @@ namespace Guidewire.Core
         private double _clearance;
         private bool _isDividedAtCreases;
 
-        /// <summary>In these pieces.</summary>
+        /// <summary>Tests displacements in these pieces.</summary>
         public TubeCcd(TubePiece[] pieces, TubePlanes planes)
         {
             _pieces = pieces;
@@ -80,7 +80,7 @@ namespace Guidewire.Core
             double time = 0.0;
             double longest = 1.0;
             isTold = true;
-            for (int k = 0; k < MostParts; k++)
+            for (int k = 0; k < MaxParts; k++)
             {
                 double left = Math.Min(longest, 1.0 - time);
                 double untilA = _planes.Crossing(_a + time * _moveA, _moveA, first, left, out int firstAfter);
@@ -90,14 +90,14 @@ namespace Guidewire.Core
                 time += fraction * until;
                 if (fraction < 1.0)
                 {
-                    longest = until * Math.Max(LeastGrowth, Math.Min(fraction, 0.5));
-                    if (longest < LeastFraction * time || longest < LeastPart)
+                    longest = until * Math.Max(MinGrowth, Math.Min(fraction, 0.5));
+                    if (longest < MinFraction * time || longest < MinPart)
                     {
                         break;
                     }
                     continue;
                 }
-                if (time >= 1.0 - LeastPart)
+                if (time >= 1.0 - MinPart)
                 {
                     return ContactShape.NoImpact;
                 }
@@ -117,20 +117,20 @@ namespace Guidewire.Core
             TurnAlongTube(ref first, ref last);
             double time = 0.0;
             double longest = 1.0;
-            for (int k = 0; k < MostParts && time < 1.0 - LeastPart; k++)
+            for (int k = 0; k < MaxParts && time < 1.0 - MinPart; k++)
             {
                 first = Deepest(_a + time * _moveA, first);
                 last = Deepest(_b + time * _moveB, last);
                 double until = Math.Min(longest, 1.0 - time);
                 double fraction = PartFraction(first, last, time, time + until);
                 time += fraction * until;
-                longest = fraction < 1.0 ? until * Math.Max(LeastGrowth, Math.Min(fraction, 0.5)) : 2.0 * longest;
-                if (longest < Math.Max(LeastFraction * time, LeastPart))
+                longest = fraction < 1.0 ? until * Math.Max(MinGrowth, Math.Min(fraction, 0.5)) : 2.0 * longest;
+                if (longest < Math.Max(MinFraction * time, MinPart))
                 {
                     return time;
                 }
             }
-            return time >= 1.0 - LeastPart ? ContactShape.NoImpact : time;
+            return time >= 1.0 - MinPart ? ContactShape.NoImpact : time;
         }
 
         // A segment that runs back in the tube, from its other end.
@@ -166,7 +166,7 @@ namespace Guidewire.Core
         // The fraction of a part of the motion in which the ends stay in the same pieces.
         private double PartFraction(int first, int last, double from, double to)
         {
-            if (last < first || last - first > MostPieces)
+            if (last < first || last - first > MaxPieces)
             {
                 return 0.0;
             }

@@ -14,8 +14,8 @@ namespace Guidewire.Core
     internal sealed class TubeCreases
     {
         private const double Fade = 0.1;          // of the segment
-        private const double LeastAngle = 1e-9;   // radians
-        private const int MostIterations = 60;
+        private const double MinAngle = 1e-9;   // radians
+        private const int MaxIterations = 60;
         private readonly TubePiece[] _pieces;
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private readonly double[] _slack;         // by knot: the crease is no farther from that plane, units
         private readonly double[] _extent;        // by knot: and no farther from the knot, units
 
-        /// <summary>For this tube.</summary>
+        /// <summary>Finds the creases of this tube.</summary>
         public TubeCreases(TubeShape tube, TubePiece[] pieces, TubePlanes planes)
         {
             _planes = planes;
@@ -41,7 +41,7 @@ namespace Guidewire.Core
                 double turn = Math.Atan2(Vector3d.Cross(before, after).Length, Vector3d.Dot(before, after));
                 double narrows = (_radii[k] - _radii[k - 1]) / before.Length;
                 double widens = (_radii[k + 1] - _radii[k]) / after.Length;
-                _isCrease[k] = turn + Math.Asin(widens) - Math.Asin(narrows) > LeastAngle;
+                _isCrease[k] = turn + Math.Asin(widens) - Math.Asin(narrows) > MinAngle;
                 // At the inner side of a sharp bend the walls of two cylinders meet at r/cos(turn/2).
                 _extent[k] = _radii[k] * Math.Max(1.5, 1.5 / Math.Cos(0.5 * turn));
                 _slack[k] = 2.0 * _radii[k] * (Math.Abs(narrows) + Math.Abs(widens) + 1e-9);
@@ -185,7 +185,7 @@ namespace Guidewire.Core
             // Near the crossing: in the plane that halves the bend.
             double s = pastA < 0.0 && pastB > 0.0 ? pastA / (pastA - pastB) : 0.5;
             double resolution = 1e-15 * (_radii[k] + a.Length);
-            for (int i = 0; i < MostIterations; i++)
+            for (int i = 0; i < MaxIterations; i++)
             {
                 at = new Crossing(_pieces[k - 1], _pieces[k], Vector3d.Lerp(a, b, s), s);
                 if (Math.Abs(at.Difference) <= resolution)
@@ -205,7 +205,7 @@ namespace Guidewire.Core
             }
             // In the ball of the knot there is no crease.
             Vector3d m = at.First - at.Second;
-            return Vector3d.Dot(m, u) < 0.0 && m.Length > LeastAngle && at.Distance > -_radii[k];
+            return Vector3d.Dot(m, u) < 0.0 && m.Length > MinAngle && at.Distance > -_radii[k];
         }
 
         // Whether a segment that may cross certainly does so beyond the range, or in the ball of the knot, where there

@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly bool[] _isIn;             // by piece
         private readonly bool _hasAny;
 
-        /// <summary>Of the tube through these knots with these radii, units.</summary>
+        /// <summary>Finds the overlaps of the tube through these knots with these radii, units.</summary>
         public TubeOverlaps(Vector3d[] knots, double[] radii)
         {
             int count = knots.Length - 1;

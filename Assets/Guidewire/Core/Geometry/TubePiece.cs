@@ -7,10 +7,10 @@ namespace Guidewire.Core
     /// changes linearly. Lengths in units.</summary>
     internal readonly struct TubePiece
     {
-        /// <summary>First knot.</summary>
+        /// <summary>Is the first knot.</summary>
         public readonly Vector3d From;
 
-        /// <summary>Last knot.</summary>
+        /// <summary>Is the last knot.</summary>
         public readonly Vector3d To;
 
         private readonly Vector3d _axis;      // unit vector

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _knots;
         private readonly Vector3d[] _across;   // by knot; 0 at the ends
 
-        /// <summary>For these knots.</summary>
+        /// <summary>Makes the planes at these knots.</summary>
         public TubePlanes(Vector3d[] knots)
         {
             _knots = knots;

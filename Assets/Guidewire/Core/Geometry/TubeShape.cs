@@ -11,9 +11,9 @@ namespace Guidewire.Core
     /// element therefore touches with its ends or where two pieces' terms cross.</remarks>
     public sealed class TubeShape : ContactShape
     {
-        private const int MostCuts = 64;
-        private const int MostAdvances = 16;
-        private const double LeastAdvance = 0.01;    // of what is proven
+        private const int MaxCuts = 64;
+        private const int MaxAdvances = 16;
+        private const double MinAdvance = 0.01;    // of what is proven
         private readonly Vector3d[] _knots;
         private readonly double[] _radii;
         private readonly TubeTree _tree;
@@ -136,7 +136,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Least distance along segment a b, units.</summary>
-        internal double LeastDistance(in Vector3d a, in Vector3d b)
+        internal double MinDistance(in Vector3d a, in Vector3d b)
         {
             FindLeast(a, b, 0, double.PositiveInfinity, out _, out double distance);
             return distance;
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             hint = hint >= 0 && hint < _tree.Pieces.Length ? hint : 0;
             ref readonly TubePiece piece = ref _tree.Pieces[hint];
             return (piece.Distance(a) > 0.0 && piece.Distance(b) > 0.0) || AreDeeper(a, b, 0.0, ref hint)
-                || LeastDistance(a, b) > 0.0;
+                || MinDistance(a, b) > 0.0;
         }
 
         // Whether each piece from the deepest at one end to the deepest at the other holds the part of the segment
@@ -184,7 +184,7 @@ namespace Guidewire.Core
             var found = new FeatureRange(features, from, features.Count, 0.0);
             hint = Deepest(a, found, out double atA);
             Deepest(b, found, out double atB);
-            return Overlaps.Has(found) ? LeastDistance(a, b)
+            return Overlaps.Has(found) ? MinDistance(a, b)
                 : Math.Min(Math.Min(atA, atB), EdgeContacts.Nearest(a, b, found));
         }
 
@@ -310,7 +310,7 @@ namespace Guidewire.Core
             int piece = Guess(a0, hint);
             double time = 0.0;
             double left = 0.0;    // of the distance, above the clearance
-            for (int k = 0; k < MostAdvances; k++)
+            for (int k = 0; k < MaxAdvances; k++)
             {
                 double part = Ccd.SafeFraction(a, b, a1, b1, clearance, piece);
                 if (left > 0.0)
@@ -324,8 +324,8 @@ namespace Guidewire.Core
                 time += part * (1.0 - time);
                 a = Vector3d.Lerp(a0, a1, time);
                 b = Vector3d.Lerp(b0, b1, time);
-                left = LeastDistance(a, b) - clearance;
-                if (left <= resolution || part <= LeastAdvance * time)
+                left = MinDistance(a, b) - clearance;
+                if (left <= resolution || part <= MinAdvance * time)
                 {
                     break;
                 }
@@ -375,7 +375,7 @@ namespace Guidewire.Core
             double range, int cuts, ref double s, ref double distance, ref int piece)
         {
             double bound = 0.5 * (from.Distance + to.Distance - length * (to.S - from.S));
-            if (from.Piece == to.Piece || bound > range || bound >= distance - _tree.Resolution || cuts == MostCuts)
+            if (from.Piece == to.Piece || bound > range || bound >= distance - _tree.Resolution || cuts == MaxCuts)
             {
                 return;
             }

@@ -8,7 +8,7 @@ namespace Guidewire.Core
     /// of a long tube is skipped by one test. Nothing is allocated in a search.</remarks>
     internal sealed class TubeTree
     {
-        private const int MostSecants = 60;
+        private const int MaxSecants = 60;
         private readonly TubePiece[] _pieces;
         private readonly Vector3d[] _low;      // per node; the children of node i are 2 i + 1 and 2 i + 2
         private readonly Vector3d[] _high;
@@ -71,7 +71,7 @@ namespace Guidewire.Core
                 return over0 > 0.0 ? s1 : s0;
             }
             double s = s0;
-            for (int k = 0; k < MostSecants; k++)
+            for (int k = 0; k < MaxSecants; k++)
             {
                 s = s0 + (s1 - s0) * (over0 / (over0 - over1));
                 Vector3d x = Vector3d.Lerp(a, b, s);

@@ -40,7 +40,7 @@ namespace Guidewire.Core
         /// <summary>K by place instead; null where it is the same everywhere.</summary>
         public WallRegions? Regions { get; set; }
 
-        /// <summary>By how much a wall that stays where it is may be displaced by a wire of a radius, m.</summary>
+        /// <summary>Says by how much a wire of a radius may displace a wall that stays where it is, m.</summary>
         internal double MostOf(double radius)
         {
             return Limit > 0.0 && Limit < radius ? Limit : LimitOfRadius * radius;

@@ -19,17 +19,17 @@ namespace Guidewire.Core
         /// <param name="cranial">Degrees; caudal is negative.</param>
         /// <param name="centre">What is in the middle of the picture, units.</param>
         /// <param name="fieldOfView">Side of the square, units, above 0.</param>
-        /// <param name="pixels">Pixels of a side, from 1 to <see cref="MostPixels"/>.</param>
+        /// <param name="pixels">Pixels of a side, from 1 to <see cref="MaxPixels"/>.</param>
         /// <param name="axes">How the patient lies; null: unknown.</param>
         /// <exception cref="ArgumentException">A value out of its range.</exception>
         public CArm(double leftOblique, double cranial, in Vector3d centre, double fieldOfView, int pixels,
             PatientAxes? axes = null)
         {
-            if (!(fieldOfView > 0.0) || double.IsInfinity(fieldOfView) || pixels < 1 || pixels > MostPixels
+            if (!(fieldOfView > 0.0) || double.IsInfinity(fieldOfView) || pixels < 1 || pixels > MaxPixels
                 || !(Math.Abs(leftOblique) <= 360.0) || !(Math.Abs(cranial) <= 90.0) || !centre.IsFinite)
             {
                 throw new ArgumentException("a C-arm needs angles within 360 and 90 degrees, a finite centre, a field"
-                    + " of view above 0 and 1 to " + MostPixels + " pixels");
+                    + " of view above 0 and 1 to " + MaxPixels + " pixels");
             }
             LeftOblique = leftOblique;
             Cranial = cranial;
@@ -46,7 +46,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Most pixels of a picture's side.</summary>
-        public static int MostPixels => 2048;
+        public static int MaxPixels => 2048;
 
         /// <summary>LAO, degrees; RAO is negative.</summary>
         public double LeftOblique { get; }
@@ -66,7 +66,7 @@ namespace Guidewire.Core
         /// <summary>How the patient lies.</summary>
         public PatientAxes Axes { get; }
 
-        /// <summary>Pixels per unit.</summary>
+        /// <summary>Is the number of pixels per unit.</summary>
         public double Scale => Pixels / FieldOfView;
 
         /// <summary>A point in pixels: x to the right and y down from the upper left corner of the picture, and z along

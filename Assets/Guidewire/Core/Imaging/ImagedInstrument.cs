@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// between them its radii and its attenuation.</summary>
     public sealed class ImagedInstrument
     {
-        /// <summary>An instrument.</summary>
+        /// <summary>Makes an instrument as a picture shows it.</summary>
         /// <param name="positions">Points of the centreline, units; at least two.</param>
         /// <param name="radii">Outer radius of each element, units.</param>
         /// <param name="innerRadii">Radius of each element's lumen, units; 0: none.</param>

@@ -20,10 +20,10 @@ namespace Guidewire.Core
         /// <summary>Towards the patient's left side.</summary>
         public Vector3d Left { get; }
 
-        /// <summary>Towards the chest.</summary>
+        /// <summary>Points towards the chest.</summary>
         public Vector3d Chest { get; }
 
-        /// <summary>Towards the head.</summary>
+        /// <summary>Points towards the head.</summary>
         public Vector3d Head { get; }
 
         /// <summary>The axes that three letters say: where x, y and z point, with R and L, A and P, S and I; null where

@@ -22,7 +22,7 @@ namespace Guidewire.Core
             _rows = new float[pixels * pixels];
         }
 
-        /// <summary>Blurs.</summary>
+        /// <summary>Blurs a picture by the tube's spot.</summary>
         /// <param name="picture">Row by row.</param>
         /// <param name="deviation">Standard deviation, pixels, above 0.</param>
         public void Apply(float[] picture, double deviation)

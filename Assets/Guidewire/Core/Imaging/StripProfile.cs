@@ -12,7 +12,7 @@ namespace Guidewire.Core
         public const int Parts = 6;
 
         private const double Opaque = 1e-12;    // least part that passes
-        private const double MostSpread = 3.0;  // beyond that a part takes nearly all
+        private const double MaxSpread = 3.0;  // beyond that a part takes nearly all
 
         private readonly double _r;
         private readonly double _a;
@@ -77,7 +77,7 @@ namespace Guidewire.Core
                     lumen = nextLumen;
                 }
                 double nextSide = Wall(edge);
-                double spread = Math.Min(_perChord * Math.Abs(nextSide - side), MostSpread);
+                double spread = Math.Min(_perChord * Math.Abs(nextSide - side), MaxSpread);
                 side = nextSide;
                 double nextArea = Trapezoid(edge - distance, _one, _other);
                 double passed = Math.Exp(-(_perChord * wall / step + _even)) * (1.0 + spread * spread / 24.0);

@@ -58,7 +58,7 @@ namespace Guidewire.Core
         /// <summary>The catheter's n + 1 nodes, units.</summary>
         public Vector3d[] Positions { get; }
 
-        /// <summary>Its n elements.</summary>
+        /// <summary>Has the orientations of the catheter's n elements.</summary>
         public Quaterniond[] Orientations { get; }
 
         /// <summary>Force of the walls on each node in the last step, N, where it is the outermost instrument.
@@ -261,7 +261,7 @@ namespace Guidewire.Core
             _friction.Serialize(snapshot);
         }
 
-        /// <summary>Takes a moment.</summary>
+        /// <summary>Takes the state of a moment.</summary>
         /// <param name="own">Where the catheter is: its nodes and elements first.</param>
         /// <param name="inside">Sum of the forces of the hubs of all instruments inside, without friction, N.</param>
         internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, RodShape own, MaterialDrive drive,

@@ -15,13 +15,13 @@ namespace Guidewire.Core
             _timeStep = timeStep;
         }
 
-        /// <summary>Steps so far.</summary>
+        /// <summary>Counts the steps so far.</summary>
         public int StepCount => _step;
 
         /// <summary>t after them, s.</summary>
         public double Time => _originTime + (_step - _originStep) * _timeStep;
 
-        /// <summary>One step more.</summary>
+        /// <summary>Counts one step more.</summary>
         public void Advance()
         {
             _step++;

@@ -8,16 +8,16 @@ namespace Guidewire.Core
     /// body vectors to world vectors by v -> q v q*. Component order x, y, z, w as in Unity.</summary>
     public readonly struct Quaterniond : IEquatable<Quaterniond>
     {
-        /// <summary>First imaginary component.</summary>
+        /// <summary>Is the first imaginary component.</summary>
         public readonly double X;
 
-        /// <summary>Second imaginary component.</summary>
+        /// <summary>Is the second imaginary component.</summary>
         public readonly double Y;
 
-        /// <summary>Third imaginary component.</summary>
+        /// <summary>Is the third imaginary component.</summary>
         public readonly double Z;
 
-        /// <summary>Real component.</summary>
+        /// <summary>Is the real component.</summary>
         public readonly double W;
 
         /// <summary>The quaternion x i + y j + z k + w.</summary>
@@ -36,7 +36,7 @@ namespace Guidewire.Core
         /// <summary>q* = (-x, -y, -z, w), the inverse of a unit quaternion.</summary>
         public Quaterniond Conjugate => new Quaterniond(-X, -Y, -Z, W);
 
-        /// <summary>|q|^2.</summary>
+        /// <summary>Gives |q|^2.</summary>
         public double LengthSquared => X * X + Y * Y + Z * Z + W * W;
 
         /// <summary>(x, y, z), the imaginary part.</summary>

@@ -8,16 +8,16 @@ namespace Guidewire.Core
     /// lane holds the bits which plain doubles give.</summary>
     internal readonly struct Quaterniond4
     {
-        /// <summary>First imaginary components.</summary>
+        /// <summary>Has the first imaginary components.</summary>
         public readonly Vector256<double> X;
 
-        /// <summary>Second imaginary components.</summary>
+        /// <summary>Has the second imaginary components.</summary>
         public readonly Vector256<double> Y;
 
-        /// <summary>Third imaginary components.</summary>
+        /// <summary>Has the third imaginary components.</summary>
         public readonly Vector256<double> Z;
 
-        /// <summary>Real components.</summary>
+        /// <summary>Has the real components.</summary>
         public readonly Vector256<double> W;
 
         /// <summary>The quaternions x i + y j + z k + w.</summary>
@@ -30,7 +30,7 @@ namespace Guidewire.Core
             W = w;
         }
 
-        /// <summary>q*.</summary>
+        /// <summary>Gives the conjugates q*.</summary>
         public Quaterniond4 Conjugate
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -48,21 +48,21 @@ namespace Guidewire.Core
             get => new Vector3d4(X, Y, Z);
         }
 
-        /// <summary>First directors.</summary>
+        /// <summary>Gives the first directors.</summary>
         public Vector3d4 Director1
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
             get => new Vector3d4(One - Two * (Y * Y + Z * Z), Two * (X * Y + W * Z), Two * (X * Z - W * Y));
         }
 
-        /// <summary>Second directors.</summary>
+        /// <summary>Gives the second directors.</summary>
         public Vector3d4 Director2
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
             get => new Vector3d4(Two * (X * Y - W * Z), One - Two * (X * X + Z * Z), Two * (Y * Z + W * X));
         }
 
-        /// <summary>Third directors.</summary>
+        /// <summary>Gives the third directors.</summary>
         public Vector3d4 Director3
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -73,7 +73,7 @@ namespace Guidewire.Core
 
         private static Vector256<double> Two => Vector256.Create(2.0);
 
-        /// <summary>Hamilton's product.</summary>
+        /// <summary>Takes Hamilton's product.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Quaterniond4 operator *(Quaterniond4 a, Quaterniond4 b)
         {
@@ -84,7 +84,7 @@ namespace Guidewire.Core
                 a.W * b.W - a.X * b.X - a.Y * b.Y - a.Z * b.Z);
         }
 
-        /// <summary>q v q*.</summary>
+        /// <summary>Rotates vectors: q v q*.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d4 Rotate(Quaterniond4 q, Vector3d4 v)
         {
@@ -93,7 +93,7 @@ namespace Guidewire.Core
             return v + q.W * t + Vector3d4.Cross(u, t);
         }
 
-        /// <summary>q / |q|.</summary>
+        /// <summary>Gives q / |q|.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Quaterniond4 Normalize(Quaterniond4 q)
         {

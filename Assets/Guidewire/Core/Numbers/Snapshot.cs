@@ -60,7 +60,7 @@ namespace Guidewire.Core
             return new Snapshot { _bits = bits, _count = bits.Length, IsWritten = false };
         }
 
-        /// <summary>A count.</summary>
+        /// <summary>Writes or reads a count.</summary>
         public void Serialize(ref long value)
         {
             if (IsWritten && _count < _bits.Length)
@@ -76,7 +76,7 @@ namespace Guidewire.Core
             value = bits;
         }
 
-        /// <summary>A number.</summary>
+        /// <summary>Writes or reads a number.</summary>
         public void Serialize(ref double value)
         {
             long bits = BitConverter.DoubleToInt64Bits(value);
@@ -84,7 +84,7 @@ namespace Guidewire.Core
             value = BitConverter.Int64BitsToDouble(bits);
         }
 
-        /// <summary>A whole number.</summary>
+        /// <summary>Writes or reads a whole number.</summary>
         public void Serialize(ref int value)
         {
             long wide = value;
@@ -92,7 +92,7 @@ namespace Guidewire.Core
             value = (int)wide;
         }
 
-        /// <summary>Yes or no.</summary>
+        /// <summary>Writes or reads yes or no.</summary>
         public void Serialize(ref bool value)
         {
             long wide = value ? 1 : 0;
@@ -100,7 +100,7 @@ namespace Guidewire.Core
             value = wide != 0;
         }
 
-        /// <summary>A vector.</summary>
+        /// <summary>Writes or reads a vector.</summary>
         public void Serialize(ref Vector3d value)
         {
             double x = value.X;
@@ -112,7 +112,7 @@ namespace Guidewire.Core
             value = new Vector3d(x, y, z);
         }
 
-        /// <summary>An orientation.</summary>
+        /// <summary>Writes or reads an orientation.</summary>
         public void Serialize(ref Quaterniond value)
         {
             double x = value.X;
@@ -126,7 +126,7 @@ namespace Guidewire.Core
             value = new Quaterniond(x, y, z, w);
         }
 
-        /// <summary>A text.</summary>
+        /// <summary>Writes or reads a text.</summary>
         public void Serialize(ref string value)
         {
             int length = value.Length;

@@ -10,7 +10,7 @@ namespace Guidewire.Core
     /// 1987).</remarks>
     internal static class SquareMatrix
     {
-        private const int MostSteps = 60;
+        private const int MaxSteps = 60;
         private const double TraceTolerance = 1e-6;
 
         /// <summary>a^-1, by Gauss and Jordan with row pivots; not finite where a is singular.</summary>
@@ -66,7 +66,7 @@ namespace Guidewire.Core
                 sign[i, i] -= x;
             }
             double trace = double.PositiveInfinity;
-            for (int step = 0; step < MostSteps; step++)
+            for (int step = 0; step < MaxSteps; step++)
             {
                 double[,] inverse = Inverse(sign, out double logOfDeterminant);
                 double scale = Math.Exp(-logOfDeterminant / n);

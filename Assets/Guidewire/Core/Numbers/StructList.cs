@@ -8,7 +8,7 @@ namespace Guidewire.Core
     internal sealed class StructList<T>
         where T : struct
     {
-        private const int MostInserted = 16;    // items that are sorted by insertion
+        private const int MaxInserted = 16;    // items that are sorted by insertion
         private T[] _items;
 
         /// <param name="capacity">Items that fit before the list grows for the first time, 1 or more.</param>
@@ -17,7 +17,7 @@ namespace Guidewire.Core
             _items = new T[capacity];
         }
 
-        /// <summary>Items at present.</summary>
+        /// <summary>Counts the items at present.</summary>
         public int Count { get; private set; }
 
         /// <summary>Item k, from 0 to Count - 1, where it stands; it is lost with the next <see cref="Add"/> or
@@ -40,7 +40,7 @@ namespace Guidewire.Core
         /// which comes first.</summary>
         public void Sort(int from)
         {
-            if (Count - from > MostInserted)
+            if (Count - from > MaxInserted)
             {
                 Array.Sort(_items, from, Count - from);
                 return;

@@ -47,25 +47,25 @@ namespace Guidewire.Core
                 a._33 + b._33);
         }
 
-        /// <summary>Entry (1, 1).</summary>
+        /// <summary>Is the entry (1, 1).</summary>
         public double A11 => _11;
 
-        /// <summary>Entry (2, 1).</summary>
+        /// <summary>Is the entry (2, 1).</summary>
         public double A21 => _21;
 
-        /// <summary>Entry (2, 2).</summary>
+        /// <summary>Is the entry (2, 2).</summary>
         public double A22 => _22;
 
-        /// <summary>Entry (3, 1).</summary>
+        /// <summary>Is the entry (3, 1).</summary>
         public double A31 => _31;
 
-        /// <summary>Entry (3, 2).</summary>
+        /// <summary>Is the entry (3, 2).</summary>
         public double A32 => _32;
 
-        /// <summary>Entry (3, 3).</summary>
+        /// <summary>Is the entry (3, 3).</summary>
         public double A33 => _33;
 
-        /// <summary>w c c^T.</summary>
+        /// <summary>Makes w c c^T.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Symmetric3 Outer(double w, in Vector3d c)
         {
@@ -81,14 +81,14 @@ namespace Guidewire.Core
                 w * (c.X * d.Z + c.Z * d.X), w * (c.Y * d.Z + c.Z * d.Y), 2.0 * w * c.Z * d.Z);
         }
 
-        /// <summary>w A.</summary>
+        /// <summary>Multiplies by a number: w A.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Symmetric3 operator *(double w, in Symmetric3 a)
         {
             return new Symmetric3(w * a._11, w * a._21, w * a._22, w * a._31, w * a._32, w * a._33);
         }
 
-        /// <summary>A b.</summary>
+        /// <summary>Multiplies a vector: A b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d Times(in Vector3d b)
         {

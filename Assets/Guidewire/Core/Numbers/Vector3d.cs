@@ -26,22 +26,22 @@ namespace Guidewire.Core
             Z = z;
         }
 
-        /// <summary>(0, 0, 0).</summary>
+        /// <summary>Is (0, 0, 0).</summary>
         public static Vector3d Zero => default;
 
-        /// <summary>(1, 0, 0).</summary>
+        /// <summary>Is (1, 0, 0).</summary>
         public static Vector3d UnitX => new Vector3d(1.0, 0.0, 0.0);
 
-        /// <summary>(0, 1, 0).</summary>
+        /// <summary>Is (0, 1, 0).</summary>
         public static Vector3d UnitY => new Vector3d(0.0, 1.0, 0.0);
 
-        /// <summary>(0, 0, 1).</summary>
+        /// <summary>Is (0, 0, 1).</summary>
         public static Vector3d UnitZ => new Vector3d(0.0, 0.0, 1.0);
 
-        /// <summary>|v|^2.</summary>
+        /// <summary>Gives |v|^2.</summary>
         public double LengthSquared => X * X + Y * Y + Z * Z;
 
-        /// <summary>|v|.</summary>
+        /// <summary>Gives the length |v|.</summary>
         public double Length => Math.Sqrt(X * X + Y * Y + Z * Z);
 
         /// <summary>True when no component is infinite or not a number.</summary>
@@ -93,21 +93,21 @@ namespace Guidewire.Core
             return !(a == b);
         }
 
-        /// <summary>a . b.</summary>
+        /// <summary>Takes the scalar product a . b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double Dot(in Vector3d a, in Vector3d b)
         {
             return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
         }
 
-        /// <summary>a x b.</summary>
+        /// <summary>Takes the cross product a x b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d Cross(in Vector3d a, in Vector3d b)
         {
             return new Vector3d(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
         }
 
-        /// <summary>|a - b|.</summary>
+        /// <summary>Gives the distance |a - b|.</summary>
         public static double Distance(in Vector3d a, in Vector3d b)
         {
             return (a - b).Length;

@@ -27,7 +27,7 @@ namespace Guidewire.Core
             Z = z;
         }
 
-        /// <summary>|v|^2.</summary>
+        /// <summary>Gives |v|^2.</summary>
         public Vector256<double> LengthSquared
         {
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -52,14 +52,14 @@ namespace Guidewire.Core
             return new Vector3d4(s * a.X, s * a.Y, s * a.Z);
         }
 
-        /// <summary>a . b.</summary>
+        /// <summary>Takes the scalar products a . b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector256<double> Dot(Vector3d4 a, Vector3d4 b)
         {
             return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
         }
 
-        /// <summary>a x b.</summary>
+        /// <summary>Takes the cross products a x b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d4 Cross(Vector3d4 a, Vector3d4 b)
         {

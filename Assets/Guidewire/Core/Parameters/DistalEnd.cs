@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>What holds the distal end of a material rod.</summary>
     public enum DistalEnd
     {
-        /// <summary>Nothing.</summary>
+        /// <summary>Nothing is held.</summary>
         Free,
 
         /// <summary>Position and frame are held.</summary>

@@ -21,13 +21,13 @@ namespace Guidewire.Core
             Rotation = rotation;
         }
 
-        /// <summary>m.</summary>
+        /// <summary>Has the insertion over time, m.</summary>
         public TimeTable Insertion { get; }
 
-        /// <summary>rad.</summary>
+        /// <summary>Has the rotation over time, rad.</summary>
         public TimeTable Rotation { get; }
 
-        /// <summary>From when on the hub stands still, s.</summary>
+        /// <summary>Is the time from which on the hub stands still, s.</summary>
         public double End => Insertion.End;
     }
 }

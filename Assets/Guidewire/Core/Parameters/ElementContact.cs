@@ -6,7 +6,7 @@ namespace Guidewire.Core
         /// <summary>Rod elements; the correction is split between their two spheres by the lever rule.</summary>
         Barycentric,
 
-        /// <summary>Nothing.</summary>
+        /// <summary>Elements have no contact of their own.</summary>
         None,
 
         /// <summary>Rod elements, by the rule as published (thesis 3.1.2).</summary>

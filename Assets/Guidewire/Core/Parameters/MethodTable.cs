@@ -61,7 +61,7 @@ namespace Guidewire.Core
             },
         };
 
-        /// <summary>A method's row.</summary>
+        /// <summary>Gives a method's row.</summary>
         /// <exception cref="ArgumentException">A method that is not known.</exception>
         public static MethodTraits Of(Solver solver)
         {

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// <summary>The features and keys that a method supports: one row of the <see cref="MethodTable"/>.</summary>
     public sealed class MethodTraits
     {
-        /// <summary>The method.</summary>
+        /// <summary>Names the method.</summary>
         public Solver Solver { get; internal set; }
 
         /// <summary>Whether its wire is a material in SI units; else it has pbd stiffness, in mass units, units and

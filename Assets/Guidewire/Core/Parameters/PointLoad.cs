@@ -15,7 +15,7 @@ namespace Guidewire.Core
         /// <summary>Length along the wire at rest from sphere 0, units.</summary>
         public double At { get; }
 
-        /// <summary>N.</summary>
+        /// <summary>Is the force, N.</summary>
         public Vector3d Force { get; }
     }
 }

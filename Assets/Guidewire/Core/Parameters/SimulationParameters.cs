@@ -5,10 +5,10 @@ namespace Guidewire.Core
     /// Guidewire.Io.</summary>
     public sealed class SimulationParameters
     {
-        /// <summary>What is simulated.</summary>
+        /// <summary>Says what is simulated.</summary>
         public SceneParameters Scene { get; private set; } = new SceneParameters();
 
-        /// <summary>What moves it.</summary>
+        /// <summary>Says what moves it.</summary>
         public DriveParameters Drive { get; private set; } = new DriveParameters();
 
         /// <summary>The wire of solver pbd.</summary>

@@ -44,7 +44,8 @@ namespace Guidewire.Core
             _jumps = jumps.ToArray();
         }
 
-        /// <summary>From when on the value no longer changes, s; where it jumps, after that time.</summary>
+        /// <summary>Is the time from which on the value no longer changes, s; where it jumps, after that
+        /// time.</summary>
         public double End => _times[_times.Length - 1];
 
         /// <summary>Whether the value jumps anywhere.</summary>

@@ -14,16 +14,16 @@ namespace Guidewire.Core
         /// elements (see <see cref="ElementLayout"/>).</summary>
         public int? NumberRodElements { get; set; }
 
-        /// <summary>E, Pa.</summary>
+        /// <summary>Is Young's modulus E, Pa.</summary>
         public double? YoungsModulus { get; set; }
 
-        /// <summary>G, Pa.</summary>
+        /// <summary>Is the shear modulus G, Pa.</summary>
         public double? ShearModulus { get; set; }
 
-        /// <summary>rho, kg/m^3.</summary>
+        /// <summary>Is the density rho, kg/m^3.</summary>
         public double? Density { get; set; }
 
-        /// <summary>Radius, m.</summary>
+        /// <summary>Is the outer radius, m.</summary>
         public double? WireRadius { get; set; }
 
         /// <summary>Radius of a tube's hollow, m.</summary>
@@ -48,10 +48,10 @@ namespace Guidewire.Core
         /// <summary>EI about d2, N m^2.</summary>
         public double? BendingStiffness2 { get; set; }
 
-        /// <summary>GJ, N m^2.</summary>
+        /// <summary>Is the torsional stiffness GJ, N m^2.</summary>
         public double? TorsionalStiffness { get; set; }
 
-        /// <summary>rho A, kg/m.</summary>
+        /// <summary>Is the mass per length rho A, kg/m.</summary>
         public double? MassPerLength { get; set; }
 
         /// <summary>rho I about d1 and d2, the mean of both, kg m.</summary>

@@ -1,6 +1,6 @@
 namespace Guidewire.Core
 {
-    /// <summary>Along the first element, d = (x_1 - x_0)/|x_1 - x_0| (thesis eq. 3.6).</summary>
+    /// <summary>Drives along the first element, d = (x_1 - x_0)/|x_1 - x_0| (thesis eq. 3.6).</summary>
     internal sealed class AlongFirstElement : IDriveDirection
     {
         /// <inheritdoc/>

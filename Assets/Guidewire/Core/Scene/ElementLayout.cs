@@ -10,7 +10,7 @@ namespace Guidewire.Core
     /// not count.</remarks>
     public static class ElementLayout
     {
-        private const int MostElements = 1_000_000;
+        private const int MaxElements = 1_000_000;
         private const double Rounding = 1e-9;  // of L: pieces shorter than this are rounding errors
 
         /// <summary>The number of elements of the whole wire.</summary>
@@ -72,9 +72,9 @@ namespace Guidewire.Core
                 count += section.NumberRodElements!.Value;
                 reached = section.To;
             }
-            if (count > MostElements)
+            if (count > MaxElements)
             {
-                return "a wire of at most " + MostElements + " elements altogether";
+                return "a wire of at most " + MaxElements + " elements altogether";
             }
             rest += reached < length - slack ? 1 : 0;
             return rest > parameters.Scene.NumberRodElements

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>Along a fixed axis (Kreibich's control, thesis 3.1.5). In a bend it can pull the wire sideways through
-    /// the vessel.</summary>
+    /// <summary>Drives along a fixed axis (Kreibich's control, thesis 3.1.5). In a bend it can pull the wire sideways
+    /// through the vessel.</summary>
     internal sealed class FixedAxis : IDriveDirection
     {
         private readonly Vector3d _axis;

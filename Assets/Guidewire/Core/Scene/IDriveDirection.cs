@@ -4,7 +4,7 @@ namespace Guidewire.Core
     /// displacement in its own units of length.</summary>
     internal interface IDriveDirection
     {
-        /// <summary>A unit vector.</summary>
+        /// <summary>Gives the drive's direction, a unit vector.</summary>
         /// <param name="first">Where sphere 0 is.</param>
         /// <param name="second">Where sphere 1 is.</param>
         Vector3d At(in Vector3d first, in Vector3d second);

@@ -8,7 +8,7 @@ namespace Guidewire.Core
     {
         private readonly HubMotion[] _inner;
 
-        /// <summary>Made of these.</summary>
+        /// <summary>Makes a schedule of these.</summary>
         /// <param name="inner">The hubs of instruments inside; null without one.</param>
         public RodSchedule(PrescribedLoads loads, HubMotion hub, DistalMotion distal, HubMotion[]? inner = null)
         {
@@ -18,7 +18,7 @@ namespace Guidewire.Core
             Distal = distal;
         }
 
-        /// <summary>The loads.</summary>
+        /// <summary>Has the prescribed loads.</summary>
         public PrescribedLoads Loads { get; }
 
         /// <summary>The motion of the proximal end.</summary>

@@ -9,7 +9,7 @@ namespace Guidewire.Core
         /// <summary>After the reason of a completed run, with ", but".</summary>
         Reason,
 
-        /// <summary>At the end of the run, on a line of its own.</summary>
+        /// <summary>The warning stands at the end of the run, on a line of its own.</summary>
         End,
     }
 }

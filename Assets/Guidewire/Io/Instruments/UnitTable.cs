@@ -6,25 +6,25 @@ namespace Guidewire.Io
     /// <summary>The physical quantity of a number in a file.</summary>
     internal enum Dimension
     {
-        /// <summary>A length, m.</summary>
+        /// <summary>The quantity is a length, m.</summary>
         Length,
 
-        /// <summary>An angle, rad.</summary>
+        /// <summary>The quantity is an angle, rad.</summary>
         Angle,
 
-        /// <summary>A time, s.</summary>
+        /// <summary>The quantity is a time, s.</summary>
         Time,
 
-        /// <summary>A modulus, Pa.</summary>
+        /// <summary>The quantity is a modulus, Pa.</summary>
         Modulus,
 
         /// <summary>A bending or torsional stiffness, N m^2.</summary>
         Stiffness,
 
-        /// <summary>A density, kg/m^3.</summary>
+        /// <summary>The quantity is a density, kg/m^3.</summary>
         Density,
 
-        /// <summary>A plain number.</summary>
+        /// <summary>The quantity is a plain number.</summary>
         Number,
     }
 

@@ -31,11 +31,11 @@ namespace Guidewire.Io
         /// <summary>The branch there, from 0.</summary>
         public int Branch { get; }
 
-        /// <summary>From the inlet along the centreline, units.</summary>
+        /// <summary>Is the distance from the inlet along the centreline, units.</summary>
         public double Distance { get; }
 
-        /// <summary>From there to the target along the centreline, units; not a number where there is no
-        /// target.</summary>
+        /// <summary>Is the distance from there to the target along the centreline, units; not a number where there is
+        /// no target.</summary>
         public double Left { get; }
 
         /// <summary>Whether that is within a radius of the target along the centreline, or beyond it.</summary>

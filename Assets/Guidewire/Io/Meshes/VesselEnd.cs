@@ -21,13 +21,13 @@ namespace Guidewire.Io
         /// <summary>As reports and keys have it.</summary>
         public string Name { get; }
 
-        /// <summary>Its middle.</summary>
+        /// <summary>Is the end's middle.</summary>
         public Vector3d Centre { get; }
 
-        /// <summary>Of the lumen there.</summary>
+        /// <summary>Is the radius of the lumen there.</summary>
         public double Radius { get; }
 
-        /// <summary>Of the centreline, into the lumen, of length 1.</summary>
+        /// <summary>Is the direction of the centreline, into the lumen, of length 1.</summary>
         public Vector3d Direction { get; }
 
         /// <summary>The centreline's point there.</summary>

@@ -9,10 +9,10 @@ namespace Guidewire.Io
     /// <summary>Reads the key catheters: a list of objects, each with the keys of an instrument of its own.</summary>
     internal static class CatheterReader
     {
-        /// <summary>The key.</summary>
+        /// <summary>Is the key.</summary>
         public const string Key = "catheters";
 
-        private const double MostFriction = 2.0;   // it enters as exp(mu angle)
+        private const double MaxFriction = 2.0;   // it enters as exp(mu angle)
         private const string InstrumentFile = ".json: ";
 
         // What a catheter calls it, and what the wire does.
@@ -91,7 +91,7 @@ namespace Guidewire.Io
                 else if (property.Name == "lumenFriction")
                 {
                     lumenFriction = NotNegative(property, source, where, "");
-                    if (lumenFriction > MostFriction)
+                    if (lumenFriction > MaxFriction)
                     {
                         throw new ParameterException(source, where + "." + property.Name,
                             property.Value.ToString(Formatting.None), "a coefficient of friction from 0 to 2");

@@ -9,7 +9,7 @@ namespace Guidewire.Io
     /// here for .NET's, and a step of Unity's builds keeps both assemblies whole.</remarks>
     internal static class NamedProperty
     {
-        /// <summary>The property's name.</summary>
+        /// <summary>Gives the property's name.</summary>
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(MethodParameters))]
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(SceneParameters))]
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(PbdParameters))]
@@ -29,14 +29,14 @@ namespace Guidewire.Io
             return owner.GetType().GetProperty(name)?.PropertyType == typeof(T);
         }
 
-        /// <summary>Its value.</summary>
+        /// <summary>Gives the property's value.</summary>
         /// <exception cref="ArgumentException">There is no such property.</exception>
         public static T Get<T>(object owner, string name)
         {
             return ((Func<T>)Delegate.CreateDelegate(typeof(Func<T>), owner, "get_" + name))();
         }
 
-        /// <summary>Sets it.</summary>
+        /// <summary>Sets the property's value.</summary>
         /// <exception cref="ArgumentException">There is no such property.</exception>
         public static void Set<T>(object owner, string name, T value)
         {

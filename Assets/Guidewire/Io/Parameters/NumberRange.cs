@@ -14,22 +14,22 @@ namespace Guidewire.Io
             Maximum = maximum;
         }
 
-        /// <summary>Every finite number.</summary>
+        /// <summary>Allows every finite number.</summary>
         public static NumberRange Any => new NumberRange(double.NegativeInfinity, false, double.PositiveInfinity);
 
-        /// <summary>Above 0.</summary>
+        /// <summary>Allows numbers above 0.</summary>
         public static NumberRange Positive => new NumberRange(0.0, true, double.PositiveInfinity);
 
-        /// <summary>0 and above.</summary>
+        /// <summary>Allows 0 and numbers above.</summary>
         public static NumberRange NotNegative => new NumberRange(0.0, false, double.PositiveInfinity);
 
-        /// <summary>From 0 to 1.</summary>
+        /// <summary>Allows numbers from 0 to 1.</summary>
         public static NumberRange Fraction => new NumberRange(0.0, false, 1.0);
 
-        /// <summary>Lower bound.</summary>
+        /// <summary>Is the lower bound.</summary>
         public double Minimum { get; }
 
-        /// <summary>Upper bound.</summary>
+        /// <summary>Is the upper bound.</summary>
         public double Maximum { get; }
 
         /// <summary>Above 0, up to a bound that is inside.</summary>

@@ -20,7 +20,7 @@ namespace Guidewire.Io
         };
 
         private const string Steps = "maxSimulationSteps";
-        private const int MostSteps = 1_000_000_000;
+        private const int MaxSteps = 1_000_000_000;
 
         private readonly GivenParameters _given = new GivenParameters();
 
@@ -36,7 +36,7 @@ namespace Guidewire.Io
             _from = from;
         }
 
-        /// <summary>The effective values.</summary>
+        /// <summary>Has the effective values.</summary>
         public RunParameters Values { get; private set; } = new RunParameters(Solver.Pbd);
 
         /// <summary>Keys of a file that the method does not use: they were ignored.</summary>
@@ -358,9 +358,9 @@ namespace Guidewire.Io
             }
             MethodParameters method = Values.Simulation.Method;
             double steps = Math.Ceiling(duration / method.TimeStep * (1.0 - 1e-12));
-            if (!(steps <= MostSteps))
+            if (!(steps <= MaxSteps))
             {
-                throw Refused("duration", "at most " + MostSteps + " steps of timeStep = "
+                throw Refused("duration", "at most " + MaxSteps + " steps of timeStep = "
                     + method.TimeStep.ToString(CultureInfo.InvariantCulture) + " s");
             }
             if (_given.Has(Steps) && method.MaxSimulationSteps != (int)steps)

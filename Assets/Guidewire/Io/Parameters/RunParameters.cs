@@ -16,7 +16,7 @@ namespace Guidewire.Io
     /// <summary>How a log is written.</summary>
     public enum LogFormat
     {
-        /// <summary>positions.json, text.</summary>
+        /// <summary>The log is positions.json, a text.</summary>
         Json,
 
         /// <summary>positions.npz, arrays of doubles.</summary>

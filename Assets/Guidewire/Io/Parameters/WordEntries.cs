@@ -4,7 +4,7 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>true or false.</summary>
+    /// <summary>Takes true or false.</summary>
     internal sealed class SwitchEntry : ValueEntry<bool>
     {
         public SwitchEntry(string key, string help)

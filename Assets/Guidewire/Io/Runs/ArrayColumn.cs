@@ -8,10 +8,10 @@ namespace Guidewire.Io
         public string Type;
         public int[] Shape;
 
-        /// <summary>In a row, bytes.</summary>
+        /// <summary>Is the place in a row, bytes.</summary>
         public int Offset;
 
-        /// <summary>Of one entry, bytes.</summary>
+        /// <summary>Is the length of one entry, bytes.</summary>
         public int Length;
     }
 }

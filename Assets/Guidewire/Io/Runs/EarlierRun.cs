@@ -33,7 +33,7 @@ namespace Guidewire.Io
             Outcome = outcome;
         }
 
-        /// <summary>How it ended.</summary>
+        /// <summary>Says how the run ended.</summary>
         public Outcome Outcome { get; }
 
         /// <summary>Why, in one line.</summary>
@@ -75,7 +75,7 @@ namespace Guidewire.Io
             return HasHash(handler) && IsOfThisBuild && Repeat == repeat;
         }
 
-        /// <summary>In what it differs from a run of these parameters and this repeat, in a few words.</summary>
+        /// <summary>Says in a few words in what it differs from a run of these parameters and this repeat.</summary>
         public string Difference(ParameterHandler handler, int? repeat)
         {
             if (HasHash(handler))

@@ -15,7 +15,7 @@ namespace Guidewire.Io
         public const int Longest = 24;
 
         private const int SafeDigits = 15;    // so many digits survive conversion to a normal double and back
-        private const int MostDigits = 17;    // every double survives conversion to so many digits and back
+        private const int MaxDigits = 17;    // every double survives conversion to so many digits and back
         private const double SmallestNormal = 2.2250738585072014e-308;
 
         /// <summary>The finite number that a text is; false where it is none.</summary>
@@ -55,7 +55,7 @@ namespace Guidewire.Io
         {
             string sign = BitConverter.DoubleToInt64Bits(value) < 0 ? "-" : "";
             double size = Math.Abs(value);
-            for (int digits = size < SmallestNormal ? 1 : SafeDigits; digits < MostDigits; digits++)
+            for (int digits = size < SmallestNormal ? 1 : SafeDigits; digits < MaxDigits; digits++)
             {
                 string nearest = Scientific(size, digits);
                 if (Read(nearest) == size)
@@ -70,7 +70,7 @@ namespace Guidewire.Io
                     return sign + LayOut(above);
                 }
             }
-            return sign + LayOut(Scientific(size, MostDigits));
+            return sign + LayOut(Scientific(size, MaxDigits));
         }
 
         /// <summary>Whether .NET's own text is that of a neighbour: 2^-25 and 2^-958 alone of all powers of two, with
@@ -121,7 +121,7 @@ namespace Guidewire.Io
             {
                 return "0";
             }
-            if (exponent >= MostDigits || exponent < -4)
+            if (exponent >= MaxDigits || exponent < -4)
             {
                 string tail = digits.Length == 1 ? "" : "." + digits.Substring(1);
                 return digits.Substring(0, 1) + tail + "E" + exponent.ToString("+00;-00", CultureInfo.InvariantCulture);

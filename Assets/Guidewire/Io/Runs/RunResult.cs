@@ -19,7 +19,7 @@ namespace Guidewire.Io
         /// <summary>The outcome's one word, as in summary.json.</summary>
         public string Word => RunSummary.Word(Outcome);
 
-        /// <summary>How it ended.</summary>
+        /// <summary>Says how the run ended.</summary>
         public Outcome Outcome { get; }
 
         /// <summary>Why, in one line.</summary>

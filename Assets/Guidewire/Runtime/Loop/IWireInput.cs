@@ -4,10 +4,10 @@ namespace Guidewire.Runtime
     /// asked each frame.</summary>
     public interface IWireInput
     {
-        /// <summary>From -1, pull at the loop's full speed, to 1, push.</summary>
+        /// <summary>Goes from -1, pull at the loop's full speed, to 1, push.</summary>
         float Push { get; }
 
-        /// <summary>From -1, turn left at the loop's full speed, to 1, turn right.</summary>
+        /// <summary>Goes from -1, turn left at the loop's full speed, to 1, turn right.</summary>
         float Turn { get; }
     }
 }

@@ -13,13 +13,13 @@ namespace Guidewire.Runtime
         /// <summary>What stopped the loop, in one line; empty where nothing did.</summary>
         public string Problem { get; private set; } = "";
 
-        /// <summary>Another run begins.</summary>
+        /// <summary>Begins with another run.</summary>
         public void Begin()
         {
             (Problem, _reported) = ("", Outcome.Running);
         }
 
-        /// <summary>Something was thrown.</summary>
+        /// <summary>Stops with what was thrown.</summary>
         public void Stop(Exception error)
         {
             bool isExpected = error is ParameterException || error is ArgumentException;

@@ -11,7 +11,7 @@ namespace Guidewire.Runtime
         private WireState _newer;
         private double _time;    // shown, s
 
-        /// <summary>For a run that stands at its start.</summary>
+        /// <summary>Makes the states of a run that stands at its start.</summary>
         public ShownStates(SimulationSession session)
         {
             _older = new WireState(session);
@@ -27,7 +27,7 @@ namespace Guidewire.Runtime
         /// <summary>The state after the newest step.</summary>
         public WireState Newest => _newer;
 
-        /// <summary>What views draw.</summary>
+        /// <summary>Is the state that views draw.</summary>
         public WireState Shown { get; }
 
         /// <summary>Takes the newest state.</summary>

@@ -110,10 +110,10 @@ namespace Guidewire.Runtime
         /// <summary>Simulated seconds per second of real time.</summary>
         public float Pace { get => _pace; set => _pace = value; }
 
-        /// <summary>From -1, pull at full speed, to 1, push; what is beyond counts as full.</summary>
+        /// <summary>Goes from -1, pull at full speed, to 1, push; what is beyond counts as full.</summary>
         public float Push { get; set; }
 
-        /// <summary>From -1, turn left at full speed, to 1, turn right; what is beyond counts as full.</summary>
+        /// <summary>Goes from -1, turn left at full speed, to 1, turn right; what is beyond counts as full.</summary>
         public float Turn { get; set; }
 
         /// <summary>Whose hub <see cref="Push"/> and <see cref="Turn"/> move: 0 the wire's, k that of catheter

@@ -11,7 +11,7 @@ namespace Guidewire.Runtime
         /// <summary>Simulated over asked, at most 1.</summary>
         public double Speed { get; private set; } = 1.0;
 
-        /// <summary>Another run begins.</summary>
+        /// <summary>Begins with another run.</summary>
         public void Begin()
         {
             (Speed, _asked, _lastTime) = (1.0, 0.0, 0.0);

@@ -8,7 +8,7 @@ namespace Guidewire.Runtime
     {
         private WireState _between;
 
-        /// <summary>With the state that lies between them at first.</summary>
+        /// <summary>Makes the exchange with the state that lies between them at first.</summary>
         public StateExchange(WireState between)
         {
             _between = between;

@@ -22,7 +22,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Units.</summary>
+        /// <summary>Has the vertices, units.</summary>
         public Vector3[] Vertices { get; }
 
         /// <summary>Three indices a triangle.</summary>

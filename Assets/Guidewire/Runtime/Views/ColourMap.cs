@@ -20,7 +20,7 @@ namespace Guidewire.Runtime
             return float.IsNaN(coordinate) ? Middle : Mathf.Clamp(coordinate, 0.5f / Width, 1f - 0.5f / Width);
         }
 
-        /// <summary>The texture.</summary>
+        /// <summary>Creates the texture.</summary>
         public static Texture2D Create()
         {
             var pixels = new Color32[Width];

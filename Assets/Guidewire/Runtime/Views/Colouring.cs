@@ -3,16 +3,16 @@ namespace Guidewire.Runtime
     /// <summary>What the wire's colour shows.</summary>
     public enum Colouring
     {
-        /// <summary>Nothing.</summary>
+        /// <summary>The colour shows nothing.</summary>
         Plain,
 
         /// <summary>Length of an element over its rest length, less 1.</summary>
         Stretch,
 
-        /// <summary>Curvature in 1/unit.</summary>
+        /// <summary>The colour shows curvature in 1/unit.</summary>
         Bending,
 
-        /// <summary>Twist in rad/unit.</summary>
+        /// <summary>The colour shows twist in rad/unit.</summary>
         Twist,
     }
 }

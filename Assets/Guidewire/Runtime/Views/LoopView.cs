@@ -26,7 +26,7 @@ namespace Guidewire.Runtime
             set => _loop = value;
         }
 
-        /// <summary>From units of the wire to the world.</summary>
+        /// <summary>Maps units of the wire to the world.</summary>
         protected Matrix4x4 Place => _loop!.transform.localToWorldMatrix;
 
         /// <summary>Whether the loop has another run than when this was last asked.</summary>

@@ -3,7 +3,7 @@ using UnityEngine;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Between Core's doubles and Unity's floats, at the edge and nowhere else.</summary>
+    /// <summary>Translates between Core's doubles and Unity's floats, at the edge and nowhere else.</summary>
     internal static class UnityVectors
     {
         /// <summary>The same vector in float.</summary>

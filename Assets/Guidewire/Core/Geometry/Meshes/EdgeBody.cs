@@ -8,7 +8,7 @@ namespace Guidewire.Core
         private readonly Vector3d _start;
         private readonly Vector3d _end;
 
-        /// <summary>From one point to another.</summary>
+        /// <summary>Makes the body of an edge from one point to another.</summary>
         public EdgeBody(in Vector3d start, in Vector3d end)
         {
             _start = start;

@@ -12,7 +12,7 @@ namespace Guidewire.Core
             return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
         }
 
-        /// <summary>For each half-edge the other one of its edge, -1 where there is none.</summary>
+        /// <summary>Gives for each half-edge the other one of its edge, -1 where there is none.</summary>
         /// <param name="triangles">Three vertices a triangle.</param>
         /// <param name="vertexCount">Number of vertices.</param>
         /// <param name="crowded">Number of half-edges beyond the second of an edge; 0 in a manifold.</param>

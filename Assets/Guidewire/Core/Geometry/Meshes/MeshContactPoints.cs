@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private double _nearest;
         private bool _isBehind;
 
-        /// <summary>For queries of one thread.</summary>
+        /// <summary>Makes what queries of one thread need.</summary>
         public MeshContactPoints(MeshGeometry mesh)
         {
             _mesh = mesh;

@@ -8,14 +8,14 @@ namespace Guidewire.Core
     /// <remarks>The weight of an edge goes with the angle between its faces, and is 1 at a rim.</remarks>
     internal sealed class MeshEdges
     {
-        private const double LeastAngle = 1e-6;   // radians
+        private const double MinAngle = 1e-6;   // radians
         private const double RimWeight = 1.0;
         private readonly MeshGeometry _mesh;
         private readonly double[] _weight;        // of the edge that a half-edge represents, else 0
         private readonly double[] _angle;         // by which the wall turns there, radians
         private readonly StructList<int> _edges = new StructList<int>(64);
 
-        /// <summary>For this mesh where it stands.</summary>
+        /// <summary>Finds the edges of this mesh where it stands.</summary>
         public MeshEdges(MeshGeometry mesh)
         {
             _mesh = mesh;
@@ -61,7 +61,7 @@ namespace Guidewire.Core
             {
                 nearby.ChooseEdges(a, b, range, _edges);
             }
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= range; k++)
+            for (int k = among.From; k < among.To && among.MinDistance(k) <= range; k++)
             {
                 _edges.Add(among[k]);
             }
@@ -82,7 +82,7 @@ namespace Guidewire.Core
             int opposite = 3 * (twin / 3) + (twin % 3 + 2) % 3;
             bool bulges = Vector3d.Dot(_mesh.Corners[opposite] - _mesh.Corners[edge], first) < 0.0;
             double angle = Math.Atan2(Vector3d.Cross(first, second).Length, Vector3d.Dot(first, second));
-            return bulges && angle > LeastAngle ? angle : 0.0;
+            return bulges && angle > MinAngle ? angle : 0.0;
         }
     }
 }

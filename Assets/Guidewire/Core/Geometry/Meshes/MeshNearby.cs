@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private readonly Bvh? _edgeTree;
         private readonly StructList<int> _found = new StructList<int>(256);
 
-        /// <summary>For this mesh at its placement.</summary>
+        /// <summary>Searches this mesh at its placement.</summary>
         public MeshNearby(MeshGeometry mesh, MeshEdges edgeContacts)
         {
             _mesh = mesh;
@@ -61,7 +61,7 @@ namespace Guidewire.Core
             _mesh.Tree.Within(x, x, range, _found);
             for (int k = 0; k < _found.Count; k++)
             {
-                double least = LeastDistance(x, _found[k]);
+                double least = MinDistance(x, _found[k]);
                 if (least <= range)
                 {
                     triangles.Add(new WallFeature(_found[k], least));
@@ -102,7 +102,7 @@ namespace Guidewire.Core
         /// <summary>Adds those triangles that may be within a distance of a point.</summary>
         public void Choose(in Vector3d x, double distance, FeatureRange among, StructList<int> triangles)
         {
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= distance; k++)
+            for (int k = among.From; k < among.To && among.MinDistance(k) <= distance; k++)
             {
                 if (_planes.MayBeWithin(x, distance, among[k]))
                 {
@@ -140,7 +140,7 @@ namespace Guidewire.Core
                 return;
             }
             for (int k = among.From;
-                k < among.To && among.LeastDistance(k) <= (clearance + impact * motion) * RoundedUp; k++)
+                k < among.To && among.MinDistance(k) <= (clearance + impact * motion) * RoundedUp; k++)
             {
                 int i = among[k];
                 if (_planes.MayMeet(from, end, clearance, i))
@@ -161,7 +161,7 @@ namespace Guidewire.Core
             if (among.IsKnown)
             {
                 for (int k = among.From;
-                    k < among.To && among.LeastDistance(k) <= (clearance + impact * motion) * RoundedUp; k++)
+                    k < among.To && among.MinDistance(k) <= (clearance + impact * motion) * RoundedUp; k++)
                 {
                     ImpactWithEdge(among[k], a0, b0, a1, b1, clearance, resolution, motion, ref impact);
                 }
@@ -205,7 +205,7 @@ namespace Guidewire.Core
         private bool KeepsClearance(in Vector3d x, double clearance, double motion, FeatureRange among)
         {
             double limit = clearance * clearance;
-            for (int k = among.From; k < among.To && among.LeastDistance(k) <= clearance + motion; k++)
+            for (int k = among.From; k < among.To && among.MinDistance(k) <= clearance + motion; k++)
             {
                 int i = 3 * among[k];
                 if (_planes.MayBeWithin(x, clearance, among[k]) && ClosestPoints.PointTriangle(
@@ -243,10 +243,10 @@ namespace Guidewire.Core
                 a, b, _mesh.Corners[from], _mesh.Corners[to], out _, out _));
         }
 
-        private double LeastDistance(in Vector3d x, int triangle)
+        private double MinDistance(in Vector3d x, int triangle)
         {
             double fromSphere = Vector3d.Distance(x, _centre[triangle]) - _radius[triangle];
-            return Math.Max(fromSphere, _planes.LeastDistance(x, triangle));
+            return Math.Max(fromSphere, _planes.MinDistance(x, triangle));
         }
     }
 }

@@ -23,7 +23,7 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>The wall, placed.</summary>
+        /// <summary>Makes the wall of a mesh that is placed.</summary>
         public MeshShape(TriangleMesh mesh, in Placement placement)
         {
             _mesh = mesh;
@@ -154,7 +154,7 @@ namespace Guidewire.Core
 
         private MeshNearby Nearby => _derived.Nearby ??= new MeshNearby(_wall, EdgeContacts);
 
-        /// <summary>See <see cref="MeshWidth"/>.</summary>
+        /// <summary>Finds the narrowest place as <see cref="MeshWidth"/> says.</summary>
         internal override double NarrowestRadius(double above, double below)
         {
             if (!_derived.Narrowest.TryGetValue((above, below), out double radius))

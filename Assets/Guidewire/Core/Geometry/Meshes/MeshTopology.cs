@@ -19,7 +19,7 @@ namespace Guidewire.Core
             Triangles = triangles;
         }
 
-        /// <summary>Different vertices.</summary>
+        /// <summary>Has each different vertex once.</summary>
         public Vector3d[] Vertices { get; private set; }
 
         /// <summary>Three vertices a triangle, consistently oriented.</summary>
@@ -28,7 +28,7 @@ namespace Guidewire.Core
         /// <summary>Open rims, each a closed chain of vertices in the direction of its triangles' edges.</summary>
         public List<int[]> Rims { get; } = new List<int[]>();
 
-        /// <summary>What was found.</summary>
+        /// <summary>Says what was found in the mesh.</summary>
         public MeshReport Report { get; } = new MeshReport();
 
         /// <summary>The surface of these triangles.</summary>

@@ -11,11 +11,11 @@ namespace Guidewire.Core
     /// it is triangulated.</remarks>
     internal static class MeshWidth
     {
-        private const int MostSamples = 600_000;
-        private const int LeastSamples = 2_000;
+        private const int MaxSamples = 600_000;
+        private const int MinSamples = 2_000;
         private const double SamplesOverRadius = 2.0;    // in a square of the least radius
         private const double SmallestSphere = 0.7;            // of that radius: smaller balls lie in folds of the wall
-        private const int MostShrinks = 30;
+        private const int MaxShrinks = 30;
         private const double Converged = 2e-3;    // of a ball's radius squared
         private const double Least = 1e-6;    // of the mesh's size, for a radius
 
@@ -31,7 +31,7 @@ namespace Guidewire.Core
             }
             double least = Math.Max(above, Least * size);
             double samples = SamplesOverRadius * area / (least * least);
-            double cell = area / Math.Min(Math.Max(samples, LeastSamples), MostSamples);
+            double cell = area / Math.Min(Math.Max(samples, MinSamples), MaxSamples);
             var walk = new LumenWalk(wall, least);
             double narrowest = below;
             double covered = 0.5 * cell;
@@ -83,7 +83,7 @@ namespace Guidewire.Core
             double radius = start;
             int hint = triangle;
             centre = p + radius * n;
-            for (int k = 0; k < MostShrinks; k++)
+            for (int k = 0; k < MaxShrinks; k++)
             {
                 int nearest = mesh.Tree.Nearest(
                     centre, centre, radius, hint, out double squared, out _, out Vector3d q, out _);

@@ -18,7 +18,7 @@ namespace Guidewire.Core
         private readonly float _halfZ;
         private readonly float _squared;
 
-        /// <summary>For what is within a range of segment a b, units.</summary>
+        /// <summary>Tests for what is within a range of segment a b, units.</summary>
         public SegmentBoundsTest(in Vector3d a, in Vector3d b, double range, WideBvh tree)
         {
             Vector3d half = 0.5 * (b - a);

@@ -17,7 +17,7 @@ namespace Guidewire.Core
         private readonly Point _extent;
         private readonly float _border;
 
-        /// <summary>For what a moving segment may come near to.</summary>
+        /// <summary>Tests for what a moving segment may come near to.</summary>
         public SweptBoundsTest(in SweptSegment swept, WideBvh tree)
         {
             _start = new SegmentBoundsTest(swept.A0, swept.B0, swept.Range, tree);

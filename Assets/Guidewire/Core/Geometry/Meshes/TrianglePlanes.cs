@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private readonly double[] _planes;           // by triangle
         private readonly double _rounding;           // of a height at most, units
 
-        /// <summary>Of triangles with three corners each, units.</summary>
+        /// <summary>Makes the planes of triangles with three corners each, units.</summary>
         public TrianglePlanes(Vector3d[] corners)
         {
             _planes = new double[Stride * (corners.Length / 3)];
@@ -58,7 +58,7 @@ namespace Guidewire.Core
 
         /// <summary>Lower bound of a triangle's distance from a point, units; negative where none is known.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public double LeastDistance(in Vector3d x, int triangle)
+        public double MinDistance(in Vector3d x, int triangle)
         {
             return (Math.Sqrt(SquaredBound(x, triangle)) - _rounding) / RoundedUp;
         }

@@ -70,7 +70,7 @@ namespace Guidewire.Core
         /// <summary>Contacts at present, without those of held nodes.</summary>
         public int Count => _count;
 
-        /// <summary>Contact k.</summary>
+        /// <summary>Gives contact k.</summary>
         public ref readonly Contact this[int k] => ref _contacts[k];
 
         /// <summary>Takes over the contacts that a search has found; multipliers stay with their node or element and
@@ -356,37 +356,37 @@ namespace Guidewire.Core
             /// <summary>Index in the scene's list.</summary>
             public int Wall;
 
-            /// <summary>j.</summary>
+            /// <summary>Is the element j in contact.</summary>
             public int Element;
 
-            /// <summary>s.</summary>
+            /// <summary>Is the place s along the element, 0 to 1.</summary>
             public double Position;
 
             /// <summary>The node at s = 0 or 1.</summary>
             public int Node;
 
-            /// <summary>n.</summary>
+            /// <summary>Is the wall's normal n, towards the wire.</summary>
             public Vector3d Normal;
 
-            /// <summary>c.n, m.</summary>
+            /// <summary>Is the wall's offset c.n along the normal, m.</summary>
             public double Offset;
 
-            /// <summary>r, m.</summary>
+            /// <summary>Is the wire's radius r, m.</summary>
             public double Radius;
 
             /// <summary>Distance that the substep requires, r or less, m.</summary>
             public double Clearance;
 
-            /// <summary>W, 1/kg.</summary>
+            /// <summary>Is the inverse mass W along the normal, 1/kg.</summary>
             public double Inverse;
 
-            /// <summary>V, 1/kg.</summary>
+            /// <summary>Is the inverse mass V against slip, 1/kg.</summary>
             public double InverseOfSlip;
 
-            /// <summary>lambda, kg m.</summary>
+            /// <summary>Is the multiplier lambda of the normal force, kg m.</summary>
             public double NormalImpulse;
 
-            /// <summary>f, kg m.</summary>
+            /// <summary>Is the multiplier f of friction, kg m.</summary>
             public Vector3d FrictionImpulse;
 
             /// <summary>What the substeps before have left of the slip, m.</summary>

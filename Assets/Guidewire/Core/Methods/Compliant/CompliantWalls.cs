@@ -81,7 +81,7 @@ namespace Guidewire.Core
             _isNew = true;
         }
 
-        /// <summary>A substep begins.</summary>
+        /// <summary>Begins a substep.</summary>
         /// <param name="old">The wire where it begins, kept until its end.</param>
         /// <param name="predicted">Where it would go without constraints, except for the motion of held nodes
         /// that walls prevent.</param>

@@ -28,7 +28,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Only slopes count.</summary>
+        /// <summary>Says that the term stores no energy, because only its slopes count.</summary>
         public override bool StoresEnergy => false;
 
         /// <inheritdoc/>

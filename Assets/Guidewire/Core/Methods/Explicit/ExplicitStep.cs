@@ -141,7 +141,7 @@ namespace Guidewire.Core
                 double after = j < n - 1 ? 2.0 : supports.HasDistalJoint ? 1.0 : 0.0;
                 double bend = (before * Stiffer(joints[j]) + after * Stiffer(joints[j + 1])) / (rotary * l);
                 double twist = (before * joints[j].Twist + after * joints[j + 1].Twist) / (polar * l);
-                double chain = 4.0 / (l * l * LeastDensity(rod, j));
+                double chain = 4.0 / (l * l * MinDensity(rod, j));
                 double shear = rod.ShearStiffness[j] * (1.0 / rotary + chain);
                 largest = Math.Max(largest, Math.Max(shear + bend, Math.Max(chain * rod.StretchStiffness[j], twist)));
             }
@@ -155,7 +155,7 @@ namespace Guidewire.Core
         }
 
         // Line density behind the lighter node of element j: a node has half of each element beside it.
-        private static double LeastDensity(MaterialRod rod, int j)
+        private static double MinDensity(MaterialRod rod, int j)
         {
             int before = Math.Max(j - 1, 0);
             int after = Math.Min(j + 1, rod.ElementCount - 1);

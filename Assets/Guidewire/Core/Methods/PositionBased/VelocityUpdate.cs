@@ -4,7 +4,7 @@ namespace Guidewire.Core
     /// current one.</summary>
     internal static class VelocityUpdate
     {
-        /// <summary>Closes a step.</summary>
+        /// <summary>Closes a step: velocities follow from the corrected positions.</summary>
         /// <param name="state">The wire; its predicted state has been corrected.</param>
         /// <param name="timeStep">dt in s.</param>
         public static void Apply(RodState state, double timeStep)

@@ -7,7 +7,7 @@ namespace Guidewire.Io
     /// <summary>The methods that take a key.</summary>
     internal static class Takers
     {
-        /// <summary>Every method.</summary>
+        /// <summary>Has every method.</summary>
         public static IReadOnlyList<Solver> All { get; } = Where(method => true);
 
         /// <summary>Those whose wire has a stiffness per iteration.</summary>
@@ -19,7 +19,7 @@ namespace Guidewire.Io
         /// <summary>Those that meet walls.</summary>
         public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
 
-        /// <summary>These.</summary>
+        /// <summary>Has these methods.</summary>
         public static IReadOnlyList<Solver> Only(params Solver[] methods)
         {
             return methods;

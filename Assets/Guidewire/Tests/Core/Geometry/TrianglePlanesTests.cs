@@ -35,7 +35,7 @@ namespace Guidewire.Core.Tests
                 Vector3d x = random.Index(8) == 0 ? Vector3d.Lerp(t[0], t[1], random.Number(0.0, 1.0))
                     : scale * (random.Point() + offset);
                 double distance = Math.Sqrt(ClosestPoints.PointTriangle(x, t[0], t[1], t[2], out _, out int feature));
-                double least = new TrianglePlanes(t).LeastDistance(x, 0);
+                double least = new TrianglePlanes(t).MinDistance(x, 0);
                 Assert.That(least, Is.LessThanOrEqualTo(distance), "case " + i);
                 if (feature < ClosestPoints.Corner)
                 {

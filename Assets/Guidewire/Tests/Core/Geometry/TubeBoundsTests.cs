@@ -92,7 +92,7 @@ namespace Guidewire.Core.Tests
                 int k = 1 + random.Index(knots.Length - 2);
                 Vector3d a = knots[k] + 0.8 * random.Point();
                 Vector3d b = a + 1.5 * random.Point();
-                double least = tube.LeastDistance(a, b);
+                double least = tube.MinDistance(a, b);
                 if (!(least > 0.0))
                 {
                     continue;
@@ -103,7 +103,7 @@ namespace Guidewire.Core.Tests
                 int hint = -1;
                 double found = tube.FindFeatures(a, b, range, range, ref hint, features);
                 tube.FindEdgeContacts(a, b, range, new FeatureRange(features, 0, features.Count, 0.0), edges);
-                double seen = Math.Min(tube.LeastDistance(a, a), tube.LeastDistance(b, b));
+                double seen = Math.Min(tube.MinDistance(a, a), tube.MinDistance(b, b));
                 inside += seen > least + 1e-6 ? 1 : 0;
                 for (int c = 0; c < edges.Count; c++)
                 {
@@ -151,7 +151,7 @@ namespace Guidewire.Core.Tests
                 for (int k = 0; k <= Samples; k++)
                 {
                     Vector3d x = Vector3d.Lerp(a, b, (double)k / Samples);
-                    Assert.That(tube.LeastDistance(x, x), Is.GreaterThanOrEqualTo(least - Resolution), "case " + i);
+                    Assert.That(tube.MinDistance(x, x), Is.GreaterThanOrEqualTo(least - Resolution), "case " + i);
                 }
                 found += isNear ? 1 : 0;
             }

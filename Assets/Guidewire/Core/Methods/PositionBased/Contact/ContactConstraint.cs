@@ -48,7 +48,7 @@ namespace Guidewire.Core
             _from = state.Positions;
         }
 
-        /// <summary>Contacts at present.</summary>
+        /// <summary>Counts the contacts at present.</summary>
         public int Count { get; private set; }
 
         /// <summary>Forgets all contacts; friction of those to come acts on the motion from these n + 1

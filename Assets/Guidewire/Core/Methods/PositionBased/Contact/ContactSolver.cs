@@ -14,12 +14,12 @@ namespace Guidewire.Core
     /// is jammed throughout.</remarks>
     internal sealed class ContactSolver : IConstraintSolver
     {
-        /// <summary>Of its snapshot.</summary>
+        /// <summary>Names the section of its snapshot.</summary>
         public const string SectionKey = "contact";
 
         private const int Resolves = 2;
-        private const int MostParts = 4096;     // of a step; a drive that asks for more gets no more
-        private const int MostShortened = 2;    // halves in succession, from which on the wire is jammed
+        private const int MaxParts = 4096;     // of a step; a drive that asks for more gets no more
+        private const int MaxShortened = 2;    // halves in succession, from which on the wire is jammed
         private const int Slides = 6;
         private const int SlideIterations = 8;
         private const double SmallerStep = 0.25;
@@ -98,7 +98,7 @@ namespace Guidewire.Core
             Vector3d start = state.Positions[0];
             Vector3d targetPosition = _target[0];
             double asked = state.InverseMasses[0] == 0.0 ? Vector3d.Distance(targetPosition, start) : 0.0;
-            double most = MostParts * _longestPart;
+            double most = MaxParts * _longestPart;
             if (asked > most)
             {
                 _target[0] = Vector3d.Lerp(start, targetPosition, most / asked);
@@ -109,7 +109,7 @@ namespace Guidewire.Core
             int shortened = 0;    // parts in succession
             while (left > 0)
             {
-                bool isJammed = shortened >= MostShortened;
+                bool isJammed = shortened >= MaxShortened;
                 int size = Math.Min(isJammed ? 2 : halves, left);
                 PredictPart(state, size / (2.0 * parts), size == left);
                 if (TryPart(state, size == 1, isJammed, out bool isShortened))

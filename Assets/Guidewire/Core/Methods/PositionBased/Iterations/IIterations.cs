@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// <returns>False, with nothing done, where these iterations cannot take these contacts.</returns>
         bool Iterate(Vector3d[] x, Quaterniond[] q, int iterations, IContactResponse? contacts);
 
-        /// <summary>About how long so many iterations take, counted in elements of a scalar iteration.</summary>
+        /// <summary>Says about how long so many iterations take, counted in elements of a scalar iteration.</summary>
         double Cost(int iterations);
     }
 }

@@ -6,10 +6,10 @@ namespace Guidewire.Core
     internal interface ILanes<T>
         where T : struct, ILanes<T>
     {
-        /// <summary>Number of lanes.</summary>
+        /// <summary>Is the number of lanes.</summary>
         static abstract int Count { get; }
 
-        /// <summary>About how long an element and a joint in all lanes take, counted in elements of a scalar
+        /// <summary>Says about how long an element and a joint in all lanes take, counted in elements of a scalar
         /// iteration.</summary>
         static abstract double TickCost { get; }
 
@@ -29,10 +29,10 @@ namespace Guidewire.Core
         /// <summary>All bits set where a &gt; b, none elsewhere, also where one is not a number.</summary>
         static abstract T operator >(T a, T b);
 
-        /// <summary>Bitwise and.</summary>
+        /// <summary>Takes bitwise and.</summary>
         static abstract T operator &(T a, T b);
 
-        /// <summary>The square roots.</summary>
+        /// <summary>Takes the square roots.</summary>
         static abstract T Sqrt(T a);
 
         /// <summary>a where all bits of the mask are set, b where none is.</summary>

@@ -4,7 +4,7 @@ namespace Guidewire.Core
     /// processor.</summary>
     internal static class IterationChoice
     {
-        private const int MostLanes = 8;
+        private const int MaxLanes = 8;
 
         /// <summary>The iterations of least cost.</summary>
         /// <param name="scalar">The iterations to do.</param>
@@ -12,7 +12,7 @@ namespace Guidewire.Core
         public static IIterations Fastest(ScalarIterations scalar, int iterations)
         {
             IIterations fastest = scalar;
-            for (int lanes = MostLanes; lanes > 1; lanes /= 2)
+            for (int lanes = MaxLanes; lanes > 1; lanes /= 2)
             {
                 IIterations? candidate = WithLanes(scalar, lanes);
                 if (candidate != null && candidate.Cost(iterations) < fastest.Cost(iterations))

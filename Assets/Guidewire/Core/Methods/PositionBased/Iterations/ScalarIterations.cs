@@ -18,10 +18,10 @@ namespace Guidewire.Core
             _joints = IterationOrders.Indices(order, bendTwist.Count);
         }
 
-        /// <summary>The elements' constraints.</summary>
+        /// <summary>Has the elements' constraints.</summary>
         public StretchConstraint Stretch { get; }
 
-        /// <summary>The joints' constraints.</summary>
+        /// <summary>Has the joints' constraints.</summary>
         public BendTwistConstraint BendTwist { get; }
 
         /// <summary>The order of each iteration.</summary>
