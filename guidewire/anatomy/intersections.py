@@ -26,12 +26,13 @@ def _crossings(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
     corners = mesh.corners
     low, high = corners.min(axis=1), corners.max(axis=1)
     normals = np.cross(corners[:, 1] - corners[:, 0], corners[:, 2] - corners[:, 0])
-    hits, pairs = [np.empty((0, 3))], [np.empty((0, 2), dtype=int)]
-    for first, second in _candidates(low, high, float(np.median(high - low)) * 2.0 + 1e-300):
+    hits, pairs, order = [np.empty((0, 3))], [np.empty((0, 2), dtype=int)], [np.empty(0, dtype=int)]
+    for first, second, part in _together(_candidates(low, high, float(np.median(high - low)) * 2.0 + 1e-300)):
         near = ((low[first] <= high[second]) & (low[second] <= high[first])).all(axis=1)
-        first, second = first[near], second[near]
-        shared = (mesh.triangles[first][:, :, None] == mesh.triangles[second][:, None, :]).any(axis=(1, 2))
-        for a, b in ((first[~shared], second[~shared]), (second[~shared], first[~shared])):
+        first, second, part = first[near], second[near], part[near]
+        apart = ~(mesh.triangles[first][:, :, None] == mesh.triangles[second][:, None, :]).any(axis=(1, 2))
+        first, second, part = first[apart], second[apart], part[apart]
+        for side, (a, b) in enumerate(((first, second), (second, first))):
             # An edge can only pierce what has not all of its triangle on one side.
             sides = np.einsum("kij,kj->ki", corners[a] - corners[b, :1], normals[b])
             both = (sides.min(axis=1) < 0.0) & (sides.max(axis=1) > 0.0)
@@ -40,7 +41,10 @@ def _crossings(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
                 point, pierced = _pierce(corners[a, k], corners[a, (k + 1) % 3], corners[b])
                 hits.append(point[pierced])
                 pairs.append(np.stack([a[pierced], b[pierced]], axis=1))
-    points, found = np.concatenate(hits), np.concatenate(pairs)
+                order.append(6 * part[both][pierced] + 3 * side + k)
+    # However many parts were taken together, the first of equal points is the same.
+    sorting = np.argsort(np.concatenate(order), kind="stable")
+    points, found = np.concatenate(hits)[sorting], np.concatenate(pairs)[sorting]
     if not len(points):
         return points, found
     # An edge belongs to two triangles, and a pair may share several cells.
@@ -60,6 +64,19 @@ def relaxed(mesh: Mesh) -> Mesh:
             vertices[vertex] = mesh.vertices[around].mean(axis=0)
         mesh = Mesh(vertices, mesh.triangles)
     return mesh
+
+
+def _together(parts):
+    """Small parts of pairs as one, with the number of the part of each pair."""
+    kept, count = [], 0
+    for number, (first, second) in enumerate(parts):
+        kept.append((first, second, np.full(len(first), number)))
+        count += len(first)
+        if count >= _CHUNK:
+            yield tuple(map(np.concatenate, zip(*kept)))
+            kept, count = [], 0
+    if kept:
+        yield tuple(map(np.concatenate, zip(*kept)))
 
 
 def _candidates(low: np.ndarray, high: np.ndarray, size: float):

@@ -53,13 +53,14 @@ class WallDistance:
         u = np.cross(tangent, np.eye(3)[np.argmin(np.abs(tangent))])
         u /= np.linalg.norm(u)
         w = np.cross(tangent, u)
+        around = [np.cos(angle) * u + np.sin(angle) * w for angle in (k * np.pi / 3.0 for k in range(6))]
         best, value, step = point, self.distance(point), 0.3 * radius
         while step > 0.004 * radius:
             found = None
-            for k in range(6):
-                angle = k * np.pi / 3.0
-                tried = best + step * (np.cos(angle) * u + np.sin(angle) * w)
-                if np.linalg.norm(tried - point) > most:
+            for direction in around:
+                tried = best + step * direction
+                way = tried - point
+                if way.dot(way) ** 0.5 > most:
                     continue
                 distance = self.distance(tried)
                 if distance > value + 1e-9 * radius:
