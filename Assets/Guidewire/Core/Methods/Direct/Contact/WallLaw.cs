@@ -152,6 +152,13 @@ namespace Guidewire.Core
             return _element[j].Distance;
         }
 
+        /// <summary>Range of the gap of a contact, m: of a soft wall its limit there.</summary>
+        public double DistanceAt(in WallContact contact)
+        {
+            int node = contact.Element + (contact.Position == 1.0 ? 1 : 0);
+            return contact.IsNode ? _node[node].Distance : _element[contact.Element].Distance;
+        }
+
         /// <summary>Of the gap of element j at an edge of the wall.</summary>
         public Barrier OfEdge(int j, in EdgeContact edge)
         {

@@ -88,7 +88,7 @@ namespace Guidewire.Core
                 }
                 sum += moved;
                 count++;
-                share = Math.Max(share, moved / law.DistanceOf(contact.Element));
+                share = Math.Max(share, moved / law.DistanceAt(contact));
                 record.LargestDisplacement = Math.Max(record.LargestDisplacement, moved);
                 for (int j = contact.Element - (contact.IsNode && contact.Position == 0.0 ? 1 : 0);
                     j <= contact.Element; j++)

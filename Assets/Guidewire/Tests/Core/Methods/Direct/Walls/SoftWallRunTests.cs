@@ -60,6 +60,20 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void WhereTheWireBecomesThinner_NoLimitIsExceeded()
+        {
+            SimulationParameters parameters = Pressed(50.0, 0.0);
+            parameters.Material.Sections = new[] { new WireSection { From = 150.0, To = 300.0, WireRadius = 0.2e-3 } };
+            Simulation simulation = Simulation.Create(parameters);
+            for (int k = 0; k < Steps; k++)
+            {
+                simulation.Step();
+            }
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running), simulation.Reason);
+            Assert.That(simulation.Report()!.Extremes!.LimitShare, Is.InRange(0.5, 1.0));
+        }
+
+        [Test]
         public void Restored_ItGoesOnWithTheSameBits_AndAChangedStiffnessCounts()
         {
             SimulationParameters parameters = Pressed(2e3, 0.0);
