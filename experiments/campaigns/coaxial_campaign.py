@@ -21,6 +21,7 @@ from typing import Any
 
 import numpy as np
 
+from experiments.campaigns import material_pushes
 from experiments.campaigns.anatomy_campaign import STEP, Vessel, Walk, drive
 from experiments.campaigns.push_campaign import CODES, parser_of
 from experiments.campaigns.push_claims import contradictions
@@ -123,9 +124,13 @@ def _success(vessel: Vessel, scene: dict[str, Any], summary: dict[str, Any], tip
         f"'reached', but the tip in the lumen came to {least:.3g} mm from the target"]
 
 
-def make(runner: Runner, vessel: Vessel, seed: int, folder: Path) -> Walk:
-    """Draw, run and check; its files stay in the folder where it breaks a claim."""
+def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, is_soft: bool = False) -> Walk:
+    """Draw, run and check, between soft walls if asked for; its files stay in the folder where it breaks a claim."""
     path = draw(vessel, seed, folder)
+    if is_soft:
+        own = json.loads(path.read_text())
+        material_pushes.soften(own, seed)
+        path.write_text(json.dumps(own, indent=1))
     out = folder / f"run-{path.stem}"
     start = time.monotonic()
     answer = runner.run(Request(path.stem, path, out), RUN_LIMIT)
@@ -146,17 +151,19 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path) -> Walk:
     return walk
 
 
-def campaign(command: Sequence[str], vessel: Vessel, seeds: Iterable[int], folder: Path) -> Iterator[Walk]:
+def campaign(command: Sequence[str], vessel: Vessel, seeds: Iterable[int], folder: Path, is_soft: bool = False
+             ) -> Iterator[Walk]:
     """The runs of these seeds in one vessel, one after another in one process."""
     with closing(Runner(command)) as runner:
         for seed in seeds:
-            yield make(runner, vessel, seed, folder)
+            yield make(runner, vessel, seed, folder, is_soft)
 
 
 def main(arguments: Sequence[str]) -> int:
     """Returns 1 where a run breaks a claim."""
     parser = parser_of("coaxial_campaign", __doc__)
     parser.add_argument("folders", nargs="+", type=Path, metavar="FOLDER")
+    parser.add_argument("--soft", action="store_true", help="walls that give way")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
     command = building.build(building.RUNNER, print)
@@ -167,7 +174,8 @@ def main(arguments: Sequence[str]) -> int:
         for place in given.folders:
             outcomes: Counter[str] = Counter()
             claimed, farthest = 0, 0.0
-            for walk in campaign(command, Vessel(place), range(given.first, given.first + given.runs), folder):
+            for walk in campaign(command, Vessel(place), range(given.first, given.first + given.runs), folder,
+                                 given.soft):
                 outcomes[walk.outcome] += 1
                 farthest = max(farthest, walk.distance)
                 claimed += bool(walk.claims)
