@@ -2,6 +2,7 @@
 
 import csv
 import dataclasses
+import importlib.util
 import json
 import re
 import shlex
@@ -93,6 +94,17 @@ def test_every_command_that_a_page_shows_can_be_typed(page):
             parse(words)
         except SystemExit as end:
             assert end.code == 0, f"{page.name}: {words}"
+
+
+def test_every_module_that_a_page_runs_is_there_and_every_script_compiles():
+    modules = set()
+    for page in PAGES:
+        text = page.read_text(encoding="utf-8")
+        modules |= set(re.findall(r"python3 -m ([a-z][\w.]*)", text))
+        for block in blocks(text, "python"):
+            compile(block, page.name, "exec")
+    assert "tools.prose" in modules and len(modules) > 5
+    assert [name for name in modules if importlib.util.find_spec(name) is None] == []
 
 
 @pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
