@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import tempfile
 from collections import OrderedDict
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -22,6 +22,7 @@ from guidewire.sessions.session import Session, State
 _SESSIONS, _STARTS = 6, 64  # kept open, and snapshots kept of each
 _LARGEST_TURN = np.radians(20.0)  # a step of what turns the tip before an episode
 _LARGEST_PUSH = 2.0e-3  # m, a step of what inserts before an episode
+_TRIED = (1, 2, 4, 8)  # parts of such a step
 ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
 
 
@@ -74,18 +75,25 @@ class LoadedScene:
         if key in self._starts:
             self._starts.move_to_end(key)
             return self.session.restore(self._starts[key])
-        state = self.session.reset()
-        if tip_turn:
-            state = self.session.step(turn=[tip_turn] * self.hubs,
-                                      steps=int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
-        if any(insertions):
-            state = self.session.step([one / self.unit for one in insertions],
-                                      steps=int(np.ceil(max(insertions) / _LARGEST_PUSH)))
-        if state.outcome is not None:
+        for parts in _TRIED:    # a wire whose tip catches may come there in shorter steps
+            state = self._moved(tip_turn, insertions, parts)
+            if state.outcome is None:
+                break
+        else:
             raise Error(f"the wire does not come to its start: {state.outcome}: {state.reason}")
         self._starts[key] = self.session.save()
         if len(self._starts) > _STARTS:
             self._starts.popitem(last=False)
+        return state
+
+    def _moved(self, tip_turn: float, insertions: Sequence[float], parts: int) -> State:
+        state = self.session.reset()
+        if tip_turn:
+            state = self.session.step(turn=[tip_turn] * self.hubs,
+                                      steps=parts * int(np.ceil(abs(tip_turn) / _LARGEST_TURN)))
+        if any(insertions) and state.outcome is None:
+            state = self.session.step([one / self.unit for one in insertions],
+                                      steps=parts * int(np.ceil(max(insertions) / _LARGEST_PUSH)))
         return state
 
     def route(self, target: Any) -> Route:

@@ -3,12 +3,14 @@
 import importlib.util
 import json
 from dataclasses import replace
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
 from guidewire.env import Drive, Environment, Observation, RecordedDrive, Reward, VectorEnvironment
 from guidewire.env import own_spaces
+from guidewire.env.loaded import LoadedScene
 from guidewire.env.observation import _in_frame
 from guidewire.env.own_spaces import Box, Dict, Discrete, MultiDiscrete
 from guidewire.env.route import Placement, Route
@@ -148,6 +150,24 @@ def test_a_start_in_the_vessel_is_the_bits_of_the_insertion_there_and_a_snapshot
         assert other.report.inserted == pytest.approx(0.0014)    # from the snapshot on
         with pytest.raises(Error, match="stands alone"):
             other.reset(options={"snapshot": saved, "target": 0})
+
+
+def test_a_start_that_fails_is_tried_in_shorter_steps(tube, monkeypatch):
+    moved, asked = LoadedScene._moved, []
+
+    def failing(scene, turn, insertions, parts):
+        asked.append(parts)
+        state = moved(scene, turn, insertions, parts)
+        return state if parts >= least else SimpleNamespace(outcome="failed", reason="the tip is caught")
+
+    monkeypatch.setattr(LoadedScene, "_moved", failing)
+    with Environment(tube) as own:
+        least = 4
+        own.reset(options={"nominal": True, "insertion": 0.005})
+        assert asked == [1, 2, 4] and own.session_state.step == 4 * 3    # steps of 2 mm, in four parts
+        least = 100
+        with pytest.raises(Error, match="does not come to its start: failed: the tip is caught"):
+            own.reset(options={"nominal": True, "insertion": 0.006})
 
 
 def test_what_was_done_is_kept_in_a_file_and_done_again_to_the_same_bits(environment, tmp_path):
