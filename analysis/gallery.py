@@ -269,6 +269,6 @@ def _index(out: Path, catalogue: Catalogue) -> str:
 
 
 def _tables_of(spec: FigureSpec, catalogue: Catalogue) -> list[str]:
-    """Where the tables of its runs are, from the folder of the pictures."""
+    """Say where the tables of its runs are, from the folder of the pictures."""
     checks = [f"{study}/{check.name}" for study in spec.studies for check in catalogue.checked.get(study, ())]
     return [f"../{folder}/{table}" for folder in (*spec.studies, *checks) for table in (RESULTS, FRONTIER)]

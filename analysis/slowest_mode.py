@@ -46,7 +46,7 @@ class SlowestMode:
 
     @classmethod
     def of(cls, run: Run) -> SlowestMode:
-        """Of a run's parameters."""
+        """Make it of a run's parameters."""
         count = int(run.number("numberRodElements"))
         length = run.number("guidewireLength") / count
         weight = (count + 1) / run.number("totalMass")

@@ -52,7 +52,7 @@ class Frontier:
 
     @property
     def middle(self) -> float:
-        """Between the two."""
+        """Give the middle between the two."""
         return 0.5 * (self.low + self.high)
 
 
@@ -203,7 +203,8 @@ def limit_explicit(wire: Wire, elements: int) -> float:
 
 
 def highest_frequency(wire: Wire, n: int) -> float:
-    """Of small motions of a free chain with lumped masses, rad/s: across it, with elements that turn, and along it."""
+    """Give the highest frequency of small motions of a free chain with lumped masses, rad/s: across it, with elements
+    that turn, and along it."""
     length = wire.length / n
     turning = np.full(n, wire.second_moment / wire.area)
     mass = wire.line_density * length * np.array([0.5, *np.ones(n - 1), 0.5, *turning])

@@ -288,7 +288,8 @@ class Walls:
 
     @classmethod
     def of(cls, scene: dict[str, Any], triangles: np.ndarray) -> Walls:
-        """Of a parameter file; triangles (t, 3, 3) in units are those of its mesh at their place, if it has one."""
+        """Make it of a parameter file; triangles (t, 3, 3) in units are those of its mesh at their place, if it has
+        one."""
         others = list(scene.get("obstacles") or [])
         is_mesh = scene["vessel"]["shape"] == "mesh"
         others += [] if is_mesh else [scene["vessel"]]

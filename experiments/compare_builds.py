@@ -37,13 +37,13 @@ class Scene:
 
     @property
     def title(self) -> str:
-        """One line."""
+        """Say it in one line."""
         texts = (f"{key}={json.dumps(value)}" for key, value in self.overrides.items())
         return " ".join([self.name, *texts])
 
 
 def scenes() -> list[Scene]:
-    """All of them."""
+    """Give all of them."""
     orders = ("implicitEuler", "bdf2", "trbdf2", "esdirk3", "esdirk4")
     moving = {"tipForce": [0.02, 0.01, 0.0], "tipForceReleaseTime": 0.05}
     held = {"gravity": [0, -9.81, 0], "distalEnd": "clamped", "rotationSpeed": 3.0}
@@ -83,7 +83,7 @@ def run(runner: Runner, scene: Scene, out: Path, timed: bool = False) -> tuple[s
 
 
 def processor_time(process: int | None) -> float:
-    """Of a process and its threads so far, s."""
+    """Give the processor time of a process and its threads so far, s."""
     if process is None:
         return 0.0
     threads = Path(f"/proc/{process}/task").glob("*/schedstat")

@@ -97,8 +97,8 @@ class Route:
 
     @staticmethod
     def _distances(line: np.ndarray, parents: list[int], path: list[int]) -> np.ndarray:
-        """Of each point of the centreline, its distance from the wall of the path's lumen along the tree, mm; negative
-        within it."""
+        """Give of each point of the centreline its distance from the wall of the path's lumen along the tree, mm;
+        negative within it."""
         # A branch begins at the wall of the path's lumen, a radius from the path.
         away = np.full(len(parents), np.inf)
         away[path] = -line[path, 3]

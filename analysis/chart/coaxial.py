@@ -48,7 +48,7 @@ def _setting(words: tuple[str, str], made: Case) -> Setting:
 
 
 def _turning(pair: Pair, degrees: float, steps: int) -> Setting:
-    """At _SPEED."""
+    """Turn at _SPEED."""
     step = degrees / _SPEED
     return _setting(settings.direct("implicitEuler", pair.elements, step),
                     turning(pair, degrees, steps, f"turned-{pair.elements}-{steps}", step))

@@ -146,7 +146,7 @@ def _draw_published(axes: Axes, charted: Charted) -> None:
 
 
 def _published(found: Sequence[Charted]) -> str:
-    """Where the bars of others come from."""
+    """Say where the bars of others come from."""
     names = [charted.problem.name for charted in found]
     listed = [f"({_LETTERS[names.index(one.problem)]}) {one.label}: {one.says} [{one.source}]"
             for one in PUBLISHED if one.problem in names]

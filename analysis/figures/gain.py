@@ -136,7 +136,7 @@ def _cost(elements: list[ElementRow], spheres: list[ElementRow]) -> str:
 
 
 def _passed(subject: str, rows: list[ElementRow], radius: float) -> str:
-    """At which n points of the wire passed the wall."""
+    """Say at which n points of the wire passed the wall."""
     failed = [row for row in rows if row.passages > 0]
     if not failed:
         return f"{subject} no point of any wire passes the wall."

@@ -197,7 +197,7 @@ def draw_classes(axes: Axes, more: Sequence[str] = ()) -> None:
 
 
 def draw_map(axes: Axes, view: View, cells: Sequence[Cell]) -> None:
-    """One panel."""
+    """Draw one panel."""
     names = list(dict.fromkeys(cell.y for cell in cells)) if isinstance(cells[0].y, str) else None
     for cell in cells:
         marker, colour = _CLASSES[cell.kind]

@@ -59,7 +59,7 @@ def _cut(parameters: Mapping[str, Any], vessel: Mapping[str, Any]) -> np.ndarray
 
 
 def section(surface: Surface) -> np.ndarray:
-    """Where the triangles meet the plane x = 0: segments (k, 2, 2), each two points (z, y), in units."""
+    """Find where the triangles meet the plane x = 0: segments (k, 2, 2), each two points (z, y), in units."""
     corners = surface.vertices[surface.triangles]
     # A vertex in the plane itself counts as on its positive side, so that every cut has two ends.
     side = corners[..., 0] >= 0.0

@@ -112,7 +112,7 @@ _SCENES |= {f"4.{k}": "Push of {push:g} units against a wall" for k in ("15", "1
 
 
 def maxima(x: np.ndarray, y: np.ndarray) -> np.ndarray:
-    """Where a curve has local maxima that stand out by _PROMINENCE of its range, as values of x."""
+    """Find where a curve has local maxima that stand out by _PROMINENCE of its range, as values of x."""
     if y.size < 3 or np.ptp(y) == 0.0:
         return np.array([])
     return x[find_peaks(y, prominence=_PROMINENCE * np.ptp(y))[0]]

@@ -156,7 +156,7 @@ def _legend_above(axes: Axes) -> None:
 
 
 def _spread_rows(rows: tuple[ComparedRun, ...], logarithmic: bool) -> list[ComparedRun]:
-    """At most ten rows, as evenly spread over the parameter's axis as the study allows."""
+    """Choose at most ten rows, as evenly spread over the parameter's axis as the study allows."""
     values = np.array([row.value for row in rows])
     places = np.log(values) if logarithmic else values
     wanted = np.linspace(places[0], places[-1], _MOST_WIRES)

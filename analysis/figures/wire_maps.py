@@ -96,7 +96,8 @@ VIEWS = (
 
 
 def euler_error(damping: float, step: float, time: float) -> float:
-    """By how much implicit Euler is off for one mode that falls with b K times its rate beside K, of how far it falls.
+    """Say by how much implicit Euler is off for one mode that falls with b K times its rate beside K, of how far it
+    falls.
 
     Parameters
     ----------

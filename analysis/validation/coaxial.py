@@ -106,7 +106,7 @@ def _hub(run: Run, name: str) -> float:
 
 
 def tip_of(run: Run) -> np.ndarray:
-    """Of the wire, over L."""
+    """Give the tip of the wire, over L."""
     return tip_motion(run)[1][-1] / _LENGTH
 
 
@@ -162,7 +162,7 @@ _BELOW = (0.94, 0.96, 0.98)  # of the threshold
 
 
 def _stability() -> Plan:
-    """Where the twist of pi ceases to be stable: the smallest eigenvalue goes to zero."""
+    """Find where the twist of pi ceases to be stable: the smallest eigenvalue goes to zero."""
     part = 1.0 / _RATIO / (1.0 + 1.0 / _RATIO)  # of the relative twist, the inner one's
     points = [*((0.0, n) for n in (5, 10, 20)), (0.5, 10), (2.0, 10)]
     cases = {}
@@ -214,7 +214,7 @@ _TURN_STEP = 2.5  # degrees
 
 
 def turning(pair: Pair, degrees: float, steps: int, key: str, step: float = _STEP) -> Case:
-    """From its rest shape a hub that turns by so many degrees a step, which takes `step` s."""
+    """Turn from its rest shape a hub that turns by so many degrees a step, which takes `step` s."""
     return Case(key, {**pair.case(key).overrides, "integrator": "implicitEuler", "timeStep": step,
                       "maxSimulationSteps": steps, "deltaThreshold": 0.0, "massDamping": 100.0, "logSpheres": "last",
                       "rotationSpeed": math.radians(degrees) / step})

@@ -65,7 +65,7 @@ class _Sought:
 
 
 def _leaves_plane(sought: _Sought) -> Search:
-    """Where rest shapes leave the y-z plane, or come back to it."""
+    """Find where rest shapes leave the y-z plane, or come back to it."""
 
     def case(load: float) -> dict[str, Any]:
         return scenes.at_rest({**sought.scene, "gravity": [load * g for g in sought.weight]})

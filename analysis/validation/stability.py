@@ -61,7 +61,7 @@ def limit(
     left: Callable[[Run], float],
     start: Mapping[str, Any] | None = None,
 ) -> Search:
-    """Where a rest shape loses its stability, by dividing an interval of loads again and again.
+    """Find where a rest shape loses its stability, by dividing an interval of loads again and again.
 
     Parameters
     ----------
@@ -105,8 +105,8 @@ def pushed(
     push: float = PUSH,
     fractions: Sequence[float] = _FRACTIONS,
 ) -> Search:
-    """Where a push dies out and where it grows, at fractions of the expected limit, those next to 1 first and the rest
-    only where those do not show both.
+    """Find where a push dies out and where it grows, at fractions of the expected limit, those next to 1 first and the
+    rest only where those do not show both.
 
     Parameters
     ----------

@@ -120,7 +120,7 @@ def _push(y: np.ndarray, f: float) -> float:
 
 
 def _loading(fraction: float) -> Plan:
-    """For this fraction of the run."""
+    """Load for this fraction of the run."""
     steps = round(fraction * _DURATION / _STEP)
     case = Case("direct", {"maxSimulationSteps": steps, "logEvery": 10, "logFormat": "npz"})
     runs = yield [case]
@@ -179,7 +179,7 @@ def _loading(fraction: float) -> Plan:
 
 
 def _onset(load: np.ndarray, across: np.ndarray) -> float:
-    """Where the square of the amplitude, which grows in proportion to the excess, was 0."""
+    """Find where the square of the amplitude, which grows in proportion to the excess, was 0."""
     snakes = (across > _SNAKES[0]) & (across < _SNAKES[1])
     if np.count_nonzero(snakes) < 3:
         return math.nan

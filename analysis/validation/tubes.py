@@ -49,12 +49,12 @@ def bend(radius: float, angle: float, pieces: int, before: float, after: float) 
 
 
 def at_bend(radius: float, turn: float) -> np.ndarray:
-    """Where the centreline of a bend from the origin is when it has turned so far, units."""
+    """Say where the centreline of a bend from the origin is when it has turned so far, units."""
     return radius * np.array([0.0, 1.0 - math.cos(turn), math.sin(turn)])
 
 
 def along_bend(turn: float) -> np.ndarray:
-    """Its direction there."""
+    """Give its direction there."""
     return np.array([0.0, math.sin(turn), math.cos(turn)])
 
 
@@ -77,5 +77,5 @@ def untwisted_frames(nodes: np.ndarray) -> list[list[float]]:
 
 
 def _product(a: np.ndarray, b: np.ndarray) -> np.ndarray:
-    """Of quaternions x, y, z, w."""
+    """Multiply quaternions x, y, z, w."""
     return np.array([*(a[3] * b[:3] + b[3] * a[:3] + np.cross(a[:3], b[:3])), a[3] * b[3] - a[:3] @ b[:3]])

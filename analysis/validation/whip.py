@@ -81,7 +81,7 @@ def _snapped(log: HubLog) -> tuple[float, float]:
 
 
 def _whip(settings: Sequence[tuple[float, int]]) -> Plan:
-    """For clearances in units and numbers of elements."""
+    """Whip for clearances in units and numbers of elements."""
     cases = {clearance: _case(clearance, n) for clearance, n in settings}
     runs = yield list(cases.values())
     exact, exact_tip = snap(_LAMBDA)

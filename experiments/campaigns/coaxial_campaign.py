@@ -74,7 +74,8 @@ def draw(vessel: Vessel, seed: int, folder: Path) -> Path:
 
 
 def _most_ahead(wire: np.ndarray, catheter: np.ndarray) -> float:
-    """By how much the wire's hub has gone farther than the catheter's, at most in a run, mm. Rows are of `drive`."""
+    """Say by how much the wire's hub has gone farther than the catheter's, at most in a run, mm. Rows are of
+    `drive`."""
     end = STEP * MOST_STEPS
     times = np.union1d(wire[:, 0], catheter[:, 0])
     times = np.append(times[times < end], end)

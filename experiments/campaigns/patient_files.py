@@ -116,7 +116,7 @@ def _mask(lines: Callable[[], list[np.ndarray]], side: float, letters: str = "LP
 
 
 def _write_nrrd(file: Path, values: np.ndarray, steps: np.ndarray, origin: np.ndarray, letters: str) -> None:
-    """In the axes of its letters, where these are a space that NRRD knows, else in LPS."""
+    """Write it in the axes of its letters, where these are a space that NRRD knows, else in LPS."""
     words = {"RAS": "right-anterior-superior", "LAS": "left-anterior-superior"}
     signs = np.array([LPS["L" if letter in "LR" else letter] for letter in "LPS"])
     if letters in words:

@@ -35,7 +35,7 @@ def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.nda
 
 
 def contradictions(summary: dict[str, Any]) -> list[str]:
-    """Where `reliable` is not what outcome, reason and warnings say."""
+    """Find where `reliable` is not what outcome, reason and warnings say."""
     serious = [warning for warning in summary["warnings"] if any(one.match(warning) for one in SERIOUS)]
     is_whole = summary["outcome"] in ("converged", "finished") and ", but " not in summary["reason"]
     may_be_trusted = is_whole and not serious

@@ -70,7 +70,7 @@ def listed(docs: str) -> list[re.Pattern[str]]:
 
 def violations(scene: Mapping[str, Any], summary: Mapping[str, Any], log: Mapping[str, np.ndarray],
                warnings: list[re.Pattern[str]]) -> list[str]:
-    """Where `reliable` is not what the criteria say, one line each.
+    """Find where `reliable` is not what the criteria say, one line each.
 
     Parameters
     ----------

@@ -66,7 +66,7 @@ class Tried:
 
 @dataclass(frozen=True)
 class Advice:
-    """What was found.
+    """It has what was found.
 
     Attributes
     ----------
@@ -221,7 +221,8 @@ class _Measure:
             raise LogError(f"{quantity.said} is 0 in the reference: a relative error is not defined")
 
     def errors(self, run: Run) -> tuple[float, float]:
-        """Of a run from the reference and from the file as it is; not numbers where it was lost or passed a wall."""
+        """Give the errors of a run from the reference and from the file as it is; not numbers where it was lost or
+        passed a wall."""
         if run.outcome in _LOST or run.measured("passages") > 0:
             return math.nan, math.nan
         values = self._quantity.read(run, self._times)

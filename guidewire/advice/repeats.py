@@ -55,7 +55,7 @@ def ending_of(run: Run) -> Ending:
 
 
 def differences(run: Run, repeats: Mapping[str, Run]) -> list[str]:
-    """In what repeats by name end otherwise than the run, one phrase each; none where the result holds."""
+    """Say in what repeats by name end otherwise than the run, one phrase each; none where the result holds."""
     end, found = ending_of(run), []
     for name, repeat in repeats.items():
         other = ending_of(repeat)
@@ -90,7 +90,7 @@ def as_markdown(run: Run, repeats: Mapping[str, Run]) -> str:
 
 
 def verdict(run: Run, repeats: Mapping[str, Run]) -> str:
-    """One line."""
+    """Say it in one line."""
     found = differences(run, repeats)
     return "the result does not hold: " + "; ".join(found) if found else \
         f"the result holds with {' and with '.join(repeats)}"

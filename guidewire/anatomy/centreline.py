@@ -88,7 +88,7 @@ class Centreline:
         return np.array(walk_back(before, end))
 
     def length(self, indices: np.ndarray) -> float:
-        """Of the polyline through these points."""
+        """Give the length of the polyline through these points."""
         return float(np.linalg.norm(np.diff(self.points[indices], axis=0), axis=1).sum())
 
     def inner(self) -> np.ndarray:
@@ -332,7 +332,7 @@ class _Builder:
         return line, np.array([self._wall.distance(point) for point in line])
 
     def _to_wall(self, line: np.ndarray, step: float) -> np.ndarray:
-        """From the end of a line straight on to the wall of a blind end."""
+        """Go from the end of a line straight on to the wall of a blind end."""
         back = line[-1] - line[max(0, len(line) - 6)]
         direction = back / max(np.linalg.norm(back), 1e-300)
         # Sphere tracing: the distance from the wall is free to go. One radius on is the wall of a round end.
@@ -347,8 +347,8 @@ class _Builder:
         return line[-1] + np.linspace(0.0, 1.0, count + 1)[1:, None] * (end - line[-1])
 
     def _widest_after(self, point: int) -> int:
-        """Of the points after one, away from the root, that beyond which there is most of the vessel, its radii summed
-        along the tree; -1 at an end."""
+        """Find, of the points after one, away from the root, that beyond which there is most of the vessel, its radii
+        summed along the tree; -1 at an end."""
         after = np.flatnonzero(np.asarray(self._parents) == point)
         if len(after) < 2:
             return int(after[0]) if len(after) else -1

@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def default_folder(name: str) -> Path:
-    """Where a vessel is written that no --out says a folder for."""
+    """Give the folder of a vessel that no --out says a folder for."""
     return Path("results") / "anatomy" / name
 
 

@@ -10,7 +10,7 @@ _CHUNK = 2_000_000  # pairs of boxes compared at once
 
 
 def self_intersections(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """As `_crossings`; once for each mesh, since check, repair and remeshing ask for that of the same one."""
+    """Do as `_crossings`, once for each mesh, since check, repair and remeshing ask for that of the same one."""
     known = vars(mesh)
     if "crossings" not in known:
         known["crossings"] = _crossings(mesh)
@@ -116,7 +116,7 @@ def _candidates(low: np.ndarray, high: np.ndarray, size: float):
 
 
 def _pierce(start: np.ndarray, end: np.ndarray, triangle: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Where segments (k, 3) meet the planes of triangles (k, 3, 3), and whether that is inside both."""
+    """Find where segments (k, 3) meet the planes of triangles (k, 3, 3), and whether that is inside both."""
     a, b, c = np.moveaxis(triangle, 1, 0)
     normal = np.cross(b - a, c - a)
     above, below = np.einsum("ij,ij->i", start - a, normal), np.einsum("ij,ij->i", end - a, normal)

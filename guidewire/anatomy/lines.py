@@ -226,7 +226,7 @@ def _is_number(word: str) -> bool:
 
 
 def _columns(file: Path, headings: list[str]) -> tuple[list[int], float, Axes, str]:
-    """Where x, y, z and the radius stand, the factor that makes a radius of it, and the axes and the unit that the
+    """Find where x, y, z and the radius stand, the factor that makes a radius of it, and the axes and the unit that the
     headings name."""
     parted = [re.fullmatch(r"(.*?)(?:[ _(\[]+(mm|cm|m)[)\]]?)?", word.strip()) for word in headings]
     names = ["".join(found[1].lower().split()) for found in parted]

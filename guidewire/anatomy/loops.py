@@ -31,13 +31,13 @@ class Loop:
 
 
 def count_loops(closed: Mesh) -> int:
-    """Of a closed surface: the most circles along which it can be cut without falling apart."""
+    """Count of a closed surface the most circles along which it can be cut without falling apart."""
     used = len(np.unique(closed.triangles))
     return (2 - used + len(Edges.of(closed).ends) - len(closed.triangles)) // 2
 
 
 def find_loops(closed: Mesh, points: np.ndarray, radii: np.ndarray, parents: np.ndarray) -> list[Loop]:
-    """Where ways meet that the tree does not join, as many as the surface has loops, or fewer.
+    """Find where ways meet that the tree does not join, as many as the surface has loops, or fewer.
 
     Parameters
     ----------

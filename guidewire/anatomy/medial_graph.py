@@ -49,7 +49,7 @@ class WallDistance:
         return vtk_to_numpy(enclosed.GetOutput().GetPointData().GetArray("SelectedPoints")).astype(bool)
 
     def centre(self, point: np.ndarray, tangent: np.ndarray, radius: float, most: float) -> np.ndarray:
-        """Where the distance is largest across a tangent, no farther than `most` from a point."""
+        """Find where the distance is largest across a tangent, no farther than `most` from a point."""
         u = np.cross(tangent, np.eye(3)[np.argmin(np.abs(tangent))])
         u /= np.linalg.norm(u)
         w = np.cross(tangent, u)
@@ -73,7 +73,8 @@ class WallDistance:
 
 
 def _tetrahedra(points: np.ndarray) -> Delaunay:
-    """Of points, which Qhull displaces by its rounding where too many of them lie on one sphere for exact merging."""
+    """Make the tetrahedra of points, which Qhull displaces by its rounding where too many of them lie on one sphere for
+    exact merging."""
     try:
         return Delaunay(points)
     except QhullError:
@@ -138,7 +139,7 @@ class MedialGraph:
         return list(self.radii[near].max(axis=-1))
 
     def two_ends(self) -> list[int]:
-        """Of a lumen without rims: the two vertices that are farthest from each other."""
+        """Find of a lumen without rims the two vertices that are farthest from each other."""
         inside = self.bodies == self.largest
         some = int(np.flatnonzero(inside)[np.argmax(self.radii[inside])])
         ends = []

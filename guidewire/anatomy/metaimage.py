@@ -21,7 +21,7 @@ _HEAD = 1 << 16  # bytes within which a header ends
 
 
 def read_metaimage(file: Path) -> Voxels:
-    """Voxels in LPS.
+    """Read voxels in LPS.
 
     Raises
     ------

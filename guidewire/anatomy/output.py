@@ -159,8 +159,9 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
 
 
 def _flexible_length(points: np.ndarray, radii: np.ndarray) -> float:
-    """Of the wire behind its tip that has to be as flexible as the tip, mm, a multiple of the body's elements: from the
-    first narrow and tight bend of a path on, as a carotid siphon is. Points and radii in mm, from the inlet."""
+    """Give the length of the wire behind its tip that has to be as flexible as the tip, mm, a multiple of the body's
+    elements: from the first narrow and tight bend of a path on, as a carotid siphon is. Points and radii in mm, from
+    the inlet."""
     arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
     at = np.arange(0.0, arc[-1], 1.0)
     fine = np.stack([np.interp(at, arc, points[:, k]) for k in range(3)], axis=1)
@@ -242,7 +243,8 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
 
 
 def _bent_rims(repaired: Repaired) -> dict[str, float]:
-    """By name, how far rims are out of their planes, in the file's units, where that is a quarter of their radius."""
+    """Say by name how far rims are out of their planes, in the file's units, where that is a quarter of their
+    radius."""
     off = {rim.name: float(np.abs((repaired.mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max())
            for rim in repaired.rims}
     return {rim.name: off[rim.name] for rim in repaired.rims if off[rim.name] > _BENT * rim.radius}

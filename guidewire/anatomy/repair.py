@@ -133,8 +133,8 @@ class _Work:
                    places[0] if len(places) else None)
 
     def keep_inner_sheet(self) -> None:
-        """Of two nested walls that cross, or that share vertices where they touch, the inner one. Sheets are joined at
-        edges of two triangles only."""
+        """Keep, of two nested walls that cross, or that share vertices where they touch, the inner one. Sheets are
+        joined at edges of two triangles only."""
         sheets = find_sheets(self.mesh)
         extents = [np.ptp(self.mesh.part(sheets == k).vertices, axis=0).max() for k in range(sheets.max() + 1)]
         large = [k for k, extent in enumerate(extents) if extent > _NESTED * max(extents)]
@@ -196,7 +196,7 @@ class _Work:
         self.mesh = self.mesh.part(bodies == keep)
 
     def keep_inner_wall(self) -> None:
-        """Of a double wall joined at its ends: the side from which fewer rays escape, cut straight at its ends."""
+        """Keep of a double wall joined at its ends the side from which fewer rays escape, cut straight at its ends."""
         if facing(self.mesh).mean() <= _FACING:
             return
         if signed_volume(self.mesh) < 0.0:
@@ -368,7 +368,7 @@ def _bulge(mesh: Mesh, rim: Rim) -> float:
 
 
 def _fraction_within(inner: Mesh, outer: Mesh) -> float:
-    """Of sampled vertices of a surface, those within another one, its rims closed."""
+    """Give of sampled vertices of a surface the fraction of those within another one, its rims closed."""
     rims = find_rims(outer, Edges.of(outer))
     points = inner.vertices[:: max(1, len(inner.vertices) // 300)]
     return float(WallDistance(close_rims(outer, rims) if rims else outer).inside(points).mean())

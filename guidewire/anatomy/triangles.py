@@ -75,7 +75,7 @@ def _text_stl(data: bytes) -> Mesh:
 
 
 def read_obj(data: bytes) -> Mesh:
-    """As the file has it.
+    """Read it as the file has it.
 
     Raises
     ------

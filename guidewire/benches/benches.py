@@ -124,7 +124,7 @@ def tip_load(wire: Wire, gauge: float, force: float) -> dict[str, Any]:
 
 
 def read_tip(folder: Path) -> np.ndarray:
-    """Where the tip stands, (y, z) in m."""
+    """Read where the tip stands, (y, z) in m."""
     require_end(folder)
     *_, (_, entry) = read_entries(folder)
     tip = list(entry["sphere"].values())[-1]

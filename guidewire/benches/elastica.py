@@ -61,7 +61,7 @@ def load_at(wire: Wire, gauge: float, deflection: float) -> float:
 
 
 def rest_tip(wire: Wire, gauge: float) -> np.ndarray:
-    """Where the unloaded tip stands, (y, z) in m from the clamp."""
+    """Say where the unloaded tip stands, (y, z) in m from the clamp."""
     return rest_shape(wire, gauge)[:, -1]
 
 

@@ -46,7 +46,7 @@ class Wire:
 
     @property
     def straight(self) -> float:
-        """Where the first bend of the tip begins, or the tip itself, m."""
+        """Say where the first bend of the tip begins, or the tip itself, m."""
         bent = np.flatnonzero(self.curvature)
         return float(self.ends[bent[0]]) if len(bent) else self.length
 

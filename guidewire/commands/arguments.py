@@ -114,7 +114,7 @@ def ends(text: str) -> str:
 
 
 def finite(text: str) -> float:
-    """A number."""
+    """Read a number."""
     try:
         number = float(text)
     except ValueError:

@@ -65,7 +65,7 @@ def _benchmark(policy: str, task: str | None, episodes: int, jobs: int) -> int:
 
 
 def _policy_of(policy: str) -> Callable[[Environment, int], Any]:
-    """From an environment and a seed to what acts: a baseline by name, or MODULE:NAME, a callable that takes the
+    """Lead from an environment and a seed to what acts: a baseline by name, or MODULE:NAME, a callable that takes the
     environment; its attribute `options`, a dict, are options of the environment."""
     if policy == "random":
         return Chance

@@ -71,12 +71,12 @@ class Report:
 
     @property
     def largest_force(self) -> float:
-        """Of a wall on one sphere after any time step, N."""
+        """Give the largest force of a wall on one sphere after any time step, N."""
         return max(part.largest_force for part in self.parts)
 
     @property
     def impulse(self) -> float:
-        """Of all walls, N s."""
+        """Give the impulse of all walls, N s."""
         return sum(part.impulse for part in self.parts)
 
     @property
@@ -86,7 +86,7 @@ class Report:
 
     @property
     def path(self) -> float:
-        """Of the wire's tip, units."""
+        """Give the way of the wire's tip, units."""
         return self.parts[0].path
 
     @property
@@ -101,7 +101,7 @@ class Report:
 
     @property
     def turned(self) -> float:
-        """Of the wire's hub, rad."""
+        """Give how far the wire's hub turned, rad."""
         return self.parts[0].turned
 
     @property
@@ -128,7 +128,7 @@ class Report:
         return most
 
     def as_info(self) -> dict[str, Any]:
-        """For `info`: numbers, "forces" as a list, and of several instruments "instruments" by name."""
+        """Give for `info` numbers, "forces" as a list, and of several instruments "instruments" by name."""
         shown = {key: value for key, value in vars(self).items() if key not in ("parts", "forces")}
         shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "impulse", "path",
                                                       "inserted", "retracted", "turned")}

@@ -97,7 +97,7 @@ class LoadedScene:
         return state
 
     def route(self, target: Any) -> Route:
-        """To a target of its vessel."""
+        """Find the way to a target of its vessel."""
         key = json.dumps(target)
         if key not in self._routes:
             self._routes[key] = Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit,

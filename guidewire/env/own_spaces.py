@@ -70,7 +70,7 @@ class Discrete(Space):
         self.n, self.start = np.int64(n), np.int64(start)
 
     def sample(self) -> np.int64:
-        """Each as likely."""
+        """Draw one, each as likely."""
         return self.start + self._np_random.integers(self.n)
 
     def contains(self, value: Any) -> bool:
@@ -94,11 +94,11 @@ class MultiDiscrete(Space):
         super().__init__(self.nvec.shape, np.int64, seed)
 
     def sample(self) -> np.ndarray:
-        """Each as likely."""
+        """Draw one, each as likely."""
         return self._np_random.integers(self.nvec)
 
     def contains(self, value: Any) -> bool:
-        """Whether all are."""
+        """Say whether all are."""
         return (isinstance(value, np.ndarray) and np.issubdtype(value.dtype, np.integer) and value.shape == self.shape
                 and bool(np.all((value >= 0) & (value < self.nvec))))
 
@@ -123,11 +123,11 @@ class Dict(Space):
                 for (name, space), own in zip(self.spaces.items(), seeds)}
 
     def sample(self) -> dict[str, Any]:
-        """One of each."""
+        """Draw one of each."""
         return {name: space.sample() for name, space in self.spaces.items()}
 
     def contains(self, value: Any) -> bool:
-        """Whether all are."""
+        """Say whether all are."""
         return (isinstance(value, dict) and value.keys() == self.spaces.keys()
                 and all(self.spaces[name].contains(part) for name, part in value.items()))
 

@@ -34,7 +34,7 @@ class Field:
         self._strains = STRAIN * np.array(coefficients, dtype=float).reshape(3, 3)
 
     def moved(self, points: np.ndarray) -> np.ndarray:
-        """Where points (n, 3) go."""
+        """Say where points (n, 3) go."""
         return points + np.sin(self._wave * (points - self._middle)) @ self._strains.T / self._wave
 
     def gradients(self, points: np.ndarray) -> np.ndarray:

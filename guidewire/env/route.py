@@ -20,7 +20,7 @@ class Placement(NamedTuple):
 
     @staticmethod
     def of(parameters: Mapping[str, Any]) -> Placement:
-        """Of a session's effective parameters.
+        """Make the route of a session's effective parameters.
 
         Raises
         ------
@@ -43,7 +43,7 @@ class Placement(NamedTuple):
 
 
 class Route:
-    """From every point of a vessel to one target along the centreline.
+    """It leads from every point of a vessel to one target along the centreline.
 
     Parameters
     ----------

@@ -20,7 +20,7 @@ class Policy(Protocol):
         """An episode begins."""
 
     def act(self, observation: Any) -> Any:
-        """The next action."""
+        """Give the next action."""
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,7 @@ class Played:
 
 
 def play(environment: Environment, policy: Policy, seed: int) -> Played:
-    """One episode."""
+    """Play one episode."""
     observation, _ = environment.reset(seed=seed)
     policy.reset(observation)
     total, faults, steps = 0.0, [], 0

@@ -41,11 +41,11 @@ class Frame:
 
     @property
     def space(self) -> str:
-        """For 3D Slicer, which knows two."""
+        """Name the space for 3D Slicer, which knows two."""
         return self.letters if self.letters in ("LPS", "RAS") else ""
 
     def describe(self) -> str:
-        """One line."""
+        """Describe it in one line."""
         return (f"axes {self.letters} of the patient, {self.unit}" if self.letters
                 else f"the scene's own axes, {self.unit}: nothing says how they lie in the patient (patientAxes)")
 
@@ -76,7 +76,7 @@ def frame_of(parameters: Mapping[str, Any], patient: Mapping[str, Any] | None, a
 
 
 def _letters(patient: Mapping[str, Any]) -> str:
-    """Where x, y and z of the run point."""
+    """Say where x, y and z of the run point."""
     letters = [""] * 3
     for name, (towards, away) in _AXES.items():
         direction = np.asarray(patient[name], dtype=float)

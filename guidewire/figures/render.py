@@ -161,7 +161,7 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
 def frame(stage: Stage, wires: Sequence[tuple[np.ndarray, np.ndarray | None]], lines: Sequence[str],
           catheters: Sequence[Sequence[np.ndarray]] = (), entry: int | None = None,
           size: tuple[int, int] = SIZE) -> Image.Image:
-    """One picture.
+    """Draw one picture.
 
     Parameters
     ----------

@@ -68,7 +68,7 @@ class Value:
 
 @dataclass(frozen=True)
 class Identified:
-    """What was found.
+    """It has what was found.
 
     Attributes
     ----------

@@ -43,7 +43,7 @@ class ComparedForce:
         return self.run - self.measured
 
     def summary(self) -> str:
-        """One line."""
+        """Say it in one line."""
         errors = np.abs(self.errors)
         worst, peak = int(np.argmax(errors)), float(np.max(np.abs(self.measured)))
         part = f" ({100.0 * _rms(errors) / peak:.3g} % of the measured peak)" if peak > 0.0 else ""
@@ -71,7 +71,7 @@ class ComparedShapes:
     left_out: int
 
     def summary(self) -> str:
-        """One line."""
+        """Say it in one line."""
         every = np.concatenate(self.distances)
         worst = max(range(len(self.time)), key=lambda k: float(np.max(self.distances[k])))
         return (f"centreline: RMS distance {_rms(every):.3g} units, largest {np.max(every):.3g} units at t = "

@@ -22,7 +22,7 @@ FORMAT_KEY = "formatVersion"
 
 @dataclass(frozen=True)
 class Run:
-    """One run folder.
+    """It is one run's folder.
 
     Attributes
     ----------

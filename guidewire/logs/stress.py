@@ -37,7 +37,7 @@ class StressLog:
 
     @property
     def arc_length(self) -> np.ndarray:
-        """Where each joint stands along the wire as it was at first, shape (n+1,), in units."""
+        """Say where each joint stands along the wire as it was at first, shape (n+1,), in units."""
         steps = np.linalg.norm(np.diff(self.positions[0], axis=0), axis=1)
         return np.concatenate(([0.0], np.cumsum(steps)))
 

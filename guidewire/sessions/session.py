@@ -233,8 +233,8 @@ class Session:
         return Agent.of(self._ask("agent", seconds=_number("seconds", seconds), **asked))
 
     def places(self, positions: np.ndarray) -> list[LumenPlace]:
-        """Where a wire with nodes elsewhere, (f, n+1, 3), units, is in its vessel, for each of f states; an empty list
-        where the scene has no inlet."""
+        """Say where a wire with nodes elsewhere, (f, n+1, 3), units, is in its vessel, for each of f states; an empty
+        list where the scene has no inlet."""
         nodes = np.ascontiguousarray(positions, dtype="<f8")
         answer = self._ask("places", positions=base64.b64encode(nodes.tobytes()).decode("ascii"))
         return [LumenPlace.of(row) for row in arrays_of(answer)["lumen"]]
@@ -285,8 +285,8 @@ class Session:
         return self.picture_of(None, **view)
 
     def picture_of(self, positions: np.ndarray | Sequence[np.ndarray] | None, **view: Any) -> np.ndarray:
-        """As `picture`, of a wire with nodes elsewhere, (n+1, 3), units; with catheters of a list of the wire's and
-        each catheter's, outermost first."""
+        """Take a picture as `picture` does, of a wire with nodes elsewhere, (n+1, 3), units; with catheters of a list
+        of the wire's and each catheter's, outermost first."""
         for name, value in view.items():
             if isinstance(value, (float, np.floating)) and not math.isfinite(value):
                 raise SessionError(f"{name} = {value} is not allowed: needs a finite number")

@@ -88,7 +88,7 @@ class LumenPlace:
 
     @staticmethod
     def of(numbers: np.ndarray) -> LumenPlace:
-        """From a row of the array "lumen"."""
+        """Make it from a row of the array "lumen"."""
         return LumenPlace(bool(numbers[0]), bool(numbers[1]), int(numbers[2]), int(numbers[3]), float(numbers[4]),
                           float(numbers[5]), numbers[6:9])
 

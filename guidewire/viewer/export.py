@@ -47,7 +47,7 @@ def modules_of(files: Mapping[str, Path]) -> bytes:
 
 
 def pack(content: bytes) -> bytes:
-    """As DecompressionStream of a browser unpacks it."""
+    """Pack it as DecompressionStream of a browser unpacks it."""
     return gzip.compress(content, _HIGHEST, mtime=0)
 
 

@@ -420,7 +420,7 @@ class LiveRun:
             await page.show(block)
 
     async def _tell_agent(self, agent: Agent) -> None:
-        """Where contrast agent is, to all pages."""
+        """Tell all pages where contrast agent is."""
         self._agent = agent
         told = {"agent": {
             "parts": base64.b64encode(agent.parts.astype("<f8").tobytes()).decode("ascii"), "injected": agent.injected,

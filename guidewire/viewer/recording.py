@@ -165,7 +165,7 @@ class Units:
 
     @property
     def bend(self) -> str:
-        """Of curvature, and of twist with "rad" before it."""
+        """Give the unit of curvature, and of twist with "rad" before it."""
         return "/unit" if self.metres is None else "/m"
 
 
@@ -285,7 +285,7 @@ def read_off(state: State) -> dict[str, np.ndarray]:
 
 
 def sheath_of(parameters: Mapping[str, Any], numbers: Mapping[str, np.ndarray | None]) -> np.ndarray | None:
-    """Where a run's sheath is, as in `Recording`.
+    """Say where a run's sheath is, as in `Recording`.
 
     Parameters
     ----------

@@ -38,7 +38,7 @@ def answer(project: Project) -> dict[str, Any] | None:
 
 
 def scripts(project: Project) -> dict[str, frozenset[str]] | None:
-    """By source, the keys that a scene may hold of each behaviour; None where nobody can tell."""
+    """Give by source the keys that a scene may hold of each behaviour; None where nobody can tell."""
     found = answer(project)
     return None if found is None else {path: frozenset(fields) for path, fields in found["scripts"].items()}
 
