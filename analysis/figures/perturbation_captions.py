@@ -9,14 +9,13 @@ from collections.abc import Callable
 
 import numpy as np
 from scipy.signal import find_peaks
-from scipy.stats import spearmanr
 
 from analysis.comparisons import ComparisonTable, WireRun
 from analysis.distances import distances
 from guidewire.figures.wording import number, percent, relative_spread, span
 
 _PROMINENCE = 0.03  # of the range of a curve: lower maxima are not described
-_CLEAR = 0.9  # rank correlation from which on a curve is said to grow or fall
+_RIPPLE = 0.1  # of the range of a curve that is said to grow: by so much it may fall back on the way
 _SAME = 1e-9  # relative spread up to which values that should be one number are one
 _SMALL_TIME_STEP = 1e-3  # s, up to which the thesis sees nearly no distance in the collision
 _HEAVY = 0.5  # units of mass, beyond which the thesis sees the distance fall
@@ -72,7 +71,7 @@ def perturbation_caption(figure: str, table: ComparisonTable) -> str:
     x, mean = table.column("value"), table.column("mean_distance")
     sentences = [
         f"Figure {figure}. {scene}, {symbol} = {x.min():g} to {x.max():g}{_UNITS[table.key]} ({x.size} runs, else "
-        f"Table 4.1{_BETWEEN if figure in _PLATES else ''}), against the reference run ({describe(table.reference)}). "
+        f"Table 4.1{_BETWEEN if figure in _PLATES else ''}). The reference run has {describe(table.reference)}. "
         f"{_other_references(table)}",
         f"(a, b) At the end the wires are {span([row.end_distance.mean() for row in table.rows])} units from the "
         f"reference on average over their spheres.",
@@ -177,14 +176,14 @@ def _equal_steps(table: ComparisonTable) -> str:
     )
 
 
-def _trend(x: np.ndarray, y: np.ndarray) -> float:
-    """Rank correlation of y with x: 1 where y only grows, -1 where it only falls."""
-    return float(spearmanr(x, y)[0]) if x.size > 2 and np.ptp(y) > 0.0 else 0.0
+def _rises(y: np.ndarray) -> bool:
+    """Whether values grow from the first to the last, and never fall back by more than _RIPPLE of their range."""
+    return y.size > 2 and y[-1] > y[0] and float(np.max(np.maximum.accumulate(y) - y)) <= _RIPPLE * float(np.ptp(y))
 
 
 def _falls(table: ComparisonTable) -> bool:
     """Whether the mean distance falls with the parameter, but for ripples."""
-    return _trend(table.column("value"), table.column("mean_distance")) < -_CLEAR
+    return _rises(-table.column("mean_distance"))
 
 
 def _transversal_steps(table: ComparisonTable) -> list[str]:
@@ -286,7 +285,7 @@ def _collision_time_step(table: ComparisonTable) -> list[str]:
         f"{percent(fraction)} of its largest value."
     )
     top = int(mean.argmax())
-    if _trend(x[: top + 1], mean[: top + 1]) < _CLEAR:
+    if not _rises(mean[: top + 1]):
         growth = "It does not simply grow with Δt."
     elif top + 1 == x.size:
         growth = "It grows with Δt, as the thesis says."
@@ -314,7 +313,7 @@ def _collision_elements(table: ComparisonTable) -> list[str]:
 def _collision_mass(table: ComparisonTable) -> list[str]:
     mean, x = table.column("mean_distance"), table.column("value")
     light, heavy = mean[x <= _HEAVY], mean[x >= _HEAVY]
-    rising = _trend(x[x <= _HEAVY], light) > _CLEAR
+    rising = _rises(light)
     falling = heavy.size > 2 and heavy[-1] < heavy[0]
     own = (
         f"According to the thesis it grows with M and falls beyond M = {_HEAVY:g}. Here it "

@@ -19,7 +19,7 @@ from analysis.chart.points import LOST, METHODS, Charted, Point, Problem, Settin
 from analysis.chart.published import PUBLISHED
 from analysis.validation import concentric, swing
 from analysis.validation.wire import BASE
-from guidewire.figures.style import CAPTION_ID
+from guidewire.figures.style import CAPTION_ID, opening
 from guidewire.logs.runs import Run
 from guidewire.studies.table import Case
 
@@ -89,7 +89,7 @@ def test_the_picture_shows_every_setting_and_names_those_on_the_front() -> None:
     assert axes.get_ylabel() == "error: of its length"
     assert "xpbd, cost 3, <nan> (a): diverged" in caption and "pbd, cost 0.5, <1e-06> (a): passed a wall" in caption
     assert "explicit does not support walls" in caption and "kept at most 0.50 processors busy" in caption
-    assert next(t for t in drawn.texts if t.get_gid() == CAPTION_ID).get_text().split() == caption.split()
+    assert next(t for t in drawn.texts if t.get_gid() == CAPTION_ID).get_text().split() == opening(caption).split()
 
 
 def test_the_picture_of_steps_has_lines_for_loops() -> None:

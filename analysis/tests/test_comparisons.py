@@ -155,3 +155,16 @@ def test_the_figure_of_a_study_draws_on_its_reference(drawn: dict[str, tuple[Fig
     figure, _ = drawn["4.11"]
     assert isinstance(figure, Figure)
     np.testing.assert_allclose(figure.axes[0].lines[-1].get_ydata(), REFERENCE.positions[-1, :, 1])
+
+
+@pytest.mark.parametrize("name, claim", [("4.11", "As the thesis says, more solver steps come closer")])
+@pytest.mark.parametrize("back, is_said", [(0.0, True), (0.08, True), (0.2, False)])
+def test_a_distance_is_said_to_fall_where_it_falls_back_by_a_tenth_of_its_range_at_most(
+    tables: dict[str, ComparisonTable], name: str, claim: str, back: float, is_said: bool
+) -> None:
+    table = tables[name]
+    mean = np.linspace(3.0, 2.0, len(table.rows))
+    middle = len(mean) // 2
+    mean[middle] = mean[middle - 1] + back
+    assert (claim in perturbation_caption(name, changed(table, mean_distance=mean))) == is_said
+    assert claim not in perturbation_caption(name, changed(table, mean_distance=mean[::-1]))

@@ -82,7 +82,8 @@ def test_caption_stands_under_the_panels_and_inside_the_picture(
     figure.get_layout_engine().execute(figure)    # where everything stands, without drawing what the panels show
     renderer = figure.canvas.get_renderer()
     text = next(text for text in figure.texts if text.get_gid() == CAPTION_ID)
-    assert " ".join(text.get_text().split()) == caption and caption.startswith(f"Figure {name}. ")
+    shown = " ".join(text.get_text().split())
+    assert shown == style.opening(caption) and caption.startswith(f"Figure {name}. ")
     assert not re.search(r"\bnan\b|not finite|\bNone\b", caption)
     box = text.get_window_extent(renderer)
     assert 0.0 <= box.x0 and box.x1 <= figure.bbox.x1 and 0.0 <= box.y0
@@ -270,6 +271,17 @@ def test_spans_join_what_reads_the_same() -> None:
     assert span([1.0, 3.0, np.nan]) == "1.00 to 3.00"
     assert span([0.5, 0.5000001]) == "0.500"
     assert span([np.nan]) == "no value"
+
+
+@pytest.mark.parametrize("name", LAID_OUT)
+def test_a_picture_shows_the_first_sentences_of_its_caption_in_sixty_words(
+    drawn: dict[str, tuple[Figure, str]], name: str
+) -> None:
+    caption = drawn[name][1]
+    shown = style.opening(caption)
+    assert 12 < len(shown.split()) <= 60 and caption.startswith(shown) and shown[-1] in ".?"
+    rest = caption[len(shown):].strip()
+    assert not rest or len(f"{shown} {re.split(r'(?<=[.?]) ', rest)[0]}".split()) > 60 or rest[0].islower()
 
 
 def test_a_caption_is_broken_where_the_next_word_would_leave_the_line() -> None:

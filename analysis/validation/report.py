@@ -16,7 +16,7 @@ from analysis.validation import (
     order, planes, ring, soft_walls, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
 )
 from analysis.validation.pictures import SOLVER_MARKERS
-from guidewire.figures.style import add_caption, captioned, new_figure, styled
+from guidewire.figures.style import captioned, new_figure, styled
 from guidewire.figures.wording import number
 from guidewire.logs.logs import LogError
 from guidewire.sweeps.check import Check, Finding, Result, replay
@@ -144,11 +144,10 @@ def picture_name(check: Check) -> str:
 
 @styled
 def draw_finding(finding: Finding) -> Figure:
-    """A check's picture with its caption."""
+    """A check's picture with the opening of its caption."""
     figure = new_figure(finding.width, 4.2)
     finding.draw(figure)
-    add_caption(figure, finding.caption)
-    return figure
+    return captioned(figure, finding.caption)[0]
 
 
 @styled

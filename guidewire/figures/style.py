@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Callable
 from functools import wraps
 from pathlib import Path
@@ -20,6 +21,9 @@ _CAPTION_SIZE = 8.5  # points
 _LINE_SPACING = 1.35
 _MARGIN = 0.15  # inches around the caption
 _SURELY = 0.95  # of a line's width: up to there its words by themselves say that they fit
+
+MOST_WORDS = 60  # of a caption inside a picture
+_SENTENCE = re.compile(r"(?<=[.?!]) (?=[^a-z])")    # where one ends and the next begins
 
 P = ParamSpec("P")
 R = TypeVar("R")
@@ -80,9 +84,19 @@ def add_caption(figure: Figure, caption: str) -> None:
 
 
 def captioned(figure: Figure, caption: str) -> tuple[Figure, str]:
-    """A figure with its caption under it, and the caption."""
-    add_caption(figure, caption)
+    """A figure with the caption's opening under it, and the whole caption, which stands below the picture in an
+    index."""
+    add_caption(figure, opening(caption))
     return figure, caption
+
+
+def opening(caption: str) -> str:
+    """The first whole sentences of a caption, of MOST_WORDS words at most."""
+    sentences = _SENTENCE.split(caption)
+    count = len(sentences)
+    while count > 1 and len(" ".join(sentences[:count]).split()) > MOST_WORDS:
+        count -= 1
+    return " ".join(sentences[:count])
 
 
 def _wrap(figure: Figure, text: str, font: FontProperties, width: float) -> list[str]:
