@@ -18,13 +18,12 @@ namespace Guidewire.Core
         {
             var state = new RodState(ElementLayout.Lengths(parameters, 1.0, out _), parameters.Pbd.TotalMass,
                 parameters.Scene.GuidewireOffset);
-            if (parameters.Scene.Catheters.Count > 0)
+            if (parameters.Scene.Catheters.Count > 0 || parameters.Scene.Sheath != null)
             {
                 return BuildCoaxial(parameters, state);
             }
             var scene = new MaterialScene(parameters, prescribed);
-            bool isSheathed = parameters.Scene.Sheath != null;
-            WallTerms? walls = isSheathed ? null : Walls(parameters, scene);
+            WallTerms? walls = Walls(parameters, scene);
             var terms = new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>());
             var report = new SolverReport();
             bool isAtRest = parameters.Scene.InitialState == InitialState.Equilibrium;
@@ -86,9 +85,8 @@ namespace Guidewire.Core
         public static TimeStepper Direct(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return parameters.Scene.Sheath != null ? new SheathStep(parameters, scene, report)
-                : (TimeStepper)new DirectStep(scene, DirectSetup.DynamicsOf(parameters, scene, terms),
-                    parameters.Method, report, Reactions(parameters, scene));
+            return new DirectStep(scene, DirectSetup.DynamicsOf(parameters, scene, terms), parameters.Method, report,
+                Reactions(parameters, scene));
         }
 
         /// <summary>Iterations over constraints with compliance.</summary>

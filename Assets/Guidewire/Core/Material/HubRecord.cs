@@ -8,18 +8,12 @@ namespace Guidewire.Core
     public sealed class HubRecord
     {
         private readonly double[] _jointLength;  // m
-        private readonly double[] _station;      // of nodes from the first, m
         private readonly Vector3d[] _turns;      // of the joints, rad
 
         internal HubRecord(MaterialRod rod, RodSupports supports)
         {
             _jointLength = rod.JointLengths(supports);
             _turns = new Vector3d[rod.ElementCount + 1];
-            _station = new double[rod.ElementCount + 1];
-            for (int j = 0; j < rod.ElementCount; j++)
-            {
-                _station[j + 1] = _station[j] + rod.Length[j];
-            }
         }
 
         /// <summary>Insertion of the hub since the start, m.</summary>
@@ -65,7 +59,7 @@ namespace Guidewire.Core
             Insertion = drive.Insertion;
             Turn = drive.Turn;
             Force = Vector3d.Dot(force, axis);
-            Force += terms.Sheath == null ? 0.0 : terms.Sheath.HubForce(shape);
+            Force += terms.Release?.SheathForce(shape) ?? 0.0;
             Torque = torque;
             TipDirection = shape.Q[shape.ElementCount - 1].Director3;
             terms.Bending.Measure(shape, _turns);
@@ -76,13 +70,9 @@ namespace Guidewire.Core
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
-                double fraction = terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
+                double fraction = terms.Supports.FractionOutside(k);
                 LargestCurvature = fraction <= CoaxialJoints.LeastFraction ? LargestCurvature
                     : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
-            }
-            if (terms.Supports.Sheath is SheathWindow window)
-            {
-                TakeBody(window, shape);
             }
         }
 
@@ -101,32 +91,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes what of the wire is out of its sheath.</summary>
-        /// <param name="stations">Of its nodes, m.</param>
-        /// <param name="exit">Where the sheath ends along it, m.</param>
-        internal void TakeBody(double[] stations, double exit)
+        /// <param name="length">m.</param>
+        internal void TakeBody(int spheres, double length)
         {
-            int n = stations.Length - 1;
-            int inside = 0;
-            while (inside <= n && stations[inside] <= exit)
-            {
-                inside++;
-            }
-            SpheresInBody = n + 1 - inside;
-            LengthInBody = Math.Max(0.0, stations[n] - exit);
-        }
-
-        // Up to the first node outside the wire is straight.
-        private void TakeBody(SheathWindow window, RodShape shape)
-        {
-            int n = shape.ElementCount;
-            int inside = 0;
-            while (inside <= n && window.Outside(shape.X[inside]) <= 0.0)
-            {
-                inside++;
-            }
-            SpheresInBody = n + 1 - inside;
-            LengthInBody = inside > n ? 0.0
-                : _station[n] - _station[inside] + window.Outside(shape.X[inside]);
+            SpheresInBody = spheres;
+            LengthInBody = length;
         }
     }
 }

@@ -71,7 +71,7 @@ namespace Guidewire.Core
                     worst = k;
                 }
             }
-            double clamp = _supports.HasProximalJoint && _supports.Sheath == null
+            double clamp = _supports.HasProximalJoint && !_supports.Winds
                 ? Cosine(shape.ProximalFrame, q[0]) : 1.0;
             if (clamp < least)
             {

@@ -134,21 +134,6 @@ namespace Guidewire.Core
             return rod;
         }
 
-        /// <summary>The rod of the elements from one on.</summary>
-        public MaterialRod From(int first)
-        {
-            var rod = new MaterialRod(ElementCount - first)
-            {
-                MassDamping = MassDamping,
-                MaterialDamping = MaterialDamping,
-            };
-            for (int j = 0; j < rod.ElementCount; j++)
-            {
-                rod.Take(j, this, first + j);
-            }
-            return rod;
-        }
-
         /// <summary>Makes element j that of another rod.</summary>
         public void Take(int j, MaterialRod other, int element)
         {
@@ -200,10 +185,6 @@ namespace Guidewire.Core
         /// elsewhere the half element replaces them.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
-            if (supports.Sheath != null)
-            {
-                return (Joint[])supports.Sheath.Joints.Clone();
-            }
             int n = ElementCount;
             double[] weights = JointWeights(supports);
             Joint[] joints = new Joint[n + 1];
@@ -219,16 +200,19 @@ namespace Guidewire.Core
                 joints[k].Twist = 1.0 / (half * (Length[before] / left.Twist + Length[after] / right.Twist));
                 joints[k].Rest = half * (Length[before] * left.RestCurvature + Length[after] * right.RestCurvature);
             }
+            if (supports.Winds)
+            {
+                // It stands for all of the wire before it.
+                Joint whole = supports.Coaxial!.Joints.AloneAt(0);
+                joints[0].Twist = whole.Twist;
+                joints[0].Rest = new Vector3d(joints[0].Rest.X, joints[0].Rest.Y, whole.Rest.Z);
+            }
             return joints;
         }
 
         /// <summary>The length of wire that each of the n+1 joints stands for, m.</summary>
         public double[] JointLengths(RodSupports supports)
         {
-            if (supports.Sheath != null)
-            {
-                return (double[])supports.Sheath.JointLengths.Clone();
-            }
             double[] lengths = JointWeights(supports);
             for (int k = 0; k < lengths.Length; k++)
             {

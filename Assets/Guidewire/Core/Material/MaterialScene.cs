@@ -34,37 +34,6 @@ namespace Guidewire.Core
             AlignTurns();
         }
 
-        /// <summary>The part of a wire that is outside its sheath, as a scene of its own.</summary>
-        /// <param name="whole">The wire's scene.</param>
-        /// <param name="rod">The part.</param>
-        /// <param name="window">What the rest is to it.</param>
-        /// <param name="shape">Where it is.</param>
-        /// <param name="drive">Moves its hub.</param>
-        public MaterialScene(MaterialScene whole, MaterialRod rod, SheathWindow window, RodShape shape,
-            MaterialDrive drive)
-        {
-            _scene = whole._scene;
-            Rod = rod;
-            Shape = shape;
-            Velocities = whole.Velocities;
-            Spins = whole.Spins;
-            RodSupports supports = whole.Supports;
-            Supports = new RodSupports
-            {
-                Proximal = supports.Proximal,
-                Distal = supports.Distal,
-                SlidingAxis = supports.SlidingAxis,
-                Clamp = supports.Clamp,
-                Mass = supports.Mass,
-                Bend = supports.Bend,
-                HasSpring = true,
-                Sheath = window,
-            };
-            Drive = drive;
-            Schedule = new RodSchedule(whole.Schedule.Loads, drive.Hub, whole.Schedule.Distal);
-            Joints = new JointMonitor(this, 0.0);
-        }
-
         /// <summary>Coaxial instruments as one rod, as a scene of its own.</summary>
         /// <param name="outer">The scene of the outer one alone.</param>
         /// <param name="coaxial">The rod.</param>

@@ -11,18 +11,26 @@ namespace Guidewire.Core
         /// there exactly.</summary>
         public bool HasSpring { get; set; }
 
-        /// <summary>What the sheathed part is to the rod, where it is the part of a wire outside a sheath; else
-        /// null.</summary>
-        public SheathWindow? Sheath { get; set; }
-
         /// <summary>Where the sheath ends in which the rod's first nodes may be; null without one.</summary>
-        public SheathEnd? SheathEnd => Coaxial == null ? Sheath : Coaxial.Sheath;
+        public SheathEnd? SheathEnd => Coaxial?.Sheath;
 
-        /// <summary>The instruments of a rod that is several coaxial ones; null for one alone.</summary>
+        /// <summary>The instruments of a rod that is several coaxial ones, or one in a sheath; null for a wire
+        /// alone.</summary>
         public CoaxialRod? Coaxial { get; set; }
 
         /// <summary>How many instruments are inside it.</summary>
         public int InnerCount => Coaxial == null ? 0 : Coaxial.Joints.InnerCount;
+
+        /// <summary>The fraction of joint k that is outside a sheath: 0 where none of it is, above 0 to 1
+        /// elsewhere.</summary>
+        public double FractionOutside(int k)
+        {
+            return Coaxial?.Joints.FractionOutside(k) ?? 1.0;
+        }
+
+        /// <summary>Whether the joint at the proximal clamp stands for all of a wire in its sheath, and turns about it
+        /// without limit.</summary>
+        public bool Winds => Coaxial != null && InnerCount == 0;
 
         /// <summary>The distal end; default free.</summary>
         public DistalEnd Distal { get; set; } = DistalEnd.Free;

@@ -36,9 +36,9 @@ namespace Guidewire.Core
             Supports = supports;
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
-            Bending = supports.Coaxial != null ? new CoaxialBendTwist(supports.Coaxial)
+            Bending = supports.InnerCount > 0 ? new CoaxialBendTwist(supports.Coaxial!)
                 : BendTwistTerm.Create(rod.Joints(supports), supports);
-            Release = Bending is CoaxialBendTwist coaxial ? new Release(supports.Coaxial!, coaxial, Stretch) : null;
+            Release = supports.Coaxial == null ? null : new Release(supports.Coaxial, Bending, Stretch);
             Loads = new DeadLoads(Mass, rod.Length);
             Followers = new TipFollowers(rod, scene);
             _elastic = new EnergyTerm[]
@@ -46,10 +46,9 @@ namespace Guidewire.Core
                 Stretch,
                 Bending,
             };
-            if (supports.Sheath != null)
+            if (supports.Winds)
             {
-                Sheath = new SheathEnergy(supports.Sheath, Bending);
-                _elastic = Joined(_elastic, new EnergyTerm[] { Sheath });
+                _elastic = Joined(_elastic, new EnergyTerm[] { new SheathEnergy(supports.Coaxial!, Bending) });
             }
             _loads = Joined(new EnergyTerm[]
             {
@@ -84,11 +83,8 @@ namespace Guidewire.Core
         /// <summary>The loads on coaxial instruments; null where those on the chain are set by hand.</summary>
         public CoaxialLoads? CoaxialLoads { get; set; }
 
-        /// <summary>What drives coaxial instruments out of one another; null where there is one alone.</summary>
+        /// <summary>What drives instruments out of one another and out of a sheath; null of a wire alone.</summary>
         public Release? Release { get; }
-
-        /// <summary>The term that holds it straight in its sheath; null without one.</summary>
-        public SheathEnergy? Sheath { get; }
 
         /// <summary>Weight and forces on the nodes.</summary>
         public DeadLoads Loads { get; }
@@ -103,7 +99,7 @@ namespace Guidewire.Core
         public EnergyTerm[] All { get; }
 
         /// <summary>Length of a gradient: n + 2, and n + 1 where there are twist angles.</summary>
-        public int VectorCount => (Supports.Coaxial == null ? 1 : 2) * (Rod.ElementCount + 1) + 1;
+        public int VectorCount => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.ElementCount + 1) + 1;
 
         /// <summary>Whether every term is a true energy, so that rest shapes are its minima.</summary>
         public bool HavePotential => Array.TrueForAll(All, term => term.HasPotential);
@@ -124,11 +120,6 @@ namespace Guidewire.Core
         public void SetTime(RodSchedule schedule, double time)
         {
             Followers.SetTime(time);
-            if (Sheath != null)
-            {
-                Sheath.SetHub(schedule.Hub.PositionAt(time));
-                Bending.TurnProximal(schedule.Hub.AheadAt(time));
-            }
             foreach (EnergyTerm term in All)
             {
                 term.SetTime(time);
@@ -209,14 +200,13 @@ namespace Guidewire.Core
         public double HubForce(RodShape shape)
         {
             double held = Contact == null ? 0.0 : Vector3d.Dot(Contact.SupportForce(shape), HubAxis(shape));
-            return Sheath == null ? held : held + Sheath.HubForce(shape);
+            return held + (Release?.SheathForce(shape) ?? 0.0);
         }
 
         /// <summary>The hub's axis, a unit vector.</summary>
         public Vector3d HubAxis(RodShape shape)
         {
-            return Supports.Sheath != null ? Supports.Sheath.Axis
-                : Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
+            return Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
         }
 
         /// <summary>Gradient of the elastic energy at node 0 or n, N: minus the force of the wire on it.</summary>

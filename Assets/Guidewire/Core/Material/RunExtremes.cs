@@ -82,10 +82,8 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 Vector3d turn = _turns[k];
-                double fraction = coaxial != null ? coaxial.FractionOutside(k)
-                    : terms.Sheath == null ? 1.0 : terms.Sheath.FractionOutside(k);
-                Vector3d change = turn - (coaxial != null ? fraction * joints[k].Rest
-                    : terms.Sheath == null ? joints[k].Rest : terms.Sheath.RestOf(k));
+                double fraction = terms.Supports.FractionOutside(k);
+                Vector3d change = turn - (terms.Supports.Winds ? coaxial!.AloneAt(k).Rest : fraction * joints[k].Rest);
                 if (fraction <= CoaxialJoints.LeastFraction)
                 {
                     continue;

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
     /// <summary>The end of a sheath, and the nodes and elements in it.</summary>
-    internal class SheathEnd
+    internal sealed class SheathEnd
     {
         /// <summary>Fraction of its bending compliance that a piece in a sheath retains.</summary>
         public const double RetainedBend = 1e-8;

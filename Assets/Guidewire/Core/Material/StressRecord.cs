@@ -44,25 +44,27 @@ namespace Guidewire.Core
 
         /// <summary>Takes the record of the part of a wire that is outside its sheath; the rest is straight, under the
         /// sheath's springs.</summary>
+        /// <param name="rod">The whole wire.</param>
+        /// <param name="first">The first element outside.</param>
+        /// <param name="axis">Of the sheath, a unit vector.</param>
         /// <param name="thrust">Force of the hub along the axis, N.</param>
         /// <param name="torque">Torque of the wire on the sheathed part about it, N m.</param>
-        internal void Take(StressRecord outside, SheathWindow window, double thrust, double torque)
+        internal void Take(StressRecord outside, MaterialRod rod, int first, in Vector3d axis, double thrust,
+            double torque)
         {
-            int first = window.First;
             Array.Copy(outside.Strain, 0, Strain, first, outside.Strain.Length);
             Array.Copy(outside.Force, 0, Force, first, outside.Force.Length);
             Array.Copy(outside.Curvature, 0, Curvature, first, outside.Curvature.Length);
             Array.Copy(outside.Couple, 0, Couple, first, outside.Couple.Length);
-            // Joint 0 of the window has the twist of all of the sheathed part.
+            // Joint 0 of that part has the twist of all of the sheathed part.
             Vector3d bend = outside.Curvature[0];
-            Curvature[first] = new Vector3d(bend.X, bend.Y, torque / window.Stiffness(first).Twist);
+            Curvature[first] = new Vector3d(bend.X, bend.Y, torque / rod.TwistStiffness[first]);
             for (int j = 0; j < first; j++)
             {
-                (double stretch, double twist) = window.Stiffness(j);
-                Strain[j] = (-thrust / stretch) * Vector3d.UnitZ;
-                Force[j] = -thrust * window.Axis;
-                Curvature[j] = (torque / twist) * Vector3d.UnitZ;
-                Couple[j] = torque * window.Axis;
+                Strain[j] = (-thrust / rod.StretchStiffness[j]) * Vector3d.UnitZ;
+                Force[j] = -thrust * axis;
+                Curvature[j] = (torque / rod.TwistStiffness[j]) * Vector3d.UnitZ;
+                Couple[j] = torque * axis;
             }
             KineticEnergy = outside.KineticEnergy;
             ElasticEnergy = outside.ElasticEnergy;

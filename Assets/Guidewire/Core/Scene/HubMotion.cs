@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private double _turnOriginTime;    // s
         private double _driveEnd = double.NegativeInfinity;  // s
         private readonly EndMotion? _motion;     // instead of a drive's
-        private readonly double? _heldTurn;  // of the frame to which the first element is clamped, radians
+        private double? _heldTurn;           // of the frame to which the first element is clamped, radians
 
         /// <summary>A hub at rest that turns at a constant rate.</summary>
         /// <param name="position">Of node 0, m.</param>
@@ -29,21 +29,10 @@ namespace Guidewire.Core
             _twistRate = twistRate;
         }
 
-        /// <summary>The hub of a wire in a sheath, as the first node that is simulated has it.</summary>
-        /// <param name="hub">As the node that was the first one until now has it.</param>
-        /// <param name="shift">From that node to this one, m.</param>
-        /// <param name="heldTurn">Where the frame of the first joint is held, radians.</param>
-        public HubMotion(HubMotion hub, in Vector3d shift, double heldTurn)
+        /// <summary>The frame to which the first element is clamped is held at a turn from now on, radians.</summary>
+        public void HoldFrame(double turn)
         {
-            _position = hub._position + shift;
-            _velocity = hub._velocity;
-            _positionTime = hub._positionTime;
-            _frame = hub._frame;
-            _twistRate = hub._twistRate;
-            _turnOrigin = hub._turnOrigin;
-            _turnOriginTime = hub._turnOriginTime;
-            _driveEnd = hub._driveEnd;
-            _heldTurn = heldTurn;
+            _heldTurn = turn;
         }
 
         /// <summary>The run begins with this frame.</summary>

@@ -49,9 +49,6 @@ namespace Guidewire.Core
         /// <summary>Angle from the outermost hub to each, radians, without limit; 0 of the first.</summary>
         public double[] HubTwist { get; }
 
-        /// <summary>Where the two hubs are in time; null where they are set by hand.</summary>
-        public CoaxialHubs? Hubs { get; set; }
-
         /// <summary>Torque of an inner hub on its instrument, N m: dE/dz of the hub.</summary>
         public double InnerTorque(RodShape shape, int instrument = 1)
         {
@@ -104,14 +101,15 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void SetTime(double time)
         {
-            if (Hubs != null)
+            CoaxialHubs? hubs = _rod.Hubs;
+            if (hubs != null)
             {
-                double sheathed = Hubs.SheathedAt(time);
+                double sheathed = hubs.SheathedAt(time);
                 bool isOther = sheathed != _joints.Sheathed;
                 for (int i = 1; i < _lead.Length; i++)
                 {
-                    _lead[i] = Hubs.LeadAt(i, time);
-                    HubTwist[i] = Hubs.TwistAt(i, time);
+                    _lead[i] = hubs.LeadAt(i, time);
+                    HubTwist[i] = hubs.TwistAt(i, time);
                     isOther |= _lead[i] != _joints.LeadOf(i);
                 }
                 if (isOther)
@@ -121,12 +119,12 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A step begins at a time, s.</summary>
-        public void BeginSlide(double time)
+        /// <inheritdoc/>
+        public override void BeginSlide(double time)
         {
             for (int i = 1; i < _startLead.Length; i++)
             {
-                _startLead[i] = Hubs == null ? _joints.LeadOf(i) : Hubs.LeadAt(i, time);
+                _startLead[i] = _rod.Hubs?.LeadAt(i, time) ?? _joints.LeadOf(i);
             }
         }
 
@@ -320,8 +318,8 @@ namespace Guidewire.Core
             return Vector3d.Zero;
         }
 
-        /// <summary>A joint in a shape.</summary>
-        public void Evaluate(RodShape shape, int k, out CoaxialJointState s)
+        /// <inheritdoc/>
+        public override void Evaluate(RodShape shape, int k, out CoaxialJointState s)
         {
             s = default;
             int frame = _joints.CarrierOf(k);

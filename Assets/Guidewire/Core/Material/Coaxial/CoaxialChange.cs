@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Maps nodes and elements of a chain of coaxial instruments to those of another chain, after nodes have
-    /// emerged from tips or were withdrawn.</summary>
+    /// emerged from tips or were withdrawn, or elements have come or gone in a sheath.</summary>
     internal sealed class CoaxialChange
     {
         private readonly double[] _oldStation;   // m, by the new leads
@@ -13,6 +13,7 @@ namespace Guidewire.Core
         {
             Old = old;
             Joints = joints;
+            Entered = old.First - joints.First;
             Node = new int[joints.ElementCount + 1];
             Element = new int[joints.ElementCount];
             _oldStation = (double[])old.Stations.Clone();
@@ -27,10 +28,11 @@ namespace Guidewire.Core
             {
                 int carrier = k <= joints.OuterCount ? 0 : joints.CarrierOf(k - 1);
                 int fromTip = joints.TipOf(carrier) - k;
-                Node[k] = carrier == 0 ? k : fromTip < old.BeyondOf(carrier) ? old.TipOf(carrier) - fromTip : -1;
+                Node[k] = carrier == 0 ? Math.Max(k - Entered, -1)
+                    : fromTip < old.BeyondOf(carrier) ? old.TipOf(carrier) - fromTip : -1;
                 if (k > 0)
                 {
-                    Element[k - 1] = Node[k] >= 0 ? Node[k] - 1 : Containing(joints.Stations[k]);
+                    Element[k - 1] = k <= Entered ? 0 : Node[k] >= 0 ? Node[k] - 1 : Containing(joints.Stations[k]);
                 }
             }
         }
@@ -40,6 +42,9 @@ namespace Guidewire.Core
 
         /// <summary>The chain that is.</summary>
         public CoaxialJoints Joints { get; }
+
+        /// <summary>Elements that have come in before the first one; negative where some have gone.</summary>
+        public int Entered { get; }
 
         /// <summary>Former index of each node, -1 for a new one.</summary>
         public int[] Node { get; }
@@ -69,7 +74,8 @@ namespace Guidewire.Core
             }
             for (int k = 0; k <= n; k++)
             {
-                shape.X[k] = Node[k] >= 0 ? old.X[Node[k]] : Position(old, Joints.Stations[k], Element[k - 1]);
+                shape.X[k] = Node[k] >= 0 ? old.X[Node[k]] : k < Entered ? old.X[0]
+                    : Position(old, Joints.Stations[k], Element[k - 1]);
             }
             return shape;
         }
@@ -94,6 +100,33 @@ namespace Guidewire.Core
                 scene.Spins[j] = isBeyond ? Vector3d.Zero : was == carrier ? spins[Element[j]]
                     : CoaxialShape.SpinOf(old, twistRates, Old, Element[j], carrier, spins[Element[j]]);
             }
+        }
+
+        /// <summary>Places the elements that come in within a sheath: on its axis, with the strain and the twist of the
+        /// part of the instrument before them.</summary>
+        /// <param name="turn">Of the former first element, radians.</param>
+        /// <param name="thrust">Of the hub along the axis, N.</param>
+        /// <param name="torque">Of the instrument on its part in the sheath, N m.</param>
+        /// <returns>The turn of the first element now.</returns>
+        public double Enter(RodShape old, MaterialScene scene, in Vector3d axis, double turn, double thrust,
+            double torque)
+        {
+            RodShape shape = scene.Shape;
+            for (int j = 1; j <= -Entered; j++)
+            {
+                turn += RotationVector.Log(old.Q[j - 1].Conjugate * old.Q[j]).Z;
+            }
+            for (int j = Entered - 1; j >= 0; j--)
+            {
+                double joint = torque / Joints[j + 1].Twist + Joints[j + 1].RestTwist;
+                double length = scene.Rod.Length[j] * (1.0 - thrust / scene.Rod.StretchStiffness[j]);
+                shape.X[j] = shape.X[j + 1] - length * axis;
+                shape.Q[j] = shape.Q[j + 1] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, -joint);
+                scene.Velocities[j] = Vector3d.Dot(scene.Velocities[j + 1], axis) * axis;
+                scene.Spins[j] = new Vector3d(0.0, 0.0, scene.Spins[j + 1].Z);
+                turn -= joint;
+            }
+            return turn;
         }
 
         /// <summary>Rate of the angle of an inner instrument on an element, rad/s; where its tip comes in, it turns as

@@ -31,23 +31,27 @@ namespace Guidewire.Core
         private readonly CoaxialJoint[] _joint;
         private readonly CoaxialPieces _before;    // on one side of a joint
         private readonly CoaxialPieces _after;
+        private readonly double[] _compliance;     // in twist of each before the chain, rad/(N m)
+        private readonly double[] _rest;           // and its turn at rest
         private CoaxialJoint _last;                // of the last half element: only what it holds counts
 
         /// <summary>Joints of these instruments.</summary>
-        /// <param name="instruments">The outermost one first, two or three.</param>
-        /// <param name="beyond">How many nodes of each, from its tip on, are nodes of the chain; of the first
-        /// all.</param>
+        /// <param name="instruments">The outermost one first, up to three.</param>
+        /// <param name="beyond">How many nodes of each, from its tip on, are nodes of the chain; of the first those
+        /// from its first element here on.</param>
         /// <param name="leads">d of each, m; 0 for the first.</param>
-        /// <param name="sheathed">Length of the chain in a sheath, m from the outer hub.</param>
-        public CoaxialJoints(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed)
+        /// <param name="sheathed">Length in a sheath, m from the outer hub.</param>
+        /// <param name="first">Elements of the outermost instrument before the chain.</param>
+        public CoaxialJoints(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed, int first)
         {
+            First = first;
             int count = instruments.Length;
             _instrument = instruments;
             _beyond = (int[])beyond.Clone();
             _tip = new int[count];
             Hubs = new HubPlaces(count);
             _active = new int[count];
-            _tip[0] = instruments[0].Rod.ElementCount;
+            _tip[0] = instruments[0].Rod.ElementCount - first;
             for (int i = 1; i < count; i++)
             {
                 _tip[i] = _tip[i - 1] + beyond[i];
@@ -58,7 +62,7 @@ namespace Guidewire.Core
             {
                 _carrier[j] = j < _tip[1] ? 1 : 2;
             }
-            Array.Copy(instruments[0].Stations, _station, _tip[0] + 1);
+            Array.Copy(instruments[0].Stations, first, _station, 0, _tip[0] + 1);
             _joint = new CoaxialJoint[_station.Length];
             _stretch = new double[count * _carrier.Length];
             _leadStretch = new double[count];
@@ -66,8 +70,14 @@ namespace Guidewire.Core
             _shear = new double[_carrier.Length];
             _before = CreatePieces();
             _after = CreatePieces();
+            _compliance = new double[count];
+            _rest = new double[count];
+            Hubs.Sheathed = double.NaN;
             SetHubs(leads, sheathed);
         }
+
+        /// <summary>Elements of the outermost instrument before the chain, which are straight.</summary>
+        public int First { get; }
 
         /// <summary>How many instruments there are.</summary>
         public int Count => _instrument.Length;
@@ -84,7 +94,7 @@ namespace Guidewire.Core
         /// <summary>Where the instruments are along the chain.</summary>
         public HubPlaces Hubs { get; }
 
-        /// <summary>Length of the chain in a sheath, m from the outer hub; 0 without one.</summary>
+        /// <summary>Length in a sheath, m from the outer hub; 0 without one.</summary>
         public double Sheathed => Hubs.Sheathed;
 
         /// <summary>Elements, from the first on, with a twist angle that is unknown.</summary>
@@ -93,7 +103,7 @@ namespace Guidewire.Core
         /// <summary>Positions of the chain's nodes along it, m.</summary>
         public double[] Stations => _station;
 
-        /// <summary>Energy of the inner instruments between the hubs, where they are kept straight, J.</summary>
+        /// <summary>Energy of all instruments before the chain, where they are kept straight, J.</summary>
         public double HeldInLead { get; private set; }
 
         /// <summary>The last half element of a chain that ends where several instruments are.</summary>
@@ -178,7 +188,7 @@ namespace Guidewire.Core
             return _stretch[instrument * _carrier.Length + element];
         }
 
-        /// <summary>The same of its length before the outermost hub.</summary>
+        /// <summary>The same of its length before the chain.</summary>
         public double LeadStretchOf(int instrument)
         {
             return _leadStretch[instrument];
@@ -214,7 +224,49 @@ namespace Guidewire.Core
         /// <summary>The fraction of that, weighted by the joint's hat function, that is not in a sheath.</summary>
         public double FractionOutside(int k)
         {
-            return JointPieces.FractionBeyond(_station, k, Sheathed);
+            double node = _station[k];
+            if (Sheathed <= (k > 0 ? _station[k - 1] : node))
+            {
+                return 1.0;
+            }
+            double before = k > 0 ? node - _station[k - 1] : 0.0;
+            double after = k < ElementCount ? _station[k + 1] - node : 0.0;
+            double beyond = Sheathed < node ? after + (node - Sheathed) * (1.0 + (Sheathed - node + before) / before)
+                : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - Sheathed), 2.0) / after : 0.0;
+            return beyond / (before + after);
+        }
+
+        /// <summary>The joint at node k of an instrument alone.</summary>
+        public Joint AloneAt(int k)
+        {
+            ref readonly CoaxialJoint joint = ref _joint[k];
+            return new Joint
+            {
+                Bend1 = 1.0 / joint.Compliance1,
+                Bend2 = 1.0 / joint.Compliance2,
+                Twist = joint.Twist,
+                Rest = new Vector3d(joint.FixedX, joint.FixedY, joint.RestTwist),
+            };
+        }
+
+        /// <summary>The next position along the chain after one, m, up to which forces at a border are linear: a node
+        /// or a border of an instrument.</summary>
+        public double NextBreak(double position)
+        {
+            double next = double.PositiveInfinity;
+            foreach (double station in _station)
+            {
+                next = station > position ? Math.Min(next, station) : next;
+            }
+            for (int i = 0; i < Count; i++)
+            {
+                foreach (double border in _instrument[i].Profile.Borders)
+                {
+                    double at = border - Hubs.Leads[i];
+                    next = at > position ? Math.Min(next, at) : next;
+                }
+            }
+            return next;
         }
 
         /// <summary>What an instrument is made of at node k.</summary>
@@ -224,13 +276,13 @@ namespace Guidewire.Core
             return ref profile.Pieces[profile.PieceAt(_station[k] + Hubs.Leads[instrument])];
         }
 
-        /// <summary>What an instrument is made of at the outermost hub; where a border is there, what is before
+        /// <summary>What an instrument is made of where the chain begins; where a border is there, what is before
         /// it.</summary>
         public ref readonly CrossSection PieceAtHub(int instrument)
         {
             InstrumentProfile profile = _instrument[instrument].Profile;
             int p = 0;
-            while (p < profile.Pieces.Length - 1 && profile.Borders[p + 1] - Hubs.Leads[instrument] < 0.0)
+            while (p < profile.Pieces.Length - 1 && profile.Borders[p + 1] - Hubs.Leads[instrument] < _station[0])
             {
                 p++;
             }
@@ -240,13 +292,17 @@ namespace Guidewire.Core
         /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
         /// <param name="leads">m, of all instruments; 0 for the outermost one.</param>
         /// <param name="sheathed">m.</param>
-        public void SetHubs(double[] leads, double sheathed)
+        /// <returns>How many joints, from the first on, are others now.</returns>
+        public int SetHubs(double[] leads, double sheathed)
         {
+            double most = Math.Max(Hubs.Sheathed, sheathed);   // no number at first
+            bool slides = double.IsNaN(most);
             Hubs.Sheathed = sheathed;
             ActiveCount = 0;
             HeldInLead = 0.0;
             for (int i = 0; i < Count; i++)
             {
+                slides |= leads[i] != Hubs.Leads[i];
                 Hubs.Leads[i] = leads[i];
                 Hubs.Ends[i] = _instrument[i].Profile.Length - leads[i];
                 if (i > 0)
@@ -255,9 +311,10 @@ namespace Guidewire.Core
                     SetActive(i);
                 }
             }
-            for (int k = 0; k < _joint.Length; k++)
+            int end = 0;
+            for (; end < _joint.Length && (slides || end == 0 || _station[end - 1] < most); end++)
             {
-                SetJoint(k);
+                SetJoint(end);
             }
             _last = default;
             if (_carrier[ElementCount - 1] < InnerCount)
@@ -265,6 +322,7 @@ namespace Guidewire.Core
                 int n = ElementCount;
                 AddSide(ref _last, n, n - 1, _carrier[n - 1], _before);
             }
+            return end;
         }
 
         private void SetStations(int instrument)
@@ -306,6 +364,12 @@ namespace Guidewire.Core
                 AddSide(ref joint, k, k + 1, frame, _after);
                 SetElement(k);
             }
+            if (k == 0)
+            {
+                SetLeads();
+                _after.Compliance[frame] += _compliance[frame];
+                _after.Rest[frame] += _rest[frame];
+            }
             joint.Twist = 1.0 / (_before.Compliance[frame] + _after.Compliance[frame]);
             joint.RestTwist = _before.Rest[frame] + _after.Rest[frame];
             bool isFirst = true;
@@ -338,7 +402,8 @@ namespace Guidewire.Core
             if (k == 0)
             {
                 double own = compliance;
-                AddLead(instrument, ref compliance, ref rest);
+                compliance += _compliance[instrument];
+                rest += _rest[instrument];
                 part.Weight = 1.0 - 0.5 * own / compliance;
             }
             part.RestTwist = rest;
@@ -357,20 +422,27 @@ namespace Guidewire.Core
             side.AddSide(ref joint, _station[k], _station[other], _carrier[Math.Min(k, other)], frame, Hubs);
         }
 
-        private void AddLead(int instrument, ref double compliance, ref double rest)
+        // Of all instruments before the chain.
+        private void SetLeads()
         {
-            InstrumentProfile profile = _instrument[instrument].Profile;
-            _leadStretch[instrument] = 0.0;
-            for (int p = 0; p < profile.Pieces.Length; p++)
+            for (int i = 0; i < Count; i++)
             {
-                double length = Math.Min(Hubs.Leads[instrument], profile.Borders[p + 1]) - profile.Borders[p];
-                if (length > 0.0)
+                InstrumentProfile profile = _instrument[i].Profile;
+                _leadStretch[i] = 0.0;
+                _compliance[i] = 0.0;
+                _rest[i] = 0.0;
+                for (int p = 0; p < profile.Pieces.Length; p++)
                 {
-                    ref CrossSection piece = ref profile.Pieces[p];
-                    compliance += length / piece.TwistStiffness;
-                    _leadStretch[instrument] += length / piece.StretchStiffness;
-                    rest += length * piece.RestCurvature.Z;
-                    HeldInLead += length * CoaxialPieces.Straightened(piece);
+                    double end = Math.Min(Hubs.Leads[i] + _station[0], profile.Borders[p + 1]);
+                    double length = end - profile.Borders[p];
+                    if (length > 0.0)
+                    {
+                        ref CrossSection piece = ref profile.Pieces[p];
+                        _compliance[i] += length / piece.TwistStiffness;
+                        _leadStretch[i] += length / piece.StretchStiffness;
+                        _rest[i] += length * piece.RestCurvature.Z;
+                        HeldInLead += length * CoaxialPieces.Straightened(piece);
+                    }
                 }
             }
         }

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>An instrument with one or two others inside it as one rod: elements of the outermost one with the mass
-    /// of all, one of any length at its tip, and those of the next one beyond.</summary>
+    /// <summary>An instrument, alone or with one or two others inside it, as one rod: elements of the outermost one
+    /// with the mass of all, one of any length at its tip, and those of the next one beyond.</summary>
     /// <remarks>Across the axis all are held together: GA adds, as bending stiffness does. Along it each slides, and
     /// bears its own loads (<see cref="AxialForces"/>).</remarks>
     internal sealed class CoaxialRod
@@ -13,20 +13,26 @@ namespace Guidewire.Core
         private readonly CoaxialInstrument[] _instrument;
 
         /// <summary>Of these instruments.</summary>
-        /// <param name="instruments">The outermost one first, two or three.</param>
+        /// <param name="instruments">The outermost one first, up to three.</param>
         /// <param name="beyond">How many nodes of each, from its tip on, are nodes of the rod; of the first
         /// all.</param>
         /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
         /// <param name="sheathed">Length in a sheath, m from the outer hub.</param>
-        public CoaxialRod(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed = 0.0)
+        /// <param name="first">Elements of the first that are left out, in the sheath; 0 of several.</param>
+        public CoaxialRod(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed = 0.0,
+            int first = 0)
         {
             _instrument = instruments;
-            Joints = new CoaxialJoints(instruments, beyond, leads, sheathed);
+            Joints = new CoaxialJoints(instruments, beyond, leads, sheathed, first);
             Axial = new AxialForces(Joints);
             int n = Joints.ElementCount;
             InnerSpin = new double[Joints.InnerCount * n];
             LumenDrag = new double[InnerSpin.Length];
-            Rod = new MaterialRod(n) { MassDamping = instruments[0].Rod.MassDamping };
+            Rod = new MaterialRod(n)
+            {
+                MassDamping = instruments[0].Rod.MassDamping,
+                MaterialDamping = instruments[0].Rod.MaterialDamping,
+            };
             for (int j = 0; j < n; j++)
             {
                 Rod.Take(j, Carrier(j), OwnElement(j));
@@ -62,6 +68,9 @@ namespace Guidewire.Core
         /// <summary>Where the sheath ends in which they are, or null.</summary>
         public SheathEnd? Sheath { get; set; }
 
+        /// <summary>Where the hubs are in time; null where they are set by hand.</summary>
+        public CoaxialHubs? Hubs { get; set; }
+
         /// <summary>Inertia about the axis of what is inside of each element, of the first inner instrument and then of
         /// the second, rho (I1 + I2) times its length, kg m^2.</summary>
         public double[] InnerSpin { get; }
@@ -73,14 +82,16 @@ namespace Guidewire.Core
         /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
         /// <param name="leads">m, 0 of the outermost one.</param>
         /// <param name="sheathed">m.</param>
-        public void SetHubs(double[] leads, double sheathed)
+        /// <returns>How many joints, from the first on, are others now.</returns>
+        public int SetHubs(double[] leads, double sheathed)
         {
-            Joints.SetHubs(leads, sheathed);
+            int changed = Joints.SetHubs(leads, sheathed);
             for (int j = 0; j < Joints.ElementCount; j++)
             {
                 Rod.ShearStiffness[j] = (Joints.Stations[j + 1] - Joints.Stations[j]) / Joints.ShearOf(j);
             }
             SetLengths();
+            return changed;
         }
 
         /// <summary>Takes the directions of the loads in a shape.</summary>

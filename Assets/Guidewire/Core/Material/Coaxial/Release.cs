@@ -18,7 +18,8 @@ namespace Guidewire.Core
     {
         private readonly CoaxialRod _rod;
         private readonly CoaxialJoints _joints;
-        private readonly CoaxialBendTwist _bending;
+        private readonly BendTwistTerm _bending;
+        private readonly CoaxialBendTwist? _angles;    // of several
         private readonly StretchEnergy _stretch;
         private readonly HubSpeeds _speeds;
         private readonly CoaxialPieces _before;   // derivatives on one side of a joint
@@ -28,11 +29,12 @@ namespace Guidewire.Core
         private readonly double[] _station;       // speeds of nodes
 
         /// <summary>Of these instruments.</summary>
-        public Release(CoaxialRod rod, CoaxialBendTwist bending, StretchEnergy stretch)
+        public Release(CoaxialRod rod, BendTwistTerm bending, StretchEnergy stretch)
         {
             _rod = rod;
             _joints = rod.Joints;
             _bending = bending;
+            _angles = bending as CoaxialBendTwist;
             _stretch = stretch;
             _speeds = new HubSpeeds(_joints.Count);
             _before = _joints.CreatePieces();
@@ -47,19 +49,55 @@ namespace Guidewire.Core
         public double InnerForce(RodShape shape, RodTerms terms, int instrument = 1)
         {
             SetSpeeds(instrument, 0.0);
-            return RateOf(shape) + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
+            return RateOf(shape, 0, _joints.ElementCount)
+                + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
         }
 
         /// <summary>What the outer hub has of the force along the axis besides that on its node, N: -dE/dD, D the
         /// length in the sheath. Negative where all are driven out.</summary>
         public double SheathForce(RodShape shape)
         {
-            if (_joints.Sheathed == 0.0)
+            int n = _joints.ElementCount;
+            double exit = _joints.Sheathed;
+            if (exit == 0.0 || exit >= _joints.Stations[n])
             {
                 return 0.0;
             }
+            int element = 0;
+            while (_joints.Stations[element + 1] <= exit)
+            {
+                element++;
+            }
             SetSpeeds(0, -1.0);
-            return RateOf(shape);
+            return RateOf(shape, element, Math.Min(element + 2, n));
+        }
+
+        /// <summary>That force where the step began, N.</summary>
+        public double SheathForceAtStart { get; private set; }
+
+        /// <summary>A step begins.</summary>
+        public void BeginStep(RodShape shape)
+        {
+            SheathForceAtStart = SheathForce(shape);
+        }
+
+        /// <summary>Work of the outer hub, J, against what drives all out, while the exit goes along the chain from one
+        /// position to another, by the moments of a shape.</summary>
+        /// <param name="from">m from the hub, as is the other.</param>
+        public double SheathWork(RodShape shape, double from, double to)
+        {
+            double now = _joints.Sheathed;
+            double end = Math.Max(from, to);
+            double work = 0.0;
+            for (double at = Math.Min(from, to); at < end;)
+            {
+                double next = Math.Min(_joints.NextBreak(at), end);
+                _joints.Hubs.Sheathed = 0.5 * (at + next);
+                work -= (next - at) * SheathForce(shape);
+                at = next;
+            }
+            _joints.Hubs.Sheathed = now;
+            return to > from ? work : -work;
         }
 
         private void SetSpeeds(int instrument, double exit)
@@ -75,10 +113,10 @@ namespace Guidewire.Core
             }
         }
 
-        private double RateOf(RodShape shape)
+        // Of the joints at the first end of some elements, and of these.
+        private double RateOf(RodShape shape, int from, int to)
         {
-            _bending.SetIdleTwists(shape);
-            int n = _joints.ElementCount;
+            _angles?.SetIdleTwists(shape);
             double sum = 0.0;
             double compliance = 0.0;   // derivative of that of the chain before an element
             for (int i = 0; i < _joints.Count; i++)
@@ -87,7 +125,7 @@ namespace Guidewire.Core
                 _own[i] = -_speeds.Instruments[i] / atHub.StretchStiffness;
                 sum -= _speeds.Instruments[i] * CoaxialPieces.Straightened(atHub);
             }
-            for (int k = 0; k < n; k++)
+            for (int k = from; k < to; k++)
             {
                 var rate = default(CoaxialJoint);
                 _before.Clear();
@@ -101,7 +139,7 @@ namespace Guidewire.Core
                 }
                 sum += OfElement(shape, k, ref compliance);
             }
-            return sum + (_joints.HasLast ? OfLast(shape) : 0.0);
+            return sum + (_joints.HasLast ? OfLast(shape, _angles!) : 0.0);
         }
 
         private bool AddSide(ref CoaxialJoint rate, int k, int other, CoaxialPieces side)
@@ -178,12 +216,12 @@ namespace Guidewire.Core
                 - s.Couple * (0.5 * s.Couple * rate.Twist + rate.RestTwist);
         }
 
-        private double OfLast(RodShape shape)
+        private double OfLast(RodShape shape, CoaxialBendTwist bending)
         {
             int n = _joints.ElementCount;
             var rate = default(CoaxialJoint);
             _before.Clear();
-            return AddSide(ref rate, n, n - 1, _before) ? _bending.LastAt(shape, rate, out _, out _, out _) : 0.0;
+            return AddSide(ref rate, n, n - 1, _before) ? bending.LastAt(shape, rate, out _, out _, out _) : 0.0;
         }
 
         // Of stretch and shear.

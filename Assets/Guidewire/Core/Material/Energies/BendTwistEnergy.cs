@@ -257,6 +257,14 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override void Evaluate(RodShape shape, int k, out CoaxialJointState s)
+        {
+            s = default;
+            s.Joint = _joint[k];
+            s.Turn = TurnOf(shape, k);
+        }
+
+        /// <inheritdoc/>
         public override bool RelaxTurns(RodShape shape)
         {
             bool isTurned = false;

@@ -15,6 +15,9 @@ namespace Guidewire.Core
         /// <summary>The same for joint k alone.</summary>
         public abstract Vector3d TurnOf(RodShape shape, int k);
 
+        /// <summary>A joint in a shape: its law, its turn and, of several instruments, their angles.</summary>
+        public abstract void Evaluate(RodShape shape, int k, out CoaxialJointState s);
+
         /// <summary>Joint k is this one from now on.</summary>
         public abstract void SetJoint(int k, in Joint joint);
 
@@ -30,7 +33,12 @@ namespace Guidewire.Core
                 return new BendTwistEnergy<DarbouxLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint);
             }
             return new BendTwistEnergy<RotationVectorLaw>(joints, supports.HasProximalJoint, supports.HasDistalJoint,
-                supports.Sheath != null);
+                supports.Winds);
+        }
+
+        /// <summary>A step begins at a time, s, from which on hubs inside slide.</summary>
+        public virtual void BeginSlide(double time)
+        {
         }
 
         /// <summary>How fast the turns of <see cref="Measure"/> grow, rad/s.</summary>

@@ -40,7 +40,7 @@ namespace Guidewire.Core
             _holdsStart = supports.Proximal != ProximalEnd.Free && !supports.HasSpring;
             _distalEnd = supports.Distal;
             _slidingAxis = supports.SlidingAxis;
-            _coaxial = supports.Coaxial?.Joints;
+            _coaxial = supports.InnerCount > 0 ? supports.Coaxial!.Joints : null;
             if (_coaxial != null)
             {
                 _isPair = _coaxial.InnerCount > 1;

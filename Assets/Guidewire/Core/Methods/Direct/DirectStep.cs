@@ -117,9 +117,11 @@ namespace Guidewire.Core
         /// <summary>A part of a step whose drive has been prepared.</summary>
         /// <param name="length">s.</param>
         /// <returns>False where it has no solution or has lost the wire.</returns>
-        public bool StepPart(double length)
+        /// <param name="insertion">Of the drive when the step began, m.</param>
+        /// <param name="turn">The same, radians.</param>
+        public bool StepPart(double length, double insertion, double turn)
         {
-            return Step(length, Drive.Insertion, Drive.Turn);
+            return Step(length, insertion, turn);
         }
 
         // From where the hub was at the step's start, m and radians.
@@ -131,7 +133,7 @@ namespace Guidewire.Core
             {
                 spring.Axis = Drive.Axis;
             }
-            double exit = Terms.Sheath == null ? 0.0 : Terms.Sheath.Exit;
+            double exit = Scene.Supports.Winds ? Scene.Supports.Coaxial!.Joints.Sheathed : 0.0;
             _hubWork += 0.5 * SheathWork(exit);
             Vector3d free = Shape.X[last] + length * Velocities[last]
                 + (length * length) * Schedule.Loads.Gravity;
@@ -201,9 +203,9 @@ namespace Guidewire.Core
             double asked = Drive.Insertion;
             double slip = 0.0;
             bool isTooFar = false;
-            for (int left = Terms.Sheath == null ? 1 : MostSlips; left > 0; left--)
+            for (int left = Terms.Release == null ? 1 : MostSlips; left > 0; left--)
             {
-                spring.Besides = Terms.Sheath == null ? 0.0 : Terms.Sheath.HubForce(Shape);
+                spring.Besides = Terms.Release?.SheathForce(Shape) ?? 0.0;
                 double needed = spring.SlipOf(Shape);
                 if (needed == 0.0)
                 {
@@ -224,7 +226,8 @@ namespace Guidewire.Core
         // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
         private double SheathWork(double exit)
         {
-            return Terms.Sheath?.WorkTo(Shape, Schedule.Hub.PositionAt(Drive.StepEnd), exit) ?? 0.0;
+            return !Scene.Supports.Winds ? 0.0
+                : Terms.Release!.SheathWork(Shape, exit, Scene.Supports.Coaxial!.Hubs!.SheathedAt(Drive.StepEnd));
         }
 
         private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
@@ -430,13 +433,13 @@ namespace Guidewire.Core
                 + "hub would need {2:G3} N, more than the EA of {5}, {3:G3} N; {4}; a smaller motion "
                 + "(displacementPerStep, insertionSpeed, maxSimulationSteps) may help, or a hubForceLimit", Time,
                 Contacts.DriveShortfall, force, most, _jam!.Text(Shape),
-                Scene.Supports.Coaxial == null ? "the wire" : "all instruments at the hub together");
+                Scene.Supports.InnerCount == 0 ? "the wire" : "all instruments at the hub together");
         }
 
         // The wire has then drawn the hub past the end of its sheath.
         private string? FindDrivenOut()
         {
-            return Terms.Sheath == null || Drive.BeyondLimit <= OfElement * Scene.Rod.Length[0] ? null
+            return Drive.BeyondLimit <= OfElement * Scene.Rod.Length[0] ? null
                 : "the wire drives itself out of its sheath: hubForceLimit is too small to hold it";
         }
 

@@ -14,6 +14,8 @@ namespace Guidewire.Core
 
         private const double Reached = 0.02;    // of an element's length
         private const double Left = 0.01;
+        private const double Late = 0.3;        // of an element's length, by which it goes late in a sheath
+        private const int LeastElements = 2;
 
         private readonly CoaxialInstrument[] _instrument;
         private readonly CoaxialHubs _hubs;
@@ -28,6 +30,32 @@ namespace Guidewire.Core
 
         /// <summary>What was found last, of each instrument.</summary>
         public int[] Beyond { get; }
+
+        /// <summary>The first element of an instrument alone in a sheath that is needed in a step: it is wholly in the
+        /// sheath until its end, by the hub's position and, where the instrument is stretched, by its own. So every
+        /// joint that comes out, or goes in, does so within a step.</summary>
+        /// <param name="shape">Where its elements are, from one on.</param>
+        /// <param name="first">That element.</param>
+        /// <param name="sheathed">Length in the sheath, m.</param>
+        /// <param name="move">What of it comes out, m.</param>
+        public int FirstOf(RodShape shape, int first, SheathEnd sheath, double sheathed, double move)
+        {
+            double[] station = _instrument[0].Stations;
+            int known = first;
+            // How far a node will be beyond the exit at most.
+            double Beyond(int i) => move + Math.Max(station[i] - sheathed,
+                sheath.Outside(shape.X[Math.Max(i - known, 0)]) + Math.Min(station[i] - station[known], 0.0));
+            while (first > 0 && Beyond(first + 1) > 0.0)
+            {
+                first--;
+            }
+            int last = station.Length - 1 - LeastElements;
+            while (first < last && Beyond(first + 2) < -Late * _instrument[0].Rod.Length[first + 1])
+            {
+                first++;
+            }
+            return first;
+        }
 
         /// <summary>Finds how many are beyond in a part of a step.</summary>
         /// <param name="time">Of its start, s.</param>

@@ -4,8 +4,8 @@ using System.Globalization;
 
 namespace Guidewire.Core
 {
-    /// <summary>Builds the simulation of a wire in one or two catheters: a scene for each instrument, and one rod for
-    /// all.</summary>
+    /// <summary>Builds the simulation of a wire in a sheath or in one or two catheters: a scene for each instrument,
+    /// and one rod for all.</summary>
     internal sealed class CoaxialSetup
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
@@ -21,6 +21,7 @@ namespace Guidewire.Core
         private readonly double[] _inside;      // how far each tip may go back, m
         private readonly double[] _gap;         // how far each hub is behind the next one around it, m
         private readonly Barrier _barrier;
+        private readonly double _limit;         // of the hub of an instrument alone, N; 0: none
 
         /// <summary>For the wire and the catheters of these parameters.</summary>
         public CoaxialSetup(SimulationParameters parameters)
@@ -35,7 +36,8 @@ namespace Guidewire.Core
             _inside = new double[count];
             _gap = new double[count];
             SimulationParameters wire = parameters.Copy();
-            wire.Scene.Start = null;   // of a run that goes on; its snapshot says all of it
+            // That of catheters is of a run that goes on, and its snapshot says all of it.
+            wire.Scene.Start = count == 1 ? wire.Scene.Start : null;
             Scenes[count - 1] = SceneOf(wire);
             Instruments[count - 1] = new CoaxialInstrument(Wire.Rod, ProfileOf(wire, Wire.Metres));
             for (int i = 0; i < catheters.Count; i++)
@@ -54,6 +56,7 @@ namespace Guidewire.Core
             {
                 _barrier = FindBarrier();
             }
+            _limit = count == 1 ? parameters.Drive.HubForceLimit : 0.0;
         }
 
         /// <summary>Each instrument as if it were alone, the outermost catheter first, the wire last.</summary>
@@ -88,27 +91,40 @@ namespace Guidewire.Core
         /// <summary>All as one rod.</summary>
         /// <param name="beyond">Nodes of each beyond the tips around it.</param>
         /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
-        /// <param name="sheathed">How far that hub is from the exit of the sheath, m.</param>
-        public CoaxialRod Rod(int[] beyond, double[] leads, double sheathed)
+        /// <param name="first">Elements of the outermost one that are left out.</param>
+        /// <param name="time">s.</param>
+        public CoaxialRod Rod(int[] beyond, double[] leads, int first, CoaxialHubs hubs, double time)
         {
-            var rod = new CoaxialRod(Instruments, beyond, leads, sheathed) { Sheath = Sheath };
+            var rod = new CoaxialRod(Instruments, beyond, leads, hubs.SheathedAt(time), first)
+            {
+                Sheath = Sheath,
+                Hubs = hubs,
+            };
             rod.Rod.MassDamping = _drag;
             return rod;
         }
 
-        /// <summary>Drives of the hubs along the axis.</summary>
+        /// <summary>Drives of the hubs along the axis. That of an instrument alone goes on to the exit of its sheath,
+        /// and back until the tip is there.</summary>
         public MaterialDrive[] Drives()
         {
-            return Array.ConvertAll(Scenes, scene => new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis));
+            MaterialDrive[] drives = Array.ConvertAll(Scenes,
+                scene => new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis));
+            if (drives.Length == 1)
+            {
+                Vector3d[] x = Wire.Shape.X;
+                drives[0].Limit(-Sheath!.Outside(x[x.Length - 1]), -Sheath.Outside(x[0]));
+            }
+            return drives;
         }
 
-        /// <summary>What hubs with a hubForceLimit do.</summary>
+        /// <summary>What hubs with a hubForceLimit do; that of an instrument alone slips on its spring.</summary>
         public HubSlip[] Slips(MaterialDrive[] drives)
         {
             var slips = new HubSlip[drives.Length];
             for (int i = 0; i < slips.Length; i++)
             {
-                double limit = i == slips.Length - 1 ? _parameters.Drive.HubForceLimit
+                double limit = slips.Length == 1 ? 0.0 : i == slips.Length - 1 ? _parameters.Drive.HubForceLimit
                     : _parameters.Scene.Catheters[i].Drive.HubForceLimit;
                 slips[i] = new HubSlip(drives[i], limit, OfRadius * Scenes[i].Rod.Radius[0]);
             }
@@ -133,11 +149,26 @@ namespace Guidewire.Core
             return records;
         }
 
+        /// <summary>Copies the start of an instrument alone, from an element on, into the scene of that part.</summary>
+        public void CopyStart(MaterialScene scene, int first)
+        {
+            RodShape shape = scene.Shape;
+            Array.Copy(Wire.Shape.X, first, shape.X, 0, shape.X.Length);
+            Array.Copy(Wire.Shape.Q, first, shape.Q, 0, shape.Q.Length);
+            Array.Copy(Wire.Velocities, first, scene.Velocities, 0, shape.X.Length);
+            Array.Copy(Wire.Spins, first, scene.Spins, 0, shape.Q.Length);
+            shape.DistalFrame = Wire.Shape.DistalFrame;
+        }
+
         /// <summary>Lets hubs go in the step that begins at a time so far that none passes the next one nor the exit of
         /// a sheath, and that the tips inside stay in the outermost catheter by an element at least.</summary>
         public void LimitDrives(MaterialDrive[] drives, CoaxialHubs hubs, double time)
         {
             int last = drives.Length - 1;
+            if (last == 0)
+            {
+                return;
+            }
             for (int i = 1; i <= last; i++)
             {
                 double lead = hubs.LeadAt(i, time);
@@ -179,13 +210,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>Energies and loads of all, which follow their hubs.</summary>
-        public RodTerms Terms(MaterialScene scene, CoaxialHubs hubs)
+        public RodTerms Terms(MaterialScene scene)
         {
+            CoaxialJoints joints = scene.Supports.Coaxial!.Joints;
+            SupportSpring hub = new SupportSpring(joints.First > 0 ? Catheter.Rod : scene.Rod, _limit)
+                .InSeries(joints.LeadStretchOf(0), Axis, joints.Stations[0]);
             WallTerms? walls = Wire.Walls.Length == 0 ? null
-                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, new SupportSpring(scene.Rod, 0.0));
+                : DirectSetup.WallTermsOf(_parameters, scene, _barrier, hub);
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
-            ((CoaxialBendTwist)terms.Bending).Hubs = hubs;
-            terms.CoaxialLoads = new CoaxialLoads(scene.Supports.Coaxial!, Instruments,
+            terms.CoaxialLoads = Scenes.Length == 1 ? null : new CoaxialLoads(scene.Supports.Coaxial!, Instruments,
                 Array.ConvertAll(Scenes, one => one.Schedule.Loads));
             return terms;
         }
@@ -223,7 +256,7 @@ namespace Guidewire.Core
         {
             if (Sheath != null)
             {
-                return FindProblemBeyondSheath(Sheath);
+                return Scenes.Length == 1 ? null : FindProblemBeyondSheath(Sheath);
             }
             double tip = 0.0;      // the farthest so far, m from the outermost hub
             string? problem = null;

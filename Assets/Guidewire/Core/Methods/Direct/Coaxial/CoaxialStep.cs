@@ -3,62 +3,46 @@ using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>Steps of a wire in one or two catheters: all are one rod with a <see cref="DirectStep"/> of its own,
-    /// while nodes of those inside come and go with the hubs beyond the tips around them.</summary>
-    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. What is simulated is rebuilt whenever that
-    /// changes, and where a tip inside comes into another element.</remarks>
+    /// <summary>Steps of a wire in a sheath or in one or two catheters, as one rod (<see cref="CoaxialChain"/>): the
+    /// drives of its hubs, what they do at a hubForceLimit, and the results of each instrument.</summary>
     internal sealed class CoaxialStep : TimeStepper
     {
-        private readonly MethodParameters _method;
         private readonly SolverReport _report;
         private readonly CoaxialSetup _setup;
         private readonly MaterialDrive[] _drives;      // of the outermost catheter first, of the wire last
         private readonly SlippingHubs _slips;
         private readonly CoaxialHubs _hubs;
-        private readonly CoaxialNodes _nodes;
-        private readonly CoaxialRecord[] _records;     // of the catheters
-        private readonly bool _hasFriction;            // in a lumen
+        private readonly CatheterRecords _records;
+        private readonly bool _isAlone;                // a wire in a sheath
         private readonly InnerInstrument[] _inner;     // the wire last
         private readonly double[] _insertions;         // before a step, m
-        private readonly double[] _forces;             // of the hubs without friction, N
         private readonly HubRecord _hub;
+        private readonly StressRecord _stress;
         private readonly StepStart _start;
-        private readonly int[] _active;           // elements with each angle, when the rod was built
-        private CoaxialRod _rod = null!;          // these are set wherever the rod is built
-        private RodDynamics _dynamics = null!;
-        private DirectStep _whole = null!;
-        private double[] _leads = null!;          // between the hubs, when it was built, m
-        private (CoaxialRod, RodDynamics, DirectStep, double[]) _kept;   // these when a step began
-        private readonly int[] _keptActive;
-        private readonly int[] _keptBeyond;
+        private readonly CoaxialChain _chain;
 
         /// <summary>A step of the instruments of these parameters, from their start.</summary>
         /// <param name="failure">Why there is no rest shape to start from, or null.</param>
         public CoaxialStep(SimulationParameters parameters, SolverReport report, out string? failure)
         {
-            _method = parameters.Method;
             _report = report;
             _setup = new CoaxialSetup(parameters);
             _drives = _setup.Drives();
             int count = _drives.Length;
             _insertions = new double[count];
-            _forces = new double[count];
+            _isAlone = count == 1;
             _start = new StepStart(SerializeStep);
             _slips = new SlippingHubs(_drives, _setup.Slips(_drives), _start, _setup.Work, StepAsRequested,
                 hub => Coaxial()!.ForceOf(hub));
+            _records = new CatheterRecords(_setup, _drives);
             _hubs = new CoaxialHubs(Array.ConvertAll(_drives, drive => drive.Hub), _setup.Axis, _setup.Sheath);
-            _nodes = new CoaxialNodes(_setup.Instruments, _hubs);
-            _active = new int[count];
-            _keptActive = new int[count];
-            _keptBeyond = new int[count];
-            _inner = new InnerInstrument[count - 1];
-            for (int i = 1; i < count; i++)
+            _inner = new InnerInstrument[Math.Max(count - 1, 1)];
+            for (int i = 0; i < _inner.Length; i++)
             {
-                _inner[i - 1] = new InnerInstrument(_setup, _hubs, i);
+                _inner[i] = new InnerInstrument(_setup, _hubs, count - _inner.Length + i);
             }
             _hub = new HubRecord(_setup.Wire.Rod, _setup.Wire.Supports);
-            _records = _setup.Records();
-            _hasFriction = Array.Exists(_records, record => record.FrictionCoefficient > 0.0);
+            _stress = new StressRecord(_setup.Wire.Rod, _setup.Wire.Supports);
             if (_setup.Wire.Walls.Length > 0)
             {
                 string? outside = _setup.FindProblemOfStart();
@@ -67,24 +51,10 @@ namespace Guidewire.Core
                     throw new ArgumentException(outside);
                 }
                 Contacts = new ContactRecord(_setup.Wire.Rod.ElementCount + 1);
+                Contacts.SetElements(_isAlone ? _setup.Wire.Rod.ElementCount : 0, _setup.Wire.Walls);
             }
-            _nodes.Find(0.0, 0.0);
-            _rod = RodAt(0.0);
-            var shape = new RodShape(_rod.Joints.ElementCount, _rod.Joints.InnerCount);
-            shape.SetStraight(_drives[0].Hub.PositionAt(0.0), _hubs.Outer.Frame, _rod.Joints.Stations);
-            CoaxialShape.SetTwists(shape, _rod.Joints, _hubs);
-            MaterialScene scene = SceneOf(shape);
-            RodTerms terms = _setup.Terms(scene, _hubs);
-            failure = scene.Joints.FindTurnedAtRest();
-            IsAtRest = parameters.Scene.InitialState == InitialState.Equilibrium && failure == null;
-            if (IsAtRest)
-            {
-                failure = _setup.FindRestShape(scene, terms, report);
-                IsAtRest = failure == null;
-            }
-            Start(scene, terms, 0.0, 0.0);
-            TakePlay();
-            TakeInner();
+            _chain = new CoaxialChain(parameters, report, _setup, _drives, _hubs, Wire, out failure);
+            TakeResults();
         }
 
         /// <summary>Sums over the run and the walls' forces; on spheres those of the wire, beyond the tips around it.
@@ -92,17 +62,22 @@ namespace Guidewire.Core
         public override ContactRecord? Contacts { get; }
 
         /// <summary>Whether the start is a rest shape.</summary>
-        public bool IsAtRest { get; }
+        public bool IsAtRest => _chain.IsAtRest;
 
         /// <summary>The motion of what is simulated.</summary>
-        public RodDynamics Dynamics => _dynamics;
+        public RodDynamics Dynamics => _chain.Dynamics;
 
         /// <summary>All instruments as one rod.</summary>
-        public CoaxialRod Rod => _rod;
+        public CoaxialRod Rod => _chain.Rod;
 
         /// <inheritdoc/>
         public override void AddWarnings(List<RunWarning> warnings)
         {
+            if (_isAlone)
+            {
+                _chain.Whole.AddWarnings(warnings);
+                return;
+            }
             _slips.AddWarnings(_setup.Sheath != null, warnings);
         }
 
@@ -114,20 +89,17 @@ namespace Guidewire.Core
                 _start.Save();
             }
             bool isDone = Step();
-            Failure = _whole.Failure;
-            Divergence = _whole.Divergence;
-            SteadyState = _whole.SteadyState;
-            PredictionError = _whole.PredictionError;
+            Failure = _chain.Whole.Failure;
+            Divergence = _chain.Whole.Divergence;
+            SteadyState = _chain.Whole.SteadyState;
+            PredictionError = _chain.Whole.PredictionError;
             if (isDone)
             {
-                Bending.SetIdleTwists(_dynamics.Shape);
-                TakePlay();
-                TakeInner();
-                TakeContacts();
-                if (_hasFriction)
+                TakeResults();
+                if (_records.HasFriction)
                 {
                     Coaxial();
-                    _setup.TakeStrains(_records, _report);
+                    _setup.TakeStrains(_records.All, _report);
                 }
                 WriteWire(state);
             }
@@ -148,35 +120,30 @@ namespace Guidewire.Core
 
         private bool StepAsRequested()
         {
+            double insertion = _drives[0].Insertion;
+            double turn = _drives[0].Turn;
+            MoveWindow();
             BeginStep();
-            double start = _dynamics.Time;
-            bool isDone = true;
-            for (double done = 0.0; isDone && done < _method.TimeStep;)
-            {
-                double length = Math.Min(_nodes.TimeToNode(_dynamics.Time), _method.TimeStep - done);
-                length = _method.TimeStep - done - length < CoaxialNodes.SameTime * _method.TimeStep
-                    ? _method.TimeStep - done : length;
-                MoveNodes(length);
-                isDone = _whole.StepPart(length);
-                done = length == _method.TimeStep - done ? _method.TimeStep : _dynamics.Time - start;
-            }
-            return isDone;
+            return _chain.Step(insertion, turn);
+        }
+
+        /// <summary>See <see cref="CoaxialChain.MoveWindow"/>.</summary>
+        public void MoveWindow()
+        {
+            _chain.MoveWindow();
         }
 
         // Moves the hubs as far as allowed.
         private void BeginStep()
         {
-            TakeLoads();
-            _setup.LimitDrives(_drives, _hubs, _dynamics.Time);
+            _chain.TakeLoads();
+            _setup.LimitDrives(_drives, _hubs, Dynamics.Time);
             for (int i = 0; i < _drives.Length; i++)
             {
                 _insertions[i] = _drives[i].Insertion;
-                _drives[i].Prepare(_dynamics.Shape, _dynamics.Time);
+                _drives[i].Prepare(Dynamics.Shape, Dynamics.Time);
             }
-            foreach (CoaxialRecord record in _records)
-            {
-                record.TakeStep(_drives, _insertions);
-            }
+            _records.BeginStep(_insertions);
         }
 
         /// <summary>Writes the wire as it is into a state.</summary>
@@ -188,79 +155,74 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override HubRecord? Hub()
         {
-            CoaxialRecord record = Coaxial()!;
-            Quaterniond[] q = Wire.Shape.Q;
-            _hub.Take(_drives[_drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
-                record.WireTwist, record.LargestCurvature);
+            HubRecord hub = _hub;
+            if (Coaxial() is CoaxialRecord record)
+            {
+                Quaterniond[] q = Wire.Shape.Q;
+                hub.Take(_drives[_drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
+                    record.WireTwist, record.LargestCurvature);
+            }
+            else
+            {
+                hub = _chain.Whole.Hub()!;
+            }
             if (_setup.Sheath != null)
             {
-                _hub.TakeBody(_setup.Instruments[_drives.Length - 1].Stations,
-                    _rod.Joints.LeadOf(_drives.Length - 1) + _rod.Joints.Sheathed);
+                Wire.WriteBody(hub, _setup.Sheath, Rod.Joints.LeadOf(_drives.Length - 1) + Rod.Joints.Sheathed);
             }
-            return _hub;
+            return hub;
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord? Stress()
+        {
+            if (!_isAlone)
+            {
+                return null;
+            }
+            _chain.TakeTime();
+            Wire.TakeForces(Dynamics.Terms, Dynamics.Shape);
+            _stress.Take(_chain.Whole.Stress()!, _setup.Wire.Rod, Rod.Joints.First, _setup.Axis, Wire.Thrust,
+                Wire.Torque);
+            return _stress;
         }
 
         /// <inheritdoc/>
         public override CoaxialRecord? Coaxial()
         {
-            RodTerms terms = _dynamics.Terms;
-            terms.SetTime(_whole.Schedule, _dynamics.Time);
-            RodShape shape = _dynamics.Shape;
-            int wire = _drives.Length - 1;
-            // The outermost hub has the chain's reaction less those of the others.
-            _forces[0] = Vector3d.Dot(_dynamics.ReactionAt(0), _setup.Axis);
-            double torque = Vector3d.Dot(terms.Bending.ProximalCouple(shape), _setup.Axis);
-            double wireTorque = Bending.InnerTorque(shape, wire);
-            double inside = 0.0;
-            for (int i = wire; i > 0; i--)
+            if (_isAlone)
             {
-                _forces[i] = terms.Release!.InnerForce(shape, terms, i);
-                _forces[0] -= _forces[i];
-                double own = Bending.InnerTorque(shape, i);
-                torque -= own;
-                if (i < wire)
-                {
-                    _records[i].Take(_rod.Joints, terms, shape, _inner[i - 1].Shape, _drives[i], _drives[wire], own,
-                        wireTorque, inside);
-                }
-                inside += _forces[i];
+                return null;
             }
-            _forces[0] += terms.Release!.SheathForce(shape);
-            _records[0].Take(_rod.Joints, terms, shape, shape, _drives[0], _drives[wire], torque, wireTorque, inside);
-            double around = 0.0;
-            double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;
-            for (int i = 0; i < wire; i++)
-            {
-                _records[i].TakeForces(_forces[i], around, wireForce);
-                around = _records[i].FrictionForce;
-            }
-            return _records[0];
+            _chain.TakeTime();
+            return _records.Take(Dynamics, Rod.Joints, _inner);
         }
 
         /// <inheritdoc/>
         public override Vector3d? Energies()
         {
-            RodTerms terms = _dynamics.Terms;
-            terms.SetTime(_whole.Schedule, _dynamics.Time);
-            return new Vector3d(_dynamics.KineticEnergy,
-                terms.ElasticEnergy(_dynamics.Shape) - _rod.Axial.PreloadEnergy, terms.LoadPotential(_dynamics.Shape));
+            if (_isAlone)
+            {
+                return null;
+            }
+            _chain.TakeTime();
+            RodTerms terms = Dynamics.Terms;
+            return new Vector3d(Dynamics.KineticEnergy,
+                terms.ElasticEnergy(Dynamics.Shape) - Rod.Axial.PreloadEnergy, terms.LoadPotential(Dynamics.Shape));
         }
 
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            return _whole.Report();
+            return _chain.Whole.Report();
         }
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            double time = _dynamics.Time;
-            for (int i = 1; i < _drives.Length; i++)
-            {
-                snapshot.Serialize(ref _nodes.Beyond[i]);
-                snapshot.Serialize(ref _leads[i]);
-            }
+            double time = Dynamics.Time;
+            int first = Rod.Joints.First;
+            _chain.SerializeNodes(snapshot, ref first);
             snapshot.Serialize(ref time);
             for (int i = 1; i < _drives.Length; i++)
             {
@@ -268,152 +230,52 @@ namespace Guidewire.Core
                 _drives[i].Serialize(snapshot);
             }
             _slips.Serialize(snapshot);
-            foreach (CoaxialRecord record in _records)
-            {
-                record.Serialize(snapshot);
-            }
+            _records.Serialize(snapshot);
+            _chain.Serialize(snapshot, first, time);
             if (!snapshot.IsWritten)
             {
-                double[] leads = _leads;
-                _rod = _setup.Rod(_nodes.Beyond, leads, _hubs.SheathedAt(time));
-                MaterialScene scene = SceneOf(new RodShape(_rod.Joints.ElementCount, _rod.Joints.InnerCount));
-                // Placed on the axis until its own state is read.
-                scene.Shape.SetStraight(_hubs.Outer.PositionAt(time), _hubs.Outer.Frame, _rod.Joints.Stations);
-                Start(scene, _setup.Terms(scene, _hubs), time, 0.0);
-            }
-            _whole.Serialize(snapshot);
-            _rod.Axial.Serialize(snapshot);
-            if (!snapshot.IsWritten)
-            {
-                _rod.SetLengths();
                 TakeInner();
                 TakeContacts();
             }
         }
 
-        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>. What was simulated
-        /// when it began is kept: the step may build it anew.</summary>
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
-            if (snapshot.IsWritten)
-            {
-                _kept = (_rod, _dynamics, _whole, _leads);
-                _active.CopyTo(_keptActive, 0);
-                _nodes.Beyond.CopyTo(_keptBeyond, 0);
-            }
-            (_rod, _dynamics, _whole, _leads) = _kept;
-            _keptActive.CopyTo(_active, 0);
-            _keptBeyond.CopyTo(_nodes.Beyond, 0);
             for (int i = 1; i < _drives.Length; i++)
             {
                 _drives[i].SerializeStep(snapshot);
             }
-            foreach (CoaxialRecord record in _records)
-            {
-                record.Serialize(snapshot);
-            }
-            _whole.SerializeStep(snapshot);
+            _records.Serialize(snapshot);
+            _chain.SerializeStep(snapshot);
             if (!snapshot.IsWritten)
             {
-                _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
+                _chain.TakeTime();
             }
         }
-
-        private CoaxialBendTwist Bending => (CoaxialBendTwist)_dynamics.Terms.Bending;
 
         private InnerInstrument Wire => _inner[_inner.Length - 1];
 
-        private CoaxialRod RodAt(double time)
+        // Where the instruments are and what touches them.
+        private void TakeResults()
         {
-            _leads = _hubs.LeadsAt(time);
-            return _setup.Rod(_nodes.Beyond, _leads, _hubs.SheathedAt(time));
-        }
-
-        private MaterialScene SceneOf(RodShape shape)
-        {
-            return new MaterialScene(_setup.Catheter, _rod, shape, _drives[0], _hubs.Inner, _setup.Wire.Schedule.Loads);
-        }
-
-        // For a part of a step, s.
-        private void MoveNodes(double length)
-        {
-            double time = _dynamics.Time;
-            _nodes.Find(time, length);
-            if (IsAsBuilt())
-            {
-                return;
-            }
-            CoaxialRod old = _rod;
-            RodShape oldShape = _dynamics.Shape;
-            _rod = RodAt(time);
-            var change = new CoaxialChange(old.Joints, _rod.Joints);
-            MaterialScene scene = SceneOf(change.Take(oldShape));
-            double[] rates = _dynamics.TwistRates;
-            change.TakeMotion(oldShape, _dynamics.Velocities, _dynamics.Spins, rates, scene);
-            RodTerms terms = _setup.Terms(scene, _hubs);
-            DirectStep before = _whole;
-            FrictionEnergy? friction = _dynamics.Terms.Walls()?.Friction;
-            Start(scene, terms, time, _dynamics.ProximalTurn);
-            for (int i = 1; i < _drives.Length; i++)
-            {
-                for (int j = 0; j < _rod.Joints.ActiveCountOf(i); j++)
-                {
-                    _dynamics.TwistRates[(i - 1) * _rod.Joints.ElementCount + j] = change.RateOf(oldShape, rates, j, i);
-                }
-            }
-            _whole.Contacts?.Take(before.Contacts!, _rod.Rod.ElementCount + 1);
-            terms.Walls()?.Friction?.Anchors.Take(friction!.Anchors, change.Node);
-            TakeLoads();
-            var counts = new Snapshot();
-            before.SerializeCounts(counts);
-            _whole.SerializeCounts(counts.ToRead());
-        }
-
-        private bool IsAsBuilt()
-        {
-            for (int i = 1; i < _active.Length; i++)
-            {
-                if (_nodes.Beyond[i] != _rod.Joints.BeyondOf(i) || _rod.Joints.ActiveCountOf(i) != _active[i])
-                {
-                    return false;
-                }
-            }
-            return true;
-        }
-
-        private void Start(MaterialScene scene, RodTerms terms, double time, double turn)
-        {
-            for (int i = 1; i < _active.Length; i++)
-            {
-                _active[i] = _rod.Joints.ActiveCountOf(i);
-            }
-            _dynamics = _setup.Dynamics(scene, terms);
-            _dynamics.GoOn(time, turn);
-            terms.SetTime(scene.Schedule, time);
-            if (terms.Walls() != null)
-            {
-                terms.Walls()!.Spring.Axis = _setup.Axis;
-            }
-            _whole = new DirectStep(scene, _dynamics, _method, _report,
-                Contacts == null ? null : new ContactRecord(scene.Shape.X.Length));
-        }
-
-        private void TakeLoads()
-        {
-            _dynamics.Terms.SetTime(_whole.Schedule, _dynamics.Time);
-            _rod.TakeLoads(_dynamics.Shape);
+            (Dynamics.Terms.Bending as CoaxialBendTwist)?.SetIdleTwists(Dynamics.Shape);
+            _records.TakePlay(Rod.Joints, Dynamics.Shape);
+            _chain.TakeTime();
+            TakeInner();
+            TakeContacts();
         }
 
         private void TakeContacts()
         {
             if (Contacts != null)
             {
-                ContactRecord whole = _whole.Contacts!;
-                Contacts.Take(whole, 0);
+                ContactRecord whole = _chain.Whole.Contacts!;
+                Contacts.Take(whole, Rod.Joints.First);
                 TakeForces(whole, _drives.Length - 1, Contacts.Forces);
-                for (int i = 0; i < _records.Length; i++)
+                for (int i = 0; i < _records.All.Length; i++)
                 {
-                    TakeForces(whole, i, _records[i].ContactForces);
+                    TakeForces(whole, i, _records.All[i].ContactForces);
                 }
             }
         }
@@ -421,23 +283,15 @@ namespace Guidewire.Core
         // A node of the chain is one of the outermost instrument there; that at a tip is the outer one's.
         private void TakeForces(ContactRecord whole, int instrument, Vector3d[] forces)
         {
-            whole.CopyForces(forces, forces.Length - 1 - _rod.Joints.TipOf(instrument),
-                instrument == 0 ? 0 : _rod.Joints.TipOf(instrument - 1) + 1);
-        }
-
-        private void TakePlay()
-        {
-            foreach (CoaxialRecord record in _records)
-            {
-                record.TakePlay(_rod.Joints, _dynamics.Shape);
-            }
+            whole.CopyForces(forces, forces.Length - 1 - Rod.Joints.TipOf(instrument),
+                instrument == 0 ? 0 : Rod.Joints.TipOf(instrument - 1) + 1);
         }
 
         private void TakeInner()
         {
             foreach (InnerInstrument inner in _inner)
             {
-                inner.Take(_dynamics, _rod.Joints);
+                inner.Take(Dynamics, Rod.Joints);
             }
         }
     }

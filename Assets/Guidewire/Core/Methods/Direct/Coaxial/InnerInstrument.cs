@@ -2,14 +2,15 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shape of an inner instrument for logs: its own nodes and elements, on the shared centreline inside the
-    /// others and on the axis before the outermost hub.</summary>
+    /// <summary>Shape of an instrument for logs: its own nodes and elements, on the shared centreline inside the others
+    /// and on the axis before the outermost hub, or within the sheath where it is alone.</summary>
     internal sealed class InnerInstrument
     {
         private readonly int _instrument;
         private readonly CoaxialInstrument _own;
         private readonly CoaxialHubs _hubs;
         private readonly Vector3d _axis;
+        private readonly Joint[] _joints;       // as if it were alone
 
         /// <summary>One of the instruments.</summary>
         /// <param name="instrument">Counted from the outermost one, 0.</param>
@@ -19,6 +20,7 @@ namespace Guidewire.Core
             _own = setup.Instruments[instrument];
             _hubs = hubs;
             _axis = setup.Axis;
+            _joints = _own.Rod.Joints(new RodSupports { Clamp = ClampRule.HalfElement });
             int n = _own.Rod.ElementCount;
             Shape = new RodShape(n);
             Velocities = new Vector3d[n + 1];
@@ -34,9 +36,44 @@ namespace Guidewire.Core
         /// <summary>Spins of its elements, rad/s.</summary>
         public Vector3d[] Spins { get; }
 
+        /// <summary>Force of the hub of one in a sheath along the axis, N.</summary>
+        public double Thrust { get; private set; }
+
+        /// <summary>Its torque on its part in the sheath about the axis, N m, positive where it is ahead of the
+        /// hub.</summary>
+        public double Torque { get; private set; }
+
+        /// <summary>Writes what of it is out of a sheath. One alone is straight up to its first node outside, however
+        /// it is stretched.</summary>
+        /// <param name="exit">Where the sheath ends along another one, m from its hub.</param>
+        public void WriteBody(HubRecord hub, SheathEnd sheath, double exit)
+        {
+            double[] station = _own.Stations;
+            int n = Shape.ElementCount;
+            double Beyond(int node) => _instrument == 0 ? sheath.Outside(Shape.X[node]) : station[node] - exit;
+            int inside = 0;
+            while (inside <= n && Beyond(inside) <= 0.0)
+            {
+                inside++;
+            }
+            hub.TakeBody(n + 1 - inside, inside > n ? 0.0 : station[n] - station[inside] + Beyond(inside));
+        }
+
+        /// <summary>Takes both from what is simulated, at the time that was set last.</summary>
+        public void TakeForces(RodTerms terms, RodShape shape)
+        {
+            Thrust = Vector3d.Dot(terms.Walls()!.Spring.Force(shape), _axis);
+            Torque = -terms.Bending.TurnCouple(shape);
+        }
+
         /// <summary>Takes it from all as one rod.</summary>
         public void Take(RodDynamics dynamics, CoaxialJoints joints)
         {
+            if (_instrument == 0)
+            {
+                TakeAlone(dynamics, joints.First);
+                return;
+            }
             RodShape shape = dynamics.Shape;
             double[] chain = joints.Stations;
             double lead = _hubs.LeadAt(_instrument, dynamics.Time);
@@ -66,6 +103,36 @@ namespace Guidewire.Core
                 {
                     TakeElement(dynamics, joints, i, at + 0.5 * _own.Rod.Length[i], j);
                 }
+            }
+        }
+
+        // From the first element that is simulated on; before it evenly stretched and twisted.
+        private void TakeAlone(RodDynamics dynamics, int first)
+        {
+            RodShape shape = dynamics.Shape;
+            Array.Copy(shape.X, 0, Shape.X, first, shape.X.Length);
+            Array.Copy(shape.Q, 0, Shape.Q, first, shape.Q.Length);
+            Array.Copy(dynamics.Velocities, 0, Velocities, first, shape.X.Length);
+            Array.Copy(dynamics.Spins, 0, Spins, first, shape.Q.Length);
+            TakeForces(dynamics.Terms, shape);
+            for (int j = first - 1; j >= 0; j--)
+            {
+                double length = _own.Rod.Length[j] * (1.0 - Thrust / _own.Rod.StretchStiffness[j]);
+                Shape.X[j] = Shape.X[j + 1] - length * _axis;
+                Velocities[j] = Vector3d.Dot(Velocities[first], _axis) * _axis;
+                Spins[j] = new Vector3d(0.0, 0.0, Spins[first].Z);
+            }
+            // Most joints are alike: sines are dear beside the rest.
+            Quaterniond frame = _hubs.Outer.FrameTurned(_hubs.Outer.TurnAt(dynamics.Time));
+            Quaterniond turned = Quaterniond.Identity;
+            double before = 0.0;
+            for (int j = 0; j < first; j++)
+            {
+                double turn = Torque / _joints[j].Twist + _joints[j].Rest.Z;
+                turned = turn == before ? turned : Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+                before = turn;
+                frame = frame * turned;
+                Shape.Q[j] = frame;
             }
         }
 

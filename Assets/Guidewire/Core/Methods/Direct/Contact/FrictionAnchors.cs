@@ -51,19 +51,6 @@ namespace Guidewire.Core
             return contact.Wall * (2 * _nodes - 1) + of;
         }
 
-        /// <summary>Takes over the anchors of another wire between the same walls, whose node i + offset is this one's
-        /// node i; nodes and elements that it does not have touch nothing.</summary>
-        public void Take(FrictionAnchors other, int offset)
-        {
-            Dissipated = other.Dissipated;
-            Array.Clear(_anchors, 0, _anchors.Length);
-            for (int w = 0; w < _walls; w++)
-            {
-                Take(other, w, 0, 0, _nodes, other._nodes, offset);
-                Take(other, w, _nodes, other._nodes, _nodes - 1, other._nodes - 1, offset);
-            }
-        }
-
         /// <summary>Takes over the anchors of another wire between the same walls, where nodes have come in or
         /// gone.</summary>
         /// <param name="node">What each node was in the other one, -1 where it comes in; an element was that which
@@ -95,18 +82,6 @@ namespace Guidewire.Core
             {
                 snapshot.Serialize(ref _anchors[k].Force);
                 snapshot.Serialize(ref _anchors[k].Stiffness);
-            }
-        }
-
-        private void Take(FrictionAnchors other, int wall, int from, int otherFrom, int count, int otherCount,
-            int offset)
-        {
-            int own = wall * (2 * _nodes - 1) + from;
-            int others = wall * (2 * other._nodes - 1) + otherFrom + offset;
-            int end = Math.Min(count, otherCount - offset);
-            for (int i = Math.Max(0, -offset); i < end; i++)
-            {
-                _anchors[own + i] = other._anchors[others + i];
             }
         }
 

@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private readonly double _stiffness;  // N/m
         private readonly double _axial;      // N/m
         private readonly double _limit;      // N
+        private readonly double _before;     // from the hub to node 0, at rest, m
 
         /// <summary>The spring of a rod, without force.</summary>
         /// <param name="limit">The axial force at which the hub slips, N; 0: never.</param>
@@ -24,11 +25,13 @@ namespace Guidewire.Core
             _limit = limit > 0.0 ? limit : double.PositiveInfinity;
         }
 
-        private SupportSpring(SupportSpring hub, double compliance)
+        private SupportSpring(SupportSpring hub, double compliance, in Vector3d axis, double length)
         {
             _stiffness = hub._stiffness;
-            _axial = 1.0 / (1.0 / hub._axial + compliance);
+            _axial = compliance > 0.0 ? 1.0 / (1.0 / hub._axial + compliance) : hub._axial;
             _limit = hub._limit;
+            _before = length;
+            Axis = axis;
         }
 
         /// <summary>Whether the hub has a force at which it slips.</summary>
@@ -40,23 +43,25 @@ namespace Guidewire.Core
         /// <summary>b, the force that the hub exerts along the axis besides that of the spring, N.</summary>
         public double Besides { get; set; }
 
-        /// <summary>p, m.</summary>
+        /// <summary>p of the hub, m.</summary>
         public Vector3d Position { get; set; }
 
         /// <summary>Force of the support on node 0, N.</summary>
         public Vector3d Force(RodShape shape)
         {
-            Vector3d force = _stiffness * (Position - shape.X[0]);
-            double less = _axial == _stiffness ? 0.0
-                : (_stiffness - _axial) * Vector3d.Dot(Position - shape.X[0], Axis);
+            Vector3d behind = Behind(shape);
+            Vector3d force = _stiffness * behind;
+            double less = _axial == _stiffness ? 0.0 : (_stiffness - _axial) * Vector3d.Dot(behind, Axis);
             less += Excess(shape);
             return less == 0.0 ? force : force - less * Axis;
         }
 
-        /// <summary>The spring along the axis in series with another of this compliance, m/N.</summary>
-        public SupportSpring InSeries(double compliance)
+        /// <summary>The spring in series with a length of wire along an axis.</summary>
+        /// <param name="compliance">m/N.</param>
+        /// <param name="length">From the hub to node 0, at rest, m.</param>
+        public SupportSpring InSeries(double compliance, in Vector3d axis, double length)
         {
-            return new SupportSpring(this, compliance);
+            return new SupportSpring(this, compliance, axis, length);
         }
 
         /// <summary>Distance of node 0 behind its support on a spring that is soft along the axis, m; 0 on a stiff
@@ -83,10 +88,11 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double Value(RodShape shape)
         {
-            double value = _stiffness * (shape.X[0] - Position).LengthSquared;
+            Vector3d behind = Behind(shape);
+            double value = _stiffness * behind.LengthSquared;
             if (_axial != _stiffness)
             {
-                double along = Vector3d.Dot(shape.X[0] - Position, Axis);
+                double along = Vector3d.Dot(behind, Axis);
                 value -= (_stiffness - _axial) * along * along;
             }
             double excess = Excess(shape);
@@ -129,10 +135,16 @@ namespace Guidewire.Core
             }
         }
 
+        // What node 0 is behind where it would be without force, m.
+        private Vector3d Behind(RodShape shape)
+        {
+            return _before == 0.0 ? Position - shape.X[0] : Position + _before * Axis - shape.X[0];
+        }
+
         // Excess of the axial force over the limit, N, with its sign.
         private double Excess(RodShape shape)
         {
-            double force = _axial * Vector3d.Dot(Position - shape.X[0], Axis) + Besides;
+            double force = _axial * Vector3d.Dot(Behind(shape), Axis) + Besides;
             return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 

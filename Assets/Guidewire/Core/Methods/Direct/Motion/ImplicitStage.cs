@@ -62,9 +62,9 @@ namespace Guidewire.Core
             }
             EnergyTerm[] moving = Damping == null
                 ? new EnergyTerm[] { _inertia } : new EnergyTerm[] { _inertia, Damping };
-            if (_supports.Coaxial != null)
+            if (_supports.InnerCount > 0)
             {
-                Inner = new InnerSpin(_supports.Coaxial, _inertia, motion, stageCount);
+                Inner = new InnerSpin(_supports.Coaxial!, _inertia, motion, stageCount);
                 Array.Resize(ref moving, moving.Length + 1);
                 moving[moving.Length - 1] = Inner;
             }
@@ -108,7 +108,8 @@ namespace Guidewire.Core
             Array.Copy(_shape.X, _startPositions, _startPositions.Length);
             _inertia.BeginStep(_shape, dt);
             BeginDamping(time + SameTime * dt);
-            (_terms.Bending as CoaxialBendTwist)?.BeginSlide(time);
+            _terms.Bending.BeginSlide(time);
+            _terms.Release?.BeginStep(_shape);
             foreach (EnergyTerm term in _terms.All)
             {
                 term.BeginStep(_shape, dt);

@@ -145,7 +145,7 @@ namespace Guidewire.Core
 
         /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
         /// energy in the hub's turn.</summary>
-        public double HubTorque => _terms.Sheath != null ? _terms.Bending.TurnCouple(_motion.Shape)
+        public double HubTorque => _terms.Supports.Winds ? _terms.Bending.TurnCouple(_motion.Shape)
             : Vector3d.Dot(ProximalCouple, _terms.HubAxis(_motion.Shape));
 
         /// <summary>Couple of the proximal clamp on the rod as it is now, N m, along the world's axes; with that of the

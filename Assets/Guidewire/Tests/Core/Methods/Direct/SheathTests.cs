@@ -203,6 +203,19 @@ namespace Guidewire.Core.Tests
             Assert.That(hub.LengthInBody, Is.EqualTo(1e-3 * (5.0 * (outside - 1) + x[61 - outside].Z)).Within(1e-9));
         }
 
+        [Test]
+        public void RunEnds_WhereTheWireHasComeToRest()
+        {
+            SimulationParameters parameters = Straight(60, -12.0);
+            parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 0.05 }, new[] { 0.0, 1e-3 }),
+                new TimeTable(new[] { 0.0 }, new[] { 0.0 }));
+            parameters.Method.DeltaThreshold = 1e-6;
+            parameters.Method.MaxSimulationSteps = 4000;
+            Simulation run = Wires.Run(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            Assert.That(1e-3 * run.State.Positions[60].Z, Is.EqualTo(6e-3).Within(1e-6));
+        }
+
         [TestCase("points out of the vessel", 0.0, 0.0, 0.0, -1.0, 0.1)]
         [TestCase("is not that of the wire", 0.0, 0.0, 0.0, 0.0, 0.1)]
         [TestCase("units off the wire's axis", 0.5, 0.0, 0.0, 1.0, 0.1)]

@@ -188,7 +188,7 @@ namespace Guidewire.Core.Tests
             {
                 return (coaxial.SerializeStep, () => coaxial.Step());
             }
-            DirectStep step = start.Stepper is SheathStep sheath ? sheath.Inner : (DirectStep)start.Stepper;
+            var step = (DirectStep)start.Stepper;
             return (step.SerializeStep, () => step.Step());
         }
 

@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using System.Collections.Generic;
 using NUnit.Framework;
 
@@ -146,9 +147,9 @@ namespace Guidewire.Core.Tests
             friction.EndStep(shape);
             FrictionAnchors all = friction.Anchors;
             var shorter = new FrictionAnchors(2, N - 1);
-            shorter.Take(all, 1);
+            shorter.Take(all, Enumerable.Range(1, N).ToArray());
             var back = new FrictionAnchors(2, N);
-            back.Take(shorter, -1);
+            back.Take(shorter, Enumerable.Range(-1, N + 1).ToArray());
             int kept = 0;
             for (int w = 0; w < 2; w++)
             {
