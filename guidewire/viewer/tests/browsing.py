@@ -19,6 +19,38 @@ from guidewire.viewer import parts
 BROWSERS = ("chromium", "chromium-browser", "google-chrome")
 DRAWN = ["until", "globalThis.viewer?.stage.drawn > 0"]
 
+# Texts whose contrast to what is behind them is below 4.5 (WCAG 2.2), in both themes; behind those on a picture is
+# anything from black to white.
+FAINT = """["dark", "light"].flatMap((theme) => {
+  const before = document.documentElement.dataset.theme;
+  document.documentElement.dataset.theme = theme;
+  const rgba = (text) => { const n = text.match(/[0-9.]+/g).map(Number);
+    return [...n.slice(0, 3).map((one) => (text.startsWith("color") ? 255 * one : one)), n[3] ?? 1]; };
+  const over = (colour, under) => under.map((one, k) => colour[k] * colour[3] + one * (1 - colour[3]));
+  const light = (rgb) => rgb.map((one) => (one <= 10.31 ? one / 255 / 12.92 : ((one / 255 + 0.055) / 1.055) ** 2.4))
+    .reduce((sum, one, k) => sum + one * [0.2126, 0.7152, 0.0722][k], 0);
+  const ratio = (...colours) => { const [high, low] = colours.map(light).sort((a, b) => b - a);
+    return (high + 0.05) / (low + 0.05); };
+  const faint = [];
+  for (const one of document.querySelectorAll("body *")) {
+    const hasText = [...one.childNodes].some((node) => node.nodeType === 3 && node.textContent.trim());
+    if (!(hasText || one.matches("select, input[type=number]")) || one.closest(":disabled, option, script")) continue;
+    if (!one.checkVisibility({ visibilityProperty: true }) || !one.offsetWidth) continue;
+    const layers = [];
+    let at = one;
+    while (at && !at.matches("main > section") && !(layers[0]?.[3] === 1)) {
+      layers.unshift(rgba(getComputedStyle(at).backgroundColor));
+      at = at.parentElement;
+    }
+    const behind = (layers[0][3] === 1 ? [[0, 0, 0]] : [[0, 0, 0], [255, 255, 255]])
+      .map((base) => layers.reduce((under, layer) => over(layer, under), base));
+    const least = Math.min(...behind.map((under) => ratio(over(rgba(getComputedStyle(one).color), under), under)));
+    if (!(least >= 4.5)) faint.push(`${theme}: ${one.id || one.className || one.tagName} "${one.textContent.trim().slice(0, 40)}" ${least.toFixed(2)}`);
+  }
+  document.documentElement.dataset.theme = before;
+  return faint;
+})"""
+
 
 def from_npm(kind):
     try:

@@ -15,7 +15,7 @@ from aiohttp import ClientSession
 
 from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT
-from guidewire.viewer.tests.browsing import DRAWN
+from guidewire.viewer.tests.browsing import DRAWN, FAINT
 from guidewire.viewer.tests.test_page_session import follow
 from guidewire.viewer.tests.test_view import serving
 from guidewire.viewer.tests.test_view_browser import HUB, STEERED
@@ -147,7 +147,12 @@ def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner
             ["see", f"[{text('#note')}, document.getElementById('note').className]"], ["up", "w"],
             ["until", "!document.getElementById('note').className"], ["see", text("#note")],
             ["see", f"{text('.basis')}"],
-            ["see", "[...document.querySelectorAll('.gauge')].map((one) => one.getAttribute('aria-valuemax'))"])["seen"]
+            ["see", "[...document.querySelectorAll('.gauge')].map((one) => one.getAttribute('aria-valuemax'))"],
+            ["see", "for (const one of document.querySelectorAll('details')) one.open = true"],
+            *(["see", f"document.querySelector('.gauge').dataset.band = '{band}'; {FAINT}"]
+              for band in ("caution", "stop")), ["press", "h"], ["down", "w"], ["see", FAINT], ["up", "w"],
+            ["see", f"viewer.shown._panel.say(['one']); {FAINT}"], ["click", "biplane"], ["see", FAINT])["seen"]
+    assert all(faint == [] for faint in (*seen[6:8], *seen[8:])), seen[6:]
     assert seen[0] == "slower than real time: 0.4 x"
     assert seen[1] == ['paused: nothing moves until "go on" (space)', "loud"] and seen[2] == "paused"
     # Euler's loads of a wire of 0.36 mm: 60 GPa held at both ends of 5 cm, 6 GPa as a column of 1 cm.
@@ -172,7 +177,8 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
             ["open", address], DRAWN, ["see", f"[{score}.path, {score}.first, {text('#score')}]"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"], ["down", "w"],
             ["until", "document.getElementById('card').open"],
-            ["up", "w"], PAUSED, ["see", f"{report}.innerText"], ["picture", str(tmp_path / "report.png")],
+            ["up", "w"], PAUSED, ["see", f"{report}.innerText"],
+            ["see", FAINT], ["picture", str(tmp_path / "report.png")],
             ["see", "window.saved = null; URL.createObjectURL = (blob) => { blob.text().then((one) => { saved = "
                     "one; }); return 'blob:none'; }; HTMLAnchorElement.prototype.click = function () { window.file = "
                     "this.download; }"],
@@ -187,7 +193,8 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
     for word in ("reached at", "radiation", "contrast", "largest wall force", "new attempts", "way of the tip",
                  "events"):
         assert word in seen[6]
-    assert seen[8][0] == "report.txt" and "score: " in seen[8][1]
+    assert seen[7] == []
+    assert seen[9][0] == "report.txt" and "score: " in seen[9][1]
 
 
 EVENTS = """
