@@ -14,6 +14,7 @@ const until = async (page, expression) => {
   }
   throw new Error(`not within 2 minutes: ${expression}`);
 };
+const fingers = new WeakMap();
 const orders = {
   init: (page, script) => page.addInitScript(script),
   open: (page, address) => page.goto(address),
@@ -23,6 +24,14 @@ const orders = {
   press: (page, key) => page.keyboard.press(key),
   choose: async (page, [selector, value]) => void await page.selectOption(selector, value),
   click: (page, text) => page.getByRole("button", { name: text, exact: true }).click(),
+  // A finger: where in an element, from 0 to 1 across and down; without a place it is lifted.
+  touch: async (page, [selector, across, down]) => {
+    if (!fingers.has(page)) fingers.set(page, await page.context().newCDPSession(page));
+    const box = await page.locator(selector).boundingBox();
+    const isDown = across !== undefined;
+    await fingers.get(page).send("Input.dispatchTouchEvent", { type: isDown ? "touchStart" : "touchEnd",
+      touchPoints: isDown ? [{ x: box.x + across * box.width, y: box.y + down * box.height }] : [] });
+  },
   see: (page, expression) => page.evaluate(expression),
   picture: async (page, path) => void await page.screenshot({ path }),
 };

@@ -81,6 +81,30 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     assert (mapped[agent & (empty > 185)] > 195).all() and (mapped < 180).any()    # brighter, and the wire over it
 
 
+@pytest.mark.long("the same by keys, one after the other")
+@pytest.mark.parametrize("means", ["finger", "gamepad"])
+def test_a_case_is_done_by_fingers_and_by_a_gamepad(browse, runner_command, tmp_path, means):
+    """Agent, mask, road map, the wire to its target, report."""
+    tap = [["touch", ["#inject", 0.5, 0.5]], ["touch", ["#inject"]]]
+    button = [["see", "pad.buttons[1].pressed = true"], ["until", f"{INJECTED} > 0"],
+              ["see", "pad.buttons[1].pressed = false"]]
+    push = [["touch", ["#pad", 0.5, 0.02]]] if means == "finger" else [["see", "pad.axes[1] = -1"]]
+    rest = [["touch", ["#pad"]]] if means == "finger" else [["see", "pad.axes[1] = 0"]]
+    with serving(tmp_path, near_target(tmp_path), with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["click", "got it"], ["see", GAMEPAD] if means == "gamepad" else ["see", "0"],
+            ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"{VIEW}.hasMask"],
+            *(tap if means == "finger" else button), ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
+            ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"!{VIEW}.look.isSubtracted"],
+            ["choose", ["#vessel", "map"]], *push,
+            ["until", "document.getElementById('card').open"], *rest, PAUSED,
+            ["see", "document.getElementById('report').innerText"], ["picture", str(tmp_path / "case.png")],
+            ["see", "document.querySelector('#card .on').click()"], ["until", f"!{STATUS}.isPaused"],
+            ["see", "viewer.shown.steering.push"],
+            size=(390, 844))["seen"]
+    assert "reached at" in seen[-3] and "contrast" in seen[-3] and seen[-1] == 0
+
+
 @pytest.mark.long("both planes and their angles are seen in the tests of the desk")
 def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     drawn = "viewer.xray.drawn"

@@ -41,19 +41,28 @@ def test_types_of_the_page_are_right(browse):
     assert done.returncode == 0, done.stdout
 
 
-def test_a_wire_is_pushed_into_the_branch_by_keys(browse, runner_command, tmp_path):
-    with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
+def test_who_reads_the_page_alone_brings_the_wire_into_the_branch(browse, runner_command, tmp_path):
+    """What is pressed, and when, is as its texts say. What was reached is not."""
+    def dial(label):
+        return f"parseFloat(document.querySelector('[aria-label^=\"{label}: \"]').innerText)"
+
+    rows = "[...document.querySelectorAll('#keys tr')].map((one) => one.innerText.split(/\\s*\\t\\s*/))"
+    with serving(tmp_path, str(ROOT / "params/branch.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["choose", ["#pace", "10"]], ["see", "document.activeElement.blur()"],
-            ["down", "w"], ["until", "viewer.shown.model.centreline(0)[2] >= -310 + 240"],
+            ["open", address], DRAWN, ["see", rows], ["click", "got it"], ["press", "g"],
+            ["down", "d"], ["until", f"{dial('turn')} > 90"], ["up", "d"], ["press", "g"],
+            ["choose", ['[aria-label="speed"]', "10 x real time"]],
+            ["down", "w"], ["until", f"{dial('insertion')} > 240"],
             ["up", "w"], ["press", "c"],
             ["see", "[viewer.shown.received, ...viewer.shown.model.tip]"], ["picture", str(tmp_path / "live.png")],
             ["see", "document.getElementById('said').textContent"],
             ["see", "document.getElementById('panes').textContent"], ["until", "viewer.shown.delays.length >= 2"],
             ["see", "[document.getElementById('keys').hidden, viewer.xray.drawn]"],
         )["seen"]
+    told = {text: keys.replace(" ", "") for keys, text in seen[0]}
+    assert told["push and pull"][0] == "W" and told["turn"][1] == "D" and told["fine steering"] == "G"
     received, x, y, z = seen[1]
-    # Pushed by 240 units: the branch goes on as the inlet came, and the arch turns back at z = 200.
+    # The branch goes on as the inlet came, and the arch turns back at z = 200.
     assert received > 10 and abs(x) < 10 and 30 < y < 80 and z > 205
     assert seen[2] == "" and "times real time" in seen[3]
     assert seen[4][0] and seen[4][1] > 10  # the help has gone with the first key, and X-ray pictures were drawn
