@@ -8,9 +8,12 @@ namespace Guidewire.Core
     /// same parameters give the same bits on the same runtime.</summary>
     public sealed class Simulation
     {
+        private const double Same = 1e-9;    // of an element's length
+
         private readonly bool _hasMaterial;
         private readonly bool _hasSheath;
         private readonly CoaxialRecord[] _catheters;
+        private readonly double[] _lengths;    // of the elements of all instruments, units
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -27,6 +30,7 @@ namespace Guidewire.Core
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
             _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
+            _lengths = LengthsOf(parameters);
             State = start.State;
             _stepper = start.Stepper;
             _stopRule = new StopRule(
@@ -252,6 +256,15 @@ namespace Guidewire.Core
                 throw new ArgumentException("numberRodElements needs to leave " + State.ElementCount
                     + " elements: a run cannot change its wire");
             }
+            double[] lengths = LengthsOf(parameters);
+            for (int j = 0; j < lengths.Length; j++)
+            {
+                if (lengths.Length != _lengths.Length || Math.Abs(lengths[j] - _lengths[j]) > Same * _lengths[j])
+                {
+                    throw new ArgumentException("instruments need elements of the lengths that they have: a run cannot "
+                        + "change its wire");
+                }
+            }
             var snapshot = new Snapshot();
             Serialize(snapshot);
             var start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities)
@@ -337,6 +350,16 @@ namespace Guidewire.Core
             }
             Outcome = outcome;
             _ownReason = reason;
+        }
+
+        private static double[] LengthsOf(SimulationParameters parameters)
+        {
+            IEnumerable<double> lengths = ElementLayout.Lengths(parameters, 1.0, out _);
+            foreach (Catheter catheter in parameters.Scene.Catheters)
+            {
+                lengths = lengths.Concat(ElementLayout.Lengths(parameters.OfCatheter(catheter, Vector3d.UnitZ), 1.0, out _));
+            }
+            return lengths.ToArray();
         }
 
         private static Simulation Rebuild(SimulationParameters parameters, RodStart start, Snapshot snapshot)

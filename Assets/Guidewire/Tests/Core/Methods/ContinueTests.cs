@@ -266,5 +266,14 @@ namespace Guidewire.Core.Tests
             longer.Scene.NumberRodElements = 31;
             Assert.Throws<ArgumentException>(() => first.Continue(longer));
         }
+
+        [Test]
+        public void Continue_Refuses_ElementsOfOtherLengths()
+        {
+            Simulation first = Simulation.Create(Transversal());
+            SimulationParameters longer = Transversal();
+            longer.Scene.GuidewireLength *= 1.01;
+            Assert.That(() => first.Continue(longer), Throws.ArgumentException.With.Message.StartsWith("instruments need"));
+        }
     }
 }
