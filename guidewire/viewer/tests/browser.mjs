@@ -14,7 +14,11 @@ const until = async (page, expression) => {
   }
   throw new Error(`not within 2 minutes: ${expression}`);
 };
-const fingers = new WeakMap();
+const protocols = new WeakMap();
+const protocol = async (page) => {
+  if (!protocols.has(page)) protocols.set(page, await page.context().newCDPSession(page));
+  return protocols.get(page);
+};
 const orders = {
   init: (page, script) => page.addInitScript(script),
   open: (page, address) => page.goto(address),
@@ -26,11 +30,16 @@ const orders = {
   click: (page, text) => page.getByRole("button", { name: text, exact: true }).click(),
   // A finger: where in an element, from 0 to 1 across and down; without a place it is lifted.
   touch: async (page, [selector, across, down]) => {
-    if (!fingers.has(page)) fingers.set(page, await page.context().newCDPSession(page));
     const box = await page.locator(selector).boundingBox();
     const isDown = across !== undefined;
-    await fingers.get(page).send("Input.dispatchTouchEvent", { type: isDown ? "touchStart" : "touchEnd",
+    await (await protocol(page)).send("Input.dispatchTouchEvent", { type: isDown ? "touchStart" : "touchEnd",
       touchPoints: isDown ? [{ x: box.x + across * box.width, y: box.y + down * box.height }] : [] });
+  },
+  drop: async (page, files) => {
+    for (const type of ["dragEnter", "dragOver", "drop"]) {
+      await (await protocol(page)).send("Input.dispatchDragEvent",
+        { type, x: 100, y: 100, data: { items: [], files, dragOperationsMask: 1 } });
+    }
   },
   see: (page, expression) => page.evaluate(expression),
   picture: async (page, path) => void await page.screenshot({ path }),

@@ -18,6 +18,7 @@ from guidewire.sessions.session import Session
 from guidewire.viewer import live
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.tests.browsing import from_npm
+from guidewire.viewer.tests.test_view_browser import GAMEPAD
 
 SCENES = ("insertion", "sheath", "catheter-branch")
 MODEL = "viewer.shown.model"
@@ -174,6 +175,17 @@ def test_a_catheter_and_its_wire_are_steered_into_a_branch_and_the_runner_repeat
 
 
 @LONG
+def test_a_finger_and_a_gamepad_steer_without_a_server(browse, address):
+    seen = browse(
+        ["open", f"{address}?scene=sheath"], OPEN, ["touch", ["#pad", 0.5, 0.02]],
+        ["until", f"{HUB} > 0.005"], ["touch", ["#pad"]], ["until", "viewer.shown.steering.push === 0"],
+        ["see", GAMEPAD], ["see", f"pad.axes[1] = -1; window.before = {HUB}"],
+        ["until", f"{HUB} > before + 0.005"], ["see", "pad.buttons[0].pressed = true"], PAUSED,
+        ["see", f"[viewer.shown._connection.constructor.name, {STEP}]"], size=(390, 844))["seen"]
+    assert seen[-1][0] == "WorkerConnection" and seen[-1][1] > 0
+
+
+@LONG
 def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ended(browse, address, runner_command,
                                                                                   tmp_path):
     slow = {"guidewireLength": 60, "guidewireOffset": -60, "numberRodElements": 2000,
@@ -185,12 +197,12 @@ def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ende
     status = "viewer.shown.status"
     seen = browse(
         ["open", address], ["until", "globalThis.viewer && document.querySelectorAll('#start button').length === 3"],
-        ["see", opens % ("'wrong.json'", json.dumps(wrong))], ["until", f"{status}?.problem"],
+        ["drop", [str(tmp_path / "wrong.json")]], ["until", f"{status}?.problem"],
         ["see", f"{status}.problem"],
         ["see", opens % ("'slow.json'", json.dumps(json.dumps(slow)))], ["until", f"{status}.opened === 1"],
         ["see", "viewer.shown.send({do: 'reset'})"], ["until", f"{status}.opened === 2"], ["see", f"{status}.scene"],
     )["seen"]
     done = subprocess.run([*runner_command, "-parameters", "wrong.json", "-out", "run"], cwd=tmp_path, text=True,
                           capture_output=True, check=False)
-    assert f"guidewire: {seen[1]}\n" == done.stderr
+    assert f"guidewire: {seen[0]}\n" == done.stderr
     assert seen[-1] == "slow.json"
