@@ -9,7 +9,7 @@ namespace Guidewire.Core
         private readonly SheathEnd? _sheath;
         private readonly HubMotion[] _hub;
 
-        /// <summary>These.</summary>
+        /// <summary>Holds these hubs.</summary>
         /// <param name="hubs">That of the outermost instrument first.</param>
         /// <param name="axis">A unit vector.</param>
         /// <param name="sheath">In which they are, or null.</param>

@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>One of several coaxial instruments, described as if it were alone.</summary>
     internal sealed class CoaxialInstrument
     {
-        /// <summary>An instrument.</summary>
+        /// <summary>Makes an instrument.</summary>
         /// <param name="rod">Its elements.</param>
         /// <param name="profile">What it is made of.</param>
         /// <param name="lumenRadius">m; 0 leaves out the drag of the fluid in its lumen.</param>
@@ -19,7 +19,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Its elements.</summary>
+        /// <summary>Has its elements as a rod.</summary>
         public MaterialRod Rod { get; }
 
         /// <summary>What it is made of.</summary>

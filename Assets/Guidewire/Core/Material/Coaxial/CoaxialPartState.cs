@@ -13,7 +13,7 @@ namespace Guidewire.Core
         public double Couple;     // dE/ddelta
         public Vector3d Mixed;    // d2E/(dphi dt)
 
-        /// <summary>t.</summary>
+        /// <summary>Gives the mean angle t.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly double Mean(in CoaxialPart part)
         {

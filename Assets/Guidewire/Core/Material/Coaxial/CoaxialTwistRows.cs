@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private readonly int _count;           // rows of each angle
         private TwistRow _clamp;               // what falls on the hub's angles, which are not unknown
 
-        /// <summary>Of these joints.</summary>
+        /// <summary>Makes the rows of these joints.</summary>
         public CoaxialTwistRows(CoaxialJoints joints)
         {
             _joints = joints;
@@ -22,7 +22,7 @@ namespace Guidewire.Core
             Rows = new TwistRow[joints.InnerCount * _count];
         }
 
-        /// <summary>The rows.</summary>
+        /// <summary>Has the rows.</summary>
         public TwistRow[] Rows { get; }
 
         /// <summary>Whether second derivatives by angles are to be positive.</summary>

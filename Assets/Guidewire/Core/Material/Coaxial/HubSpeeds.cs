@@ -10,10 +10,10 @@ namespace Guidewire.Core
             Instruments = new double[count];
         }
 
-        /// <summary>Of each instrument.</summary>
+        /// <summary>Has the speed of each instrument.</summary>
         public double[] Instruments { get; }
 
-        /// <summary>Of the exit.</summary>
+        /// <summary>Is the speed of the exit.</summary>
         public double Exit { get; set; }
     }
 }

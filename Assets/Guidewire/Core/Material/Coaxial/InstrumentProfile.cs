@@ -8,7 +8,7 @@ namespace Guidewire.Core
         private readonly double[] _border;      // m from the hub; first 0, last the length
         private readonly CrossSection[] _piece;
 
-        /// <summary>Of these pieces.</summary>
+        /// <summary>Makes a profile of these pieces.</summary>
         /// <param name="borders">m, one more than there are pieces; first 0.</param>
         public InstrumentProfile(double[] borders, CrossSection[] pieces)
         {
@@ -23,10 +23,10 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>Its length, m.</summary>
+        /// <summary>Is the instrument's length, m.</summary>
         public double Length => _border[_border.Length - 1];
 
-        /// <summary>The pieces.</summary>
+        /// <summary>Has the pieces.</summary>
         public CrossSection[] Pieces => _piece;
 
         /// <summary>Borders of the pieces, m from the hub.</summary>

@@ -30,7 +30,7 @@ namespace Guidewire.Core
             _elasticSlip = elasticSlip;
         }
 
-        /// <summary>mu.</summary>
+        /// <summary>Is the coefficient mu.</summary>
         public double Coefficient { get; }
 
         /// <summary>The inner instrument has slid.</summary>

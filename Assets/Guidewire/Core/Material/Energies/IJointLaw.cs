@@ -14,7 +14,7 @@ namespace Guidewire.Core
         /// <summary>How fast that grows where the frames turn at these rates along their own axes, rad/s.</summary>
         Vector3d Rate(in Quaterniond relative, in Vector3d before, in Vector3d after);
 
-        /// <summary>The energy, J.</summary>
+        /// <summary>Gives the energy, J.</summary>
         double Value(in Joint joint, in Quaterniond relative);
 
         /// <summary>Adds the couples, N m, along the axes of a and of b (derivatives by their body-frame

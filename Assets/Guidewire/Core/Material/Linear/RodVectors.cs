@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Sums over whole vectors of a rod.</summary>
     internal static class RodVectors
     {
-        /// <summary>a . b.</summary>
+        /// <summary>Takes the scalar product a . b.</summary>
         public static double Dot(RodVector[] a, RodVector[] b)
         {
             double sum = 0.0;
@@ -51,7 +51,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>v *= scale.</summary>
+        /// <summary>Multiplies in place: v *= scale.</summary>
         public static void Scale(RodVector[] v, double scale)
         {
             for (int i = 0; i < v.Length; i++)

@@ -72,7 +72,7 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>a . b.</summary>
+        /// <summary>Takes the scalar product a . b.</summary>
         public static double Dot(in RodVector a, in RodVector b)
         {
             return a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;

@@ -25,7 +25,7 @@ namespace Guidewire.Core
         private double _ofMass;                   // N
         private double _distance;                 // of one unit in the last place, m
 
-        /// <summary>Of a rod.</summary>
+        /// <summary>Estimates it for a rod.</summary>
         /// <param name="mass">kg.</param>
         /// <param name="factor">On EA/l: more than 1 where a spring holds node 0 that is stiffer than the
         /// rod.</param>
@@ -53,7 +53,7 @@ namespace Guidewire.Core
         /// matter.</summary>
         public double OfSupports => IsLarge && _holdsEnd ? MachineEpsilon * _totalLength * AxialSpring : 0.0;
 
-        /// <summary>A stage begins.</summary>
+        /// <summary>Begins a stage.</summary>
         /// <param name="stageLength">h, s.</param>
         /// <returns>The force that may be unbalanced besides in any element, N; 0 where it is large.</returns>
         public double BeginStage(RodShape shape, double stageLength)

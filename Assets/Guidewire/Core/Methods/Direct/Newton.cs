@@ -110,7 +110,7 @@ namespace Guidewire.Core
         /// <summary>Newton iterations so far, those with a kept factorisation among them.</summary>
         public long Iterations { get; private set; }
 
-        /// <summary>Factorisations so far.</summary>
+        /// <summary>Counts the factorisations so far.</summary>
         public long Factorisations { get; private set; }
 
         /// <summary>Solutions with a kept factorisation so far.</summary>
@@ -128,7 +128,7 @@ namespace Guidewire.Core
         /// <summary>The gradient in the shape evaluated last.</summary>
         public RodVector[] Gradient { get; }
 
-        /// <summary>Newton's direction.</summary>
+        /// <summary>Has Newton's direction.</summary>
         public RodVector[] Direction { get; }
 
         /// <summary>The shape tried last.</summary>

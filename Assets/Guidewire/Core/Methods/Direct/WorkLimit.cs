@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private long _left;               // iterations
         private bool _isCounted;
 
-        /// <summary>All of it.</summary>
+        /// <summary>Begins with all of it.</summary>
         /// <param name="mostIterations">That one solution may take.</param>
         public WorkLimit(int mostIterations)
         {
@@ -39,7 +39,7 @@ namespace Guidewire.Core
             "steps that were halved took more Newton iterations than a run may ({0} times maxNewtonIterations at once, "
             + "{1} times a step), as where a wire coils up or jams", AtOnce, AStep);
 
-        /// <summary>A step begins.</summary>
+        /// <summary>Begins a step.</summary>
         public void BeginStep()
         {
             _isCounted = false;
@@ -52,7 +52,7 @@ namespace Guidewire.Core
             _isCounted = true;
         }
 
-        /// <summary>Iterations were made.</summary>
+        /// <summary>Takes iterations that were made.</summary>
         public void Take(long iterations)
         {
             _left -= _isCounted ? iterations : 0;

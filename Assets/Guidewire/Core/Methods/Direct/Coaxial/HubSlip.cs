@@ -34,7 +34,7 @@ namespace Guidewire.Core
         private int _stepsBeyond;
         private double _mostBeyond;             // N
 
-        /// <summary>For a hub.</summary>
+        /// <summary>Seeks the displacement of a hub.</summary>
         /// <param name="limit">N; 0: it never slips.</param>
         /// <param name="shortest">m.</param>
         public HubSlip(MaterialDrive drive, double limit, double shortest)
@@ -44,7 +44,7 @@ namespace Guidewire.Core
             _shortest = shortest;
         }
 
-        /// <summary>The hub's drive.</summary>
+        /// <summary>Is the hub's drive.</summary>
         public MaterialDrive Drive => _drive;
 
         /// <summary>Whether there is a limit.</summary>

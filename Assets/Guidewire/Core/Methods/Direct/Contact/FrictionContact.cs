@@ -4,22 +4,22 @@ namespace Guidewire.Core
     /// displacement at the start of the step.</summary>
     internal struct FrictionContact
     {
-        /// <summary>Of the anchor.</summary>
+        /// <summary>Is the index of the anchor.</summary>
         public int Index;
 
-        /// <summary>j.</summary>
+        /// <summary>Is the element j.</summary>
         public int Element;
 
-        /// <summary>s.</summary>
+        /// <summary>Is the position s along it.</summary>
         public double Position;
 
-        /// <summary>n.</summary>
+        /// <summary>Is the wall's normal n.</summary>
         public Vector3d Normal;
 
-        /// <summary>mu N.</summary>
+        /// <summary>Is the limit mu N of the friction force.</summary>
         public double Limit;
 
-        /// <summary>k, N/m.</summary>
+        /// <summary>Is the tangential stiffness k, N/m.</summary>
         public double Stiffness;
 
         /// <summary>d at the step's start, m, along the wall.</summary>

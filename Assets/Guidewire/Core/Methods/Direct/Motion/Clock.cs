@@ -62,7 +62,7 @@ namespace Guidewire.Core
         /// <summary>Why an interval has no solution however short, or null.</summary>
         public string? Failure { get; private set; }
 
-        /// <summary>A step begins.</summary>
+        /// <summary>Begins a step.</summary>
         /// <param name="time">Of its start, s.</param>
         /// <param name="length">s.</param>
         /// <param name="parts">Equal parts into which it is divided at least.</param>

@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>A scheme in time that takes a rod through a step by implicit stages.</summary>
     internal abstract class ImplicitStepper
     {
-        /// <summary>By these stages.</summary>
+        /// <summary>Steps by these stages.</summary>
         /// <param name="control">Counts the intervals, and divides them where the scheme tells their errors.</param>
         protected ImplicitStepper(ImplicitStage stage, StepControl control)
         {

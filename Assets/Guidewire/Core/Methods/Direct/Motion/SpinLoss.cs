@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private readonly double _power;   // k
         private double _sum;              // of what steps took, relative
 
-        /// <summary>For this scheme.</summary>
+        /// <summary>Adds up the loss of this scheme.</summary>
         public SpinLoss(Integrator integrator)
         {
             (_angle, _power) = integrator switch

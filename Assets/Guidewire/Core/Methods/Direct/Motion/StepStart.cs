@@ -16,7 +16,7 @@ namespace Guidewire.Core
             _exchange = exchange;
         }
 
-        /// <summary>A step begins.</summary>
+        /// <summary>Saves the state at which a step begins.</summary>
         public void Save()
         {
             _kept.RewindForWriting();

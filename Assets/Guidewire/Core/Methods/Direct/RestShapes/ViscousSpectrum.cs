@@ -85,7 +85,7 @@ namespace Guidewire.Core
             return sum < double.PositiveInfinity;
         }
 
-        /// <summary>Arnoldi's method: H.</summary>
+        /// <summary>Makes H by Arnoldi's method.</summary>
         private double[,] Project()
         {
             BlockTridiagonal system = _tangent.System;
