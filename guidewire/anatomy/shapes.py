@@ -48,11 +48,13 @@ def make(kind: str, number: int, seed: int, stenosis: float | None, aneurysm: fl
 
     Raises
     ------
-    AnatomyError : a type that there is not, or a fraction on the wrong side of 1.
+    AnatomyError : a kind or a type that there is not, or a fraction on the wrong side of 1.
     """
     from guidewire.anatomy.mesh import AnatomyError
 
-    if kind == "arch" and number > 3:
+    if kind not in _KINDS:
+        raise AnatomyError(f"--make {kind}: there are {', '.join(_KINDS)}")
+    if kind == "arch" and number not in (1, 2, 3):
         raise AnatomyError(f"--type {number}: arches are of type 1, 2 or 3")
     if stenosis is not None and not 0.1 <= stenosis < 1.0:
         raise AnatomyError(f"--stenosis {stenosis:g}: needs a fraction of the diameter from 0.1 to below 1")

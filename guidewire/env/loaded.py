@@ -40,15 +40,20 @@ class LoadedScene:
     def __init__(self, scene: Mapping[str, Any], anatomy: Mapping[str, Any], native: bool | None,
                  shape: Mapping[str, Any]) -> None:
         self._folder = None
-        if any(any(np.ravel(one)) for one in shape.values()):
-            self._folder = tempfile.TemporaryDirectory(prefix="guidewire-")
-            scene, anatomy = reshaped(scene, anatomy, shape.get("warp"), shape.get("entry"), Path(self._folder.name))
-        self.scene, self.anatomy = {**scene, **ENDLESS}, anatomy
-        self.session = Session(None, hand=True, native=native, **self.scene)
+        try:
+            if any(any(np.ravel(one)) for one in shape.values()):
+                self._folder = tempfile.TemporaryDirectory(prefix="guidewire-")
+                scene, anatomy = reshaped(scene, anatomy, shape.get("warp"), shape.get("entry"),
+                                          Path(self._folder.name))
+            self.scene, self.anatomy = {**scene, **ENDLESS}, anatomy
+            self.session = Session(None, hand=True, native=native, **self.scene)
+        except BaseException:
+            self._remove()
+            raise
         self.unit = float(self.session.parameters["metresPerUnit"])    # m
         self.time_step = float(self.session.parameters["timeStep"])
         if self.session.state.hub is None:
-            self.session.close()
+            self.close()
             raise Error("an environment needs a wire of solver \"direct\"")
         self.hubs = self.session.hubs
         inside = self.session.state.hub.length_in_body
@@ -63,8 +68,7 @@ class LoadedScene:
     def close(self) -> None:
         """End its session; a vessel that was drawn is gone."""
         self.session.close()
-        if self._folder is not None:
-            self._folder.cleanup()
+        self._remove()
 
     def start(self, tip_turn: float, insertion: Any) -> State:
         """The instruments at the start of an episode: each by so much in its vessel, m, and all turned, rad."""
@@ -85,6 +89,10 @@ class LoadedScene:
         if len(self._starts) > _STARTS:
             self._starts.popitem(last=False)
         return state
+
+    def _remove(self) -> None:
+        if self._folder is not None:
+            self._folder.cleanup()
 
     def _moved(self, tip_turn: float, insertions: Sequence[float], parts: int) -> State:
         state = self.session.reset()
@@ -125,6 +133,8 @@ class LoadedScenes:
         if scene is not None and scene.session.is_open:
             self._scenes.move_to_end(key)
             return scene, True
+        if scene is not None:
+            scene.close()
         shape = {name: draw.random[name] for name in ("warp", "entry") if name in draw.random}
         self._scenes[key] = scene = LoadedScene(*self._task.scene_of(draw), self._native, shape)
         if len(self._scenes) > _SESSIONS:

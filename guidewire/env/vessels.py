@@ -36,7 +36,13 @@ def made_vessel(which: Mapping[str, Any]) -> Path:
     Made in the user's cache folder, under a name that holds a sum over the generator's sources: other sources, another
     vessel. Needs vtk, and a minute, when it is made; then lines on stderr say what is being done. A folder is written
     whole or not at all.
+
+    Raises
+    ------
+    Error : vtk is missing, or there is no such kind, type or end; one line.
     """
+    from guidewire.anatomy.mesh import AnatomyError
+
     generator = Path(__file__).parents[1] / "anatomy"
     sources = b"".join((generator / f"{name}.py").read_bytes() for name in _MADE_BY)
     sum_of = hashlib.sha256(sources + json.dumps(which, sort_keys=True).encode()).hexdigest()[:16]
@@ -51,6 +57,8 @@ def made_vessel(which: Mapping[str, Any]) -> Path:
         try:
             _make(which, partial)
             os.rename(partial, folder)
+        except AnatomyError as error:
+            raise Error(f"anatomies: {json.dumps(which)}: {error}") from error
         except OSError:
             if not (folder / "scene.json").is_file():    # nobody else has made it meanwhile
                 raise

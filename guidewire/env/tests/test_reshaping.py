@@ -11,6 +11,7 @@ from guidewire.env.reshaping import STRAIN, Field, reshaped
 from guidewire.env.spaces import Error
 from guidewire.env.task import FOLDER
 from guidewire.env.tests.environment_cases import tube  # noqa: F401
+from guidewire.env.vessels import made_vessel
 
 ARCH = FOLDER / "vessels" / "arch-2"
 WARP = [0.9, -1.0, 0.8, -0.7, 1.0, -0.9, 1.0, 0.6, -1.0]
@@ -100,3 +101,13 @@ def test_a_vessel_that_is_no_mesh_or_has_no_inlet_is_refused_in_one_line(tube, t
     for warp, entry, said in (([0.5] * 9, None, "mesh in a file .obj"), (None, [1.0, 0.0], "needs an inlet")):
         with pytest.raises(Error, match=said):
             reshaped({"vessel": {"shape": "tube"}}, anatomy, warp, entry, tmp_path)
+
+
+@pytest.mark.parametrize("which, said", [({"make": "arch", "type": 7}, "arches are of type 1, 2 or 3"),
+                                         ({"make": "hand"}, "there are arch, iliac, siphon, coronary")])
+def test_a_vessel_that_cannot_be_made_is_one_line(which, said, tmp_path, monkeypatch):
+    pytest.importorskip("vtkmodules", reason="vessels are made with vtk")
+    monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
+    with pytest.raises(Error, match=said) as refused:
+        made_vessel({**which, "seed": 1, "inlet": 1, "target": 2})
+    assert "\n" not in str(refused.value) and not list((tmp_path / "guidewire" / "vessels").iterdir())
