@@ -31,6 +31,12 @@ def assert_refused(live, folder, scene, *words):
     assert not out.exists()
 
 
+@pytest.mark.parametrize("scale", [[2, 1, 1], [1, 2, 1], [1, 1, 2]])
+def test_a_tube_that_would_not_stay_circular_is_refused(live, tmp_path, scale):
+    tube = {"shape": "tube", "knots": [[0, 0, -400], [0, 0, 400]], "radius": 20}
+    assert_refused(live, tmp_path, {"vessel": tube, "scale": scale}, "three equal factors")
+
+
 def warnings_of(live, folder, scene):
     code, lines, out = run(live, folder, scene)
     assert code == 0, lines

@@ -10,10 +10,16 @@ namespace Guidewire.Core.Tests
         [TestCase(true)]
         public void ForcesOnAllInstruments_AddUpToTheWalls_AndNoneIsOnWhatIsInside(bool hasOuter)
         {
+            if (!hasOuter)
+            {
+                Rods.OnlyInFull("two catheters around the wire");
+            }
             int wires = 0;
             int catheters = 0;
+            // Of pushes 6 to 9 most end with a force on the node where one instrument comes out of another.
             int runs = RandomGeometry.Cases(12, 3);
-            for (int seed = 0; seed < runs; seed++)
+            int first = Rods.InFull ? 0 : 6;
+            for (int seed = first; seed < first + runs; seed++)
             {
                 var push = new RandomCoaxialPush(seed, hasOuter: hasOuter);
                 Simulation run = push.Simulation;
