@@ -34,7 +34,8 @@ from guidewire.runs.runner import Request, Runner
 RUN_LIMIT = 60.0  # s of wall time of one run
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
 OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", material_claims.KINKED,
-           "the drive fell short: ")
+           "the drive fell short: ", "over which the wire spreads a load on the wall",
+           "of its softLimit: there it was almost rigid")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
 

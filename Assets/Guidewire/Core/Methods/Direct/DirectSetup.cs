@@ -7,13 +7,18 @@ namespace Guidewire.Core
     /// <summary>Builds the parts of the direct solver from a run's parameters.</summary>
     internal static class DirectSetup
     {
+        // As many times the iterations of a stage: a wall that is pressed to its limit takes more than a rigid one.
+        private const int BetweenSoftWalls = 2;
+
         /// <summary>The motion of a scene's rod by the direct solver.</summary>
         /// <param name="work">What the run may take; null where all of the run is this motion.</param>
         public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             WorkLimit? work = null)
         {
+            bool isSoft = Array.Exists(scene.Walls, wall => wall.Softness != null);
+            int most = (isSoft ? BetweenSoftWalls : 1) * parameters.Method.MaxNewtonIterations;
             var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape, Scheme(parameters.Method.Integrator),
-                parameters.Method.SolverTolerance, parameters.Method.MaxNewtonIterations, work)
+                parameters.Method.SolverTolerance, most, work)
             {
                 Cancellation = parameters.Method.Cancellation,
             };
