@@ -18,7 +18,6 @@ namespace Guidewire.Io
         {
             SceneParameters scene = parameters.Scene;
             if (!MethodTable.Of(parameters.Method.Solver).TakesMaterial || scene.Walls.Length == 0
-                || scene.Catheters.Count > 1
                 || !ParameterTable.Find("hubForceLimit")!.IsTakenBy(parameters.Method.Solver))
             {
                 return;

@@ -33,6 +33,27 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void EachOfThreeSteeredHubs_SlipsAtTheLimitOfItsOwnInstrument()
+        {
+            using SimulationSession session = Open(true, default, "catheters=["
+                + "{\"start\": 30, \"length\": 40, \"elements\": 8, \"wireRadius\": 0.0014, \"lumenRadius\": 0.0011,"
+                + " \"youngsModulus\": 1e9, \"shearModulus\": 4e8, \"density\": 1200},"
+                + "{\"start\": 20, \"length\": 60, \"elements\": 12, \"wireRadius\": 0.001, \"lumenRadius\": 0.0006,"
+                + " \"youngsModulus\": 2e9, \"shearModulus\": 8e8, \"density\": 1200}]");
+            // 2 EI 0.01/(r a) of each, with r = 3 mm.
+            double[] radius = { 0.0014, 0.001 };
+            double[] inner = { 0.0011, 0.0006 };
+            for (int i = 0; i < 2; i++)
+            {
+                double stiffness = (i + 1) * 1e9 * Math.PI / 4.0 * (Math.Pow(radius[i], 4) - Math.Pow(inner[i], 4));
+                Assert.That(session.Parameters.Scene.Catheters[i].Drive.HubForceLimit,
+                    Is.EqualTo(2.0 * stiffness * 0.01 / (0.003 * radius[i])).Within(1e-6).Percent);
+            }
+            session.Step(0.1, 0.0);
+            Assert.That(session.Simulation.Outcome, Is.EqualTo(Outcome.Running), session.Simulation.Reason);
+        }
+
+        [Test]
         public void LimitOfTheParameters_AndRunsThatNobodySteers_AreLeftAlone()
         {
             using SimulationSession given = Open(true, default, "hubForceLimit=0.25");
