@@ -3,6 +3,9 @@ points (Amenta, Bern 1999), lines between neighbouring ones weighted with 1/radi
 
 from __future__ import annotations
 
+import math
+from collections.abc import Sequence
+
 import numpy as np
 from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import connected_components, dijkstra
@@ -10,6 +13,7 @@ from scipy.spatial import Delaunay, QhullError, cKDTree
 
 from guidewire.anatomy.mesh import AnatomyError, Mesh, Rim
 
+_AROUND = np.array([[np.cos(k * np.pi / 3.0), np.sin(k * np.pi / 3.0)] for k in range(6)])
 BLIND = 1.0  # a blind end is a branch if it goes on so many radii beyond its parent's wall
 
 
@@ -28,7 +32,7 @@ class WallDistance:
         self._locator.BuildLocator()
         self._words = ([0.0, 0.0, 0.0], vtkGenericCell(), mutable(0), mutable(0), mutable(0.0))
 
-    def distance(self, point: np.ndarray) -> float:
+    def distance(self, point: Sequence[float] | np.ndarray) -> float:
         self._locator.FindClosestPoint(point, *self._words)
         return float(self._words[4]) ** 0.5
 
@@ -53,14 +57,15 @@ class WallDistance:
         u = np.cross(tangent, np.eye(3)[np.argmin(np.abs(tangent))])
         u /= np.linalg.norm(u)
         w = np.cross(tangent, u)
-        around = [np.cos(angle) * u + np.sin(angle) * w for angle in (k * np.pi / 3.0 for k in range(6))]
-        best, value, step = point, self.distance(point), 0.3 * radius
+        # Numbers of Python: an operation of numpy on three of them takes as long as the search for a triangle.
+        ways = (_AROUND[:, :1] * u + _AROUND[:, 1:] * w).tolist()
+        start = best = tuple(point.tolist())
+        value, step = self.distance(best), 0.3 * radius
         while step > 0.004 * radius:
             found = None
-            for direction in around:
-                tried = best + step * direction
-                way = tried - point
-                if way.dot(way) ** 0.5 > most:
+            for way in ways:
+                tried = (best[0] + step * way[0], best[1] + step * way[1], best[2] + step * way[2])
+                if math.dist(tried, start) > most:
                     continue
                 distance = self.distance(tried)
                 if distance > value + 1e-9 * radius:
@@ -69,7 +74,7 @@ class WallDistance:
                 step *= 0.5
             else:
                 best = found
-        return best
+        return np.array(best)
 
 
 def _tetrahedra(points: np.ndarray) -> Delaunay:
