@@ -58,14 +58,16 @@ def read_of(scan: Scan):
     return Image(scan.values, scan.to_lps, Axes("LPS"))
 
 
+COARSE = scans.fork_scan((30, 32, 30), (1.24, 1.1, 2.4))
+
+
 @pytest.mark.parametrize("seed, expected", [
     ([0.0, 12.0, 15.0], "the voxel there has the value 40 and is not in the vessel; the nearest one that is lies"),
     ([0.0, 90.0, 15.0], "lies outside of the image, which goes from"),
 ])
 def test_a_seed_beside_the_vessel_is_one_line(seed, expected) -> None:
     with pytest.raises(AnatomyError, match=expected):
-        mesh_of_image(read_of(scans.fork_scan((30, 32, 30), (1.24, 1.1, 2.4))),
-                      Taking(threshold=scans.INSIDE, seed=np.array(seed)))
+        mesh_of_image(read_of(COARSE), Taking(threshold=scans.INSIDE, seed=np.array(seed)))
 
 
 # What is done to a folder of slices, and what it ends in: the slices that are read, or one line.
@@ -196,6 +198,7 @@ FOLDERS = [with_a_missing_slice, with_two_spacings, with_a_localiser, with_a_til
            with_slopes_of_their_own]
 
 
+@pytest.mark.few(12)
 @pytest.mark.parametrize("make", FOLDERS, ids=lambda make: make.__name__)
 def test_a_folder_of_slices_is_read_right_or_is_one_line(tmp_path: Path, make) -> None:
     pytest.importorskip("pydicom", reason="pydicom is not installed: apt-get install python3-pydicom")
