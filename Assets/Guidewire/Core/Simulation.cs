@@ -357,7 +357,8 @@ namespace Guidewire.Core
             IEnumerable<double> lengths = ElementLayout.Lengths(parameters, 1.0, out _);
             foreach (Catheter catheter in parameters.Scene.Catheters)
             {
-                lengths = lengths.Concat(ElementLayout.Lengths(parameters.OfCatheter(catheter, Vector3d.UnitZ), 1.0, out _));
+                SimulationParameters alone = parameters.OfCatheter(catheter, Vector3d.UnitZ);
+                lengths = lengths.Concat(ElementLayout.Lengths(alone, 1.0, out _));
             }
             return lengths.ToArray();
         }

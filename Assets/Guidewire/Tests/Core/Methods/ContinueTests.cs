@@ -273,7 +273,8 @@ namespace Guidewire.Core.Tests
             Simulation first = Simulation.Create(Transversal());
             SimulationParameters longer = Transversal();
             longer.Scene.GuidewireLength *= 1.01;
-            Assert.That(() => first.Continue(longer), Throws.ArgumentException.With.Message.StartsWith("instruments need"));
+            Assert.That(() => first.Continue(longer),
+                Throws.ArgumentException.With.Message.StartsWith("instruments need"));
         }
     }
 }
