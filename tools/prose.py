@@ -94,7 +94,8 @@ def read(text: str) -> Prose:
         if line.lstrip().startswith("|"):
             if not re.fullmatch(r"[\s|:-]+", line):
                 found = [_plain(cell) for cell in line.strip().strip("|").split("|")]
-                cells += ["" if not re.search(r"\w", cell) else cell for cell in found]    # a list of names is no phrase
+                # a list of names is no phrase
+                cells += ["" if not re.search(r"\w", cell) else cell for cell in found]
             blocks.append([])
         elif not line.strip() or line.startswith("#"):
             blocks.append([])
@@ -134,8 +135,8 @@ def main(given: list[str] | None = None) -> int:
             print(f"    {words(sentence)}: {shown(sentence)}")
         faults += [f"{path.name}: {fault}" for fault in prose.faults(opens=path.resolve() in COUNTED)]
     total = sum(prose.words for path, prose in pages.items() if path.resolve() in COUNTED)
-    print(f"{total} words in README.md and docs, {TOTAL_WORDS} are allowed; {MEAN_WORDS:g} words, {CHAINING:g} colons and "
-          f"semicolons a sentence; {CELL_WORDS} words a cell")
+    print(f"{total} words in README.md and docs, {TOTAL_WORDS} are allowed; {MEAN_WORDS:g} words, {CHAINING:g} "
+          f"colons and semicolons a sentence; {CELL_WORDS} words a cell")
     if total > TOTAL_WORDS:
         faults.append(f"{total} words in all, {TOTAL_WORDS} are allowed")
     print("\n".join(faults), end="\n" if faults else "")

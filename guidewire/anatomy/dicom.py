@@ -63,8 +63,8 @@ class _Stack:
         head = self.head
         name = f"'{self.description}'" if self.description else f"series {head.get('SeriesNumber', '-')}"
         count = len(self.slices)
-        return (f"{name}, {head.get('Modality', None) or 'image'} of {count} slice{'s' if count > 1 else ''} of {head.Columns} x "
-                f"{head.Rows}, {_localiser(head)}{float(head.PixelSpacing[0]):.3g} mm")
+        return (f"{name}, {head.get('Modality', None) or 'image'} of {count} slice{'s' if count > 1 else ''} of "
+                f"{head.Columns} x {head.Rows}, {_localiser(head)}{float(head.PixelSpacing[0]):.3g} mm")
 
 
 def read_dicom(path: Path, series: str | None = None) -> Voxels:

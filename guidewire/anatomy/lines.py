@@ -212,7 +212,8 @@ def _read_csv(file: Path) -> Lines:
             has_commas = any(re.fullmatch(r"\s*[-+]?\d+,\d+\s*", word) for word in row) or (
                 len(row) > 4 and not has_headings)
             hint = "; numbers have a decimal point, not a comma" if has_commas else ""
-            raise AnatomyError(f"{file}: line {number} is not x, y, z, radius: {separator.join(row)[:60]}{hint}") from error
+            raise AnatomyError(f"{file}: line {number} is not x, y, z, radius: {separator.join(row)[:60]}"
+                               f"{hint}") from error
     table = np.array(numbers).reshape(-1, 4)
     return Lines([Line(table[:, :3], factor * table[:, 3])], unit, axes)
 

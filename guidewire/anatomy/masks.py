@@ -100,7 +100,8 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
     volumes = [voxel * int(own.sum()), *(_volume(one, image, spacing) for one in (marched, smoothed, mesh))]
     unit = image.unit or "unit"
     sides = " x ".join(f"{side:.3g}" for side in spacing)
-    notes = [f"{int(inside.sum())} voxels of {sides} {unit} in region {chosen + 1} of {count}; smoothed, wall moved by {farthest(marched, smoothed, 3000):.2g} {unit} at most",
+    notes = [f"{int(inside.sum())} voxels of {sides} {unit} in region {chosen + 1} of {count}; smoothed, wall moved "
+             f"by {farthest(marched, smoothed, 3000):.2g} {unit} at most",
              f"{len(smoothed.triangles)} triangles decimated to {len(mesh.triangles)}, wall moved by "
              f"{farthest(smoothed, mesh):.2g} {unit} at most (allowed: {allowed:.2g} {unit})",
              *joined]

@@ -278,7 +278,8 @@ class LiveRun:
 
     async def _do_inject(self, message: Mapping[str, Any]) -> None:
         amount, rate, hub = float(message["amount"]), float(message["rate"]), message["instrument"]
-        if not (0.0 <= amount <= MOST_INJECTED and 0.0 < rate <= MOST_INJECTED) or not (hub is None or type(hub) is int):
+        if not (0.0 <= amount <= MOST_INJECTED and 0.0 < rate <= MOST_INJECTED) or \
+                not (hub is None or type(hub) is int):
             raise ValueError("no such injection")
         session = self._session
         if session is None:
@@ -473,7 +474,8 @@ class LiveRun:
 
 
 _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
-    "hand": LiveRun._do_hand, "aim": LiveRun._do_aim, "pause": LiveRun._do_pause, "step": LiveRun._do_step, "reset": LiveRun._do_reset,
+    "hand": LiveRun._do_hand, "aim": LiveRun._do_aim, "pause": LiveRun._do_pause, "step": LiveRun._do_step,
+    "reset": LiveRun._do_reset,
     "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name, "pace": LiveRun._do_pace,
     "open": LiveRun._do_open, "set": LiveRun._do_set,
 }

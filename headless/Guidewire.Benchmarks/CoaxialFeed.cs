@@ -70,8 +70,8 @@ namespace Guidewire.Benchmarks
             Array.Sort(one);
             Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                 "a wire of 60 elements in a catheter over half of them, a tube: {0:0.00} of what the wire costs alone,"
-                + " in turns ({1:0} and {2:0} us a step; {3:0.0} and {4:0.0} Newton iterations, so {5:0.00} an iteration);"
-                + " 99 of 100 steps below {6:0} us; a step leaves at most {7} B", ratio, Sum(one) / Steps,
+                + " in turns ({1:0} and {2:0} us a step; {3:0.0} and {4:0.0} Newton iterations, so {5:0.00} an"
+                + " iteration); 99 of 100 steps below {6:0} us; a step leaves at most {7} B", ratio, Sum(one) / Steps,
                 Sum(other) / Steps, iterations, iterationsAlone, ratio * iterationsAlone / iterations,
                 one[Steps * 99 / 100], garbage));
         }

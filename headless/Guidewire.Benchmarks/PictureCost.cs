@@ -41,7 +41,8 @@ namespace Guidewire.Benchmarks
                 double each = (Processor() - start).TotalMilliseconds / Pictures;
                 Console.WriteLine(string.Format(CultureInfo.InvariantCulture,
                     "{0}, {1} x {1}{2}: {3:0.000} ms of a processor, {4:0} a second; {5:0.00} of a step ({6:0.00} ms)",
-                    Path.GetFileName(file), pixels, hasNoise ? " with noise and blur" : "", each, 1e3 / each, each / step,
+                    Path.GetFileName(file), pixels, hasNoise ? " with noise and blur" : "", each, 1e3 / each,
+                        each / step,
                     step));
             }
         }

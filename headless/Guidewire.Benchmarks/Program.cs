@@ -262,8 +262,9 @@ namespace Guidewire.Benchmarks
                     "{0,-46} {1,9:0.0} us {2,9:0.0} ns / {3,-10} {4,7:0.0} % {5,8:0.00} {6,10} B", row.Name,
                     1e-3 * row.Median, row.PerUnit, row.Unit, row.Spread, row.PerUnit / sweep, row.Allocated));
             }
-            Console.WriteLine("ratio: to the time of one element-iteration (stretch and bend-twist) of the scalar sweeps at n = 30."
-                + " Spread: interquartile range over median.");
+            Console.WriteLine("ratio: to the time of one element-iteration"
+                + " (stretch and bend-twist) of the scalar sweeps at n"
+                + " = 30. Spread: interquartile range over median.");
         }
     }
 }

@@ -22,7 +22,8 @@ namespace Guidewire.Benchmarks
                 new BendTwistConstraint(_state, parameters.Pbd.BendStiffness), SweepOrder.Naive);
             Sweeps = choice(scalar);
             _step = new PositionBasedStep(parameters.Method.TimeStep,
-                new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity), new OrientationEulerPrediction(), null,
+                new VerletPrediction(parameters.Method.Damping, parameters.Scene.Gravity),
+                    new OrientationEulerPrediction(), null,
                 new GaussSeidelSolver(iterations, scalar, Sweeps ?? scalar, null), null);
         }
 

@@ -7,10 +7,12 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Cli
 {
-    /// <summary>Requests for contrast agent in a session's vessel: how blood flows, injections, and what is where.</summary>
+    /// <summary>Requests for contrast agent in a session's vessel: how blood flows, injections, and what is
+    /// where.</summary>
     internal static class AgentRequest
     {
-        /// <summary>The cells of the vessel's tree, for whoever draws pictures of their own; null without one.</summary>
+        /// <summary>The cells of the vessel's tree, for whoever draws pictures of their own; null without
+        /// one.</summary>
         /// <param name="flow">Lengths in mm.</param>
         /// <param name="millimetres">Of a unit.</param>
         public static JObject? Cells(ContrastFlow? flow, double millimetres)
@@ -39,7 +41,8 @@ namespace Guidewire.Cli
         /// <exception cref="ParameterException">It cannot be met; nothing has changed.</exception>
         public static ReadOnlySpan<double> Answer(SimulationSession session, RunRequest request, JObject answer)
         {
-            SessionContrast contrast = session.Contrast ?? throw new ParameterException("request: there is no contrast in a"
+            SessionContrast contrast = session.Contrast
+                ?? throw new ParameterException("request: there is no contrast in a"
                 + " vessel without a centreline: 'guidewire.py anatomy' finds one, vessel.anatomy names its file");
             Vector3d? place = request.AtInlet ? (Vector3d?)null : Tip(session, request.Hub);
             try

@@ -17,8 +17,8 @@ namespace Guidewire.Cli
     {
         private const string Usage =
             "usage: Guidewire.Cli -parameters FILE -out DIR [-force] [-KEY VALUE]...\n"
-            + "       Guidewire.Cli -lines [-attached]      one JSON request a line on standard input, one answer a line on"
-            + " standard output:\n"
+            + "       Guidewire.Cli -lines [-attached]      one JSON request a line on standard input, one answer a"
+            + " line on standard output:\n"
             + "           {\"id\": TEXT, \"parameters\": FILE, \"set\": {KEY: VALUE}, \"out\": DIR, \"repeat\": K,"
             + " \"log\": true, \"check\": false}\n"
             + "           -attached: where the input ends, the run under way ends too, as by Ctrl-C\n"
@@ -113,14 +113,16 @@ namespace Guidewire.Cli
             if (arguments.Length != 3 || !int.TryParse(arguments[2], NumberStyles.None, CultureInfo.InvariantCulture,
                     out int count))
             {
-                throw new ParameterException(CommandLineHandler.Source + ": --modes needs a parameter file and a number");
+                throw new ParameterException(CommandLineHandler.Source
+                    + ": --modes needs a parameter file and a number");
             }
             ParameterHandler handler = ParameterHandler.Load(arguments[1], Array.Empty<KeyValuePair<string, JToken>>());
             string? walls = handler.Values.Vessel != null ? "vessel"
                 : handler.Values.Simulation.Scene.Walls.Length > 0 ? "obstacles" : null;
             if (walls != null)
             {
-                throw new ParameterException(arguments[1] + ": " + walls + " needs to be null: modes are those of a wire"
+                throw new ParameterException(arguments[1] + ": " + walls
+                    + " needs to be null: modes are those of a wire"
                     + " without walls");
             }
             ModalAnalysis modes;

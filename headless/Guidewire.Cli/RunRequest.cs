@@ -77,7 +77,8 @@ namespace Guidewire.Cli
         /// <summary>Turn of the first element about its axis in all of them, rad.</summary>
         public double Turn { get; }
 
-        /// <summary>Displacement of each hub in all of them, the wire's first, units; null where one is moved.</summary>
+        /// <summary>Displacement of each hub in all of them, the wire's first, units; null where one is
+        /// moved.</summary>
         public double[]? Pushes { get; }
 
         /// <summary>Turn of each hub in all of them, rad; null where one is moved.</summary>

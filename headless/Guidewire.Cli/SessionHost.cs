@@ -87,7 +87,8 @@ namespace Guidewire.Cli
 
         private SimulationSession Opened()
         {
-            return _session ?? throw new ParameterException("request: no session is open: \"session\": \"open\" opens one");
+            return _session
+                ?? throw new ParameterException("request: no session is open: \"session\": \"open\" opens one");
         }
 
         private static void Change(SimulationSession session, RunRequest request)
@@ -103,8 +104,8 @@ namespace Guidewire.Cli
         }
 
         /// <summary>Makes steps, as many as the run still has.</summary>
-        /// <param name="motion">Push (units) and turn (rad) of each hub in each step, the wire's first, of a session that
-        /// is steered; the last ones may be left out and rest.</param>
+        /// <param name="motion">Push (units) and turn (rad) of each hub in each step, the wire's first, of a session
+        /// that is steered; the last ones may be left out and rest.</param>
         /// <param name="steps">How many.</param>
         /// <exception cref="ParameterException">The session cannot be stepped so; nothing has changed.</exception>
         public Simulation Step(ReadOnlySpan<double> motion, int steps)

@@ -53,7 +53,8 @@ namespace Guidewire.Unity.Tests
             Assert.That(Stage.Loop.Session.Simulation.Hub()!.Insertion, Is.LessThan(pushed - 0.005));
             Engine.Find<Hud>().Refresh();
             string text = Engine.Find<Hud>().Text;
-            foreach (string line in new[] { "hub: ", " mm in, turned by ", "push ", " mN m", "largest curvature", " N\n" })
+            foreach (string line in new[] { "hub: ", " mm in, turned by ", "push ", " mN m", "largest curvature",
+                " N\n" })
             {
                 Assert.That(text, Does.Contain(line));
             }

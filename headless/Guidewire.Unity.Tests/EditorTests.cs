@@ -61,7 +61,8 @@ namespace Guidewire.Unity.Tests
             string text = Draw(Made("params/insertion-accurate.json"));
             Assert.That(text, Does.Contain("timeStep (s) = 0.01\n").And.Contain("a number > 0"));
             Assert.That(text, Does.Not.Contain("constraintSolverSteps"), "a key of pbd");
-            Assert.That(Draw(Made("params/insertion.json")), Does.Contain("constraintSolverSteps").And.Contain(" = 100\n"));
+            Assert.That(Draw(Made("params/insertion.json")),
+                Does.Contain("constraintSolverSteps").And.Contain(" = 100\n"));
         }
 
         [Test]
@@ -172,7 +173,8 @@ namespace Guidewire.Unity.Tests
         public void LinkerStep_KeepsWhatKeysNameByReflection()
         {
             string text = File.ReadAllText(new LinkerStep().GenerateAdditionalLinkXmlFile(null!, null!));
-            Assert.That(text, Does.Contain("Guidewire.Core").And.Contain("Guidewire.Io").And.Contain("preserve=\"all\""));
+            Assert.That(text, Does.Contain("Guidewire.Core").And.Contain("Guidewire.Io")
+                .And.Contain("preserve=\"all\""));
         }
     }
 }

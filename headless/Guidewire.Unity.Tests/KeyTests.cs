@@ -232,7 +232,8 @@ namespace Guidewire.Unity.Tests
             Stage.Tap(KeyCode.Space);
             Engine.Click = "solver";
             Stage.Frames(1);
-            Assert.That((string?)Stage.Loop.Session!.Get("solver"), Is.EqualTo("pbd"), "gains do not go on as a material");
+            Assert.That((string?)Stage.Loop.Session!.Get("solver"), Is.EqualTo("pbd"),
+                "gains do not go on as a material");
             Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
         }
 

@@ -60,7 +60,8 @@ namespace Guidewire.Unity.Tests
             string[] lines = own.Split('\n').SkipWhile(line => line.Trim() != "// begin").Skip(1)
                 .TakeWhile(line => line.Trim() != "// end").Select(line => line.Trim()).ToArray();
             Assert.That(lines.Length, Is.EqualTo(11));
-            Assert.That(File.ReadAllText(Path.Combine(Stage.Root, "docs/unity.md")), Does.Contain(string.Join("\n", lines)));
+            Assert.That(File.ReadAllText(Path.Combine(Stage.Root, "docs/unity.md")),
+                Does.Contain(string.Join("\n", lines)));
         }
     }
 }

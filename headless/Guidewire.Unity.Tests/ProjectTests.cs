@@ -228,7 +228,8 @@ namespace Guidewire.Unity.Tests
         {
             SimulationLoop loop = Made(file: "params/insertion-accurate.json");
             Stage.Frames(1);
-            Mesh arch = loop.gameObject.AddComponent<VesselView>() is VesselView view && Drawn(view) is Mesh mesh ? mesh : null!;
+            Mesh arch = loop.gameObject.AddComponent<VesselView>() is VesselView view && Drawn(view) is Mesh mesh
+                ? mesh : null!;
             var vessel = new GameObject("Vessel");
             vessel.AddComponent<MeshFilter>().sharedMesh = arch;
             var rim = new GameObject("Rim");

@@ -147,7 +147,8 @@ namespace Guidewire.Unity.Tests
             Engine.Press(KeyCode.UpArrow);
             Engine.Press(KeyCode.RightArrow);
             Stage.Frames(120);
-            Assert.That(_loop.Session!.Simulation.Contacts!.LargestTotal, Is.GreaterThan(0.0), "the first contact, whose"
+            Assert.That(_loop.Session!.Simulation.Contacts!.LargestTotal, Is.GreaterThan(0.0),
+                "the first contact, whose"
                 + " lists are made once, is over");
             var orientations = new Quaternion[24];
             int steps = _loop.Session.Simulation.StepCount;

@@ -68,7 +68,8 @@ namespace Guidewire.Unity.Tests
         public void ThePageShowsTheSample()
         {
             string page = File.ReadAllText(Path.Combine(Stage.Root, "docs", "unity.md"));
-            string sample = File.ReadAllText(Path.Combine(Stage.Root, "Assets/Guidewire/Samples~/OwnVessel/OwnWire.cs"));
+            string sample = File.ReadAllText(Path.Combine(Stage.Root,
+                "Assets/Guidewire/Samples~/OwnVessel/OwnWire.cs"));
             Assert.That(page, Does.Contain(sample));
         }
     }

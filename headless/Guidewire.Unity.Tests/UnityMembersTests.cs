@@ -3,11 +3,12 @@ using System.Linq;
 
 namespace Guidewire.Unity.Tests
 {
-    /// <summary>Everything of Unity's that the package calls stands in one list, with its signature: whoever has Unity's
-    /// reference at hand checks that list against it.</summary>
+    /// <summary>Everything of Unity's that the package calls stands in one list, with its signature: whoever has
+    /// Unity's reference at hand checks that list against it.</summary>
     public sealed class UnityMembersTests
     {
-        private static readonly string List = Path.Combine(Stage.Root, "headless/Guidewire.Unity.Tests/UnityMembers.txt");
+        private static readonly string List = Path.Combine(Stage.Root,
+            "headless/Guidewire.Unity.Tests/UnityMembers.txt");
 
         [Test]
         public void WhatIsCalled_IsWhatTheListHas()
@@ -15,7 +16,8 @@ namespace Guidewire.Unity.Tests
             var called = new SortedSet<string>(StringComparer.Ordinal);
             foreach (string name in new[] { "Guidewire.Runtime", "Guidewire.Editor" })
             {
-                called.UnionWith(UnityMembers.Of(Path.Combine(TestContext.CurrentContext.TestDirectory, name + ".dll")));
+                called.UnionWith(UnityMembers.Of(Path.Combine(TestContext.CurrentContext.TestDirectory,
+                    name + ".dll")));
             }
             if (Environment.GetEnvironmentVariable("GUIDEWIRE_WRITE_MEMBERS") == "1")
             {

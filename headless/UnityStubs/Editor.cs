@@ -102,7 +102,8 @@ namespace UnityEditor
         {
             Last = buildPlayerOptions;
             return Next is Build.Reporting.BuildResult result
-                ? new Build.Reporting.BuildReport { summary = new Build.Reporting.BuildSummary { result = result } } : null;
+                ? new Build.Reporting.BuildReport { summary = new Build.Reporting.BuildSummary { result = result } }
+                : null;
         }
     }
 }

@@ -260,7 +260,8 @@ namespace UnityEditor.Build
 
     public interface IUnityLinkerProcessor : IOrderedCallback
     {
-        string GenerateAdditionalLinkXmlFile(Reporting.BuildReport report, UnityLinker.UnityLinkerBuildPipelineData data);
+        string GenerateAdditionalLinkXmlFile(Reporting.BuildReport report,
+            UnityLinker.UnityLinkerBuildPipelineData data);
     }
 }
 
@@ -299,7 +300,8 @@ namespace UnityEngine
 
         public static void DrawWireSphere(Vector3 center, float radius)
         {
-            Drawn.Add(("sphere", matrix.MultiplyPoint3x4(center), matrix.MultiplyPoint3x4(center + radius * Vector3.up)));
+            Drawn.Add(("sphere", matrix.MultiplyPoint3x4(center),
+                matrix.MultiplyPoint3x4(center + radius * Vector3.up)));
         }
     }
 }

@@ -135,7 +135,8 @@ namespace UnityEngine
 
         private static T Allowed<T>(T value)
         {
-            return IsRefused ? throw new System.InvalidOperationException("input is the Input System package's") : value;
+            return IsRefused ? throw new System.InvalidOperationException("input is the Input System package's")
+                : value;
         }
     }
 

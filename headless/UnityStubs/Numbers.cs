@@ -147,7 +147,8 @@ namespace UnityEngine
         {
             return new Matrix4x4
             {
-                position = pos, x = s.x * (q * Vector3.right), y = s.y * (q * Vector3.up), z = s.z * (q * Vector3.forward),
+                position = pos, x = s.x * (q * Vector3.right), y = s.y * (q * Vector3.up),
+                    z = s.z * (q * Vector3.forward),
             };
         }
 

@@ -365,7 +365,8 @@ def test_values_are_what_slope_intercept_byte_order_and_encoding_make_of_them(tm
         struct.pack_into(order + "2f", head, 112, 0.5, -7.0)
         (tmp_path / "a.nii").write_bytes(bytes(head))
         np.testing.assert_array_equal(read_image(tmp_path / "a.nii", ".nii").values, 0.5 * numbers - 7.0)
-    base = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nspace: LPS\nspace directions: (1, 0, 0) (0, 1, 0) (0,0,1)\n"
+    base = "NRRD0004\ntype: short\ndimension: 3\nsizes: 4 4 4\nspace: LPS\n" \
+           "space directions: (1, 0, 0) (0, 1, 0) (0,0,1)\n"
     flat = numbers.ravel(order="F")
     for endian, order in (("little", "<"), ("big", ">")):
         raw = flat.astype(order + "i2").tobytes()

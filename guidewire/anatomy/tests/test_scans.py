@@ -194,7 +194,8 @@ def with_slopes_of_their_own(folder: Path):
 
 FOLDERS = [with_a_missing_slice, with_two_spacings, with_a_localiser, with_a_tilted_gantry, of_lossless_jpeg,
            of_two_series, of_two_times, with_copies, without_places, in_colours, of_many_frames, of_a_segmentation,
-           of_one_slice, that_breaks_off, with_a_slice_beside, with_other_sizes_of_pixels, of_nothing, without_pixels, far_away,
+           of_one_slice, that_breaks_off, with_a_slice_beside, with_other_sizes_of_pixels, of_nothing, without_pixels,
+           far_away,
            with_slopes_of_their_own]
 
 

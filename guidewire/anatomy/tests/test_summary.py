@@ -40,7 +40,8 @@ def test_the_first_lines_say_what_a_reader_has_to_know_and_are_at_most_eighteen(
     assert len(lines) <= 18 and all("\n" not in one for one in lines)
     text = "\n".join(lines)
     for expected in ("axes of the patient: LPS; those of the file are RAS", "unit: mm (as given;",
-                     "end 1 'rim 1': open, ", "ends 7 to 12: below", "inlet: end 1 (the widest; --inlet", "target: end 4 (as given; ",
+                     "end 1 'rim 1': open, ", "ends 7 to 12: below", "inlet: end 1 (the widest; --inlet",
+                     "target: end 4 (as given; ",
                      "mended: things 0: 1", "mended: 4 more, below; the wall moved by 0.06 mm", "left out: region 1",
                      "left out: 4 more, below"):
         assert expected in text, expected

@@ -22,7 +22,8 @@ GYMNASIUM = {
                 "ClosedEnvironmentError = InvalidAction = NameNotFound = ResetNeeded = Error",
     "spaces.py": "class Box: pass\nDict = Discrete = Space = Box",
     "vector/__init__.py": "import enum\nclass VectorEnv: pass\n"
-                          "AutoresetMode = enum.Enum('AutoresetMode', {'NEXT_STEP': 'NextStep', 'SAME_STEP': 'SameStep'})",
+                          "AutoresetMode = enum.Enum('AutoresetMode', {'NEXT_STEP': 'NextStep', 'SAME_STEP': "
+                          "'SameStep'})",
     "vector/utils.py": "batch_space = None",
     "envs/__init__.py": "",
     "envs/registration.py": "registry = {}\ndef register(id, **known): registry[id] = known",

@@ -306,7 +306,7 @@ def test_before_the_first_reset_there_is_nothing_to_be_saved_or_recorded(tube):
 def test_a_report_says_what_the_hubs_did_and_not_what_was_asked_for(pair):
     with Environment(pair) as own:
         own.reset(options={"nominal": True})
-        seen, turned = [(0.0, 0.0)], 0.0
+        seen = [(0.0, 0.0)]
         for action in ([1.0, 1.0, 0.0, -0.5], [-1.0, -1.0, 0.0, 0.0]):
             for _ in range(9):
                 _, _, _, _, info = own.step(action)

@@ -267,7 +267,8 @@ def test_values_that_give_no_run_are_passed_over_and_told(run_of, tmp_path):
 
 def test_files_of_compare_are_measurements(tmp_path):
     shape = read_measurement(write(tmp_path / "a.csv", "time,x,y,z", [(0, 1, 2, 3), (0, 4, 5, 6), (1, 7, 8, 9)]), 0.001)
-    assert [one.time for one in shape.shapes] == [0.0, 1.0] and shape.shapes[0].points.tolist() == [[1, 2, 3], [4, 5, 6]]
+    assert [one.time for one in shape.shapes] == [0.0, 1.0]
+    assert shape.shapes[0].points.tolist() == [[1, 2, 3], [4, 5, 6]]
     force = read_measurement(write(tmp_path / "b.csv", "Time, Force_mN", [(0, 1), (1, 7)]), 0.001)
     assert force.values == pytest.approx([0.001, 0.007])
     with pytest.raises(LogError, match="line 3: time 0 s after 1 s"):

@@ -45,7 +45,8 @@ FAINT = """["dark", "light"].flatMap((theme) => {
     const behind = (layers[0][3] === 1 ? [[0, 0, 0]] : [[0, 0, 0], [255, 255, 255]])
       .map((base) => layers.reduce((under, layer) => over(layer, under), base));
     const least = Math.min(...behind.map((under) => ratio(over(rgba(getComputedStyle(one).color), under), under)));
-    if (!(least >= 4.5)) faint.push(`${theme}: ${one.id || one.className || one.tagName} "${one.textContent.trim().slice(0, 40)}" ${least.toFixed(2)}`);
+    const name = one.id || one.className || one.tagName;
+    if (!(least >= 4.5)) faint.push(`${theme}: ${name} "${one.textContent.trim().slice(0, 40)}" ${least.toFixed(2)}`);
   }
   document.documentElement.dataset.theme = before;
   return faint;
@@ -143,7 +144,8 @@ class Firefox:
                     else:
                         raise AssertionError(f"not within 2 minutes: {value}")
                 elif order == "choose":
-                    await see(f"(one => {{ one.value = '{value[1]}'; one.onchange(); }})(document.querySelector('{value[0]}'))")
+                    await see(f"(one => {{ one.value = '{value[1]}'; one.onchange(); }})"
+                              f"(document.querySelector('{value[0]}'))")
                 else:
                     await key({"down": ["keyDown"], "up": ["keyUp"], "press": ["keyDown", "keyUp"]}[order], value)
             await ask("session.end")

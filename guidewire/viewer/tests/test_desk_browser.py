@@ -59,7 +59,8 @@ def test_lists_let_the_hand_steer_and_another_case_asks_first(browse, runner_com
     assert seen[4] != "scenes" and seen[5] == ["sheath.json", "sheath.json", False] and seen[6] == [1, 0]
 
 
-def test_both_pictures_have_the_head_above_turn_together_and_follow_the_held_instrument(browse, runner_command, tmp_path):
+def test_both_pictures_have_the_head_above_turn_together_and_follow_the_held_instrument(
+        browse, runner_command, tmp_path):
     arm = "viewer.xray.fluoroscopy.arm"
     camera = "viewer.stage._camera"
     look = (f"[...{camera}.position.clone().sub(viewer.stage._controls.target).normalize().toArray(),"
@@ -224,7 +225,8 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
               frame(3.0, 30, inside=0, insertion=0.03, left=30),
               frame(3.5, 10, insertion=0.01), frame(9.0, 10, force=0.15, insertion=0.01)]
     got = follow(EVENTS, frames=frames)
-    assert [(one["kind"], one["time"]) for one in got["mishaps"]] == [("wall", 1), ("hub", 2.5), ("kink", 2.5), ("left", 3)]
+    assert [(one["kind"], one["time"]) for one in got["mishaps"]] == [
+        ("wall", 1), ("hub", 2.5), ("kink", 2.5), ("left", 3)]
     assert "8.6 % strain" in got["mishaps"][2]["text"]    # 475 rad/m times 0.18 mm
     assert got["retries"] == 2 and got["path"] == pytest.approx(10 + 10 + 2 + 8 + 20 + 20)
     # of the 5.5 s before the last frame nothing is known
@@ -232,8 +234,10 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
     assert got["best"] == pytest.approx(0.5) and got["wallForce"] == 0.25
 
 
-BOXES = """(() => { const box = (one) => { const { left, top, right, bottom } = document.querySelector(one).getBoundingClientRect();
-  return [left, top, right, bottom]; }; return Object.fromEntries(['#xray', '#fluoroscopy', '#pad', '.dials', '#bar', 'main']
+BOXES = """(() => { const box = (one) => {
+  const { left, top, right, bottom } = document.querySelector(one).getBoundingClientRect();
+  return [left, top, right, bottom]; };
+  return Object.fromEntries(['#xray', '#fluoroscopy', '#pad', '.dials', '#bar', 'main']
   .map((one) => [one, box(one)])); })()"""
 
 

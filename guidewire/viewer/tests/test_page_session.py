@@ -196,7 +196,8 @@ def test_pushes_turns_and_drive_tables_are_those_of_the_server(runner_command):
         hubs[number].turn = turn
         towards.append(own.towards_aim(SimpleNamespace(hub=hubs[0], catheters=hubs[1:]), steps, most))
     assert {one == 0 for one in towards} == {True, False}
-    got = follow(STEERED, aims=aims, pushes=pushes, turns=turns, rules=RULES, parameters=parameters, described=described,
+    got = follow(STEERED, aims=aims, pushes=pushes, turns=turns, rules=RULES, parameters=parameters,
+                 described=described,
                  calls=calls)
     np.testing.assert_array_equal(doubles(got["exact"]), [exact_push(*one) for one in pushes])
     np.testing.assert_array_equal(doubles(got["turns"]), [exact_turn(one) for one in turns])

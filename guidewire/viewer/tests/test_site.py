@@ -22,7 +22,7 @@ from guidewire.viewer.tests.test_view_browser import GAMEPAD
 
 SCENES = ("insertion", "sheath", "catheter-branch")
 MODEL = "viewer.shown.model"
-OPEN = ["until", f"globalThis.viewer?.shown?.model && viewer.stage.drawn > 0"]
+OPEN = ["until", "globalThis.viewer?.shown?.model && viewer.stage.drawn > 0"]
 HUB = f"{MODEL}.recording.at('hubInsertion', {MODEL}.recording.count - 1)[0]"
 CATHETER = HUB.replace("hubInsertion", "hub1Insertion")
 STEP = f"{MODEL}.recording.at('step', {MODEL}.recording.count - 1)[0]"

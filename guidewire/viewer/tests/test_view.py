@@ -363,7 +363,8 @@ def test_a_dial_is_followed_to_its_turn_however_late_its_page_sees_it(runner_com
 @pytest.mark.parametrize("said", [
     "x" * 100_000_000, "no JSON", "[]", '{"do": "nothing"}', '{"do": "open", "scene": "../secret.json"}',
     '{"do": "set", "key": "logFilePath", "value": "/tmp"}', '{"do": "hand", "push": 2, "turn": 0, "mark": 1}',
-    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', '{"do": "aim", "turn": NaN}', "[" * (LONGEST_MESSAGE - 1), b"bytes",
+    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', '{"do": "aim", "turn": NaN}', "[" * (LONGEST_MESSAGE - 1),
+    b"bytes",
 ], ids=lambda said: str(said[:30]))
 def test_a_page_that_says_what_no_page_says_is_closed_and_the_run_goes_on(live, said):
     async def talk(page):

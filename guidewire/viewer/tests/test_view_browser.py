@@ -107,11 +107,14 @@ def test_two_replays_show_the_positions_of_their_logs_side_by_side_and_one_over_
 
 @pytest.mark.long("a refused value leaves the wire going in the tests of the server")
 def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(browse, runner_command, tmp_path):
-    field = "[...document.querySelectorAll('#controls label')].find((one) => one.textContent === 'timeStep').firstElementChild"
+    field = ("[...document.querySelectorAll('#controls label')].find((one) => one.textContent === 'timeStep')"
+             ".firstElementChild")
     enter = (f"{{ const field = {field}; field.focus(); field.value = '-1';"
              " field.dispatchEvent(new Event('change')); }")
-    labels = "import('./curves.js').then(({endLabels}) => [endLabels(300.001, 300.0012), endLabels(2, 2), endLabels(0, 1)])"
-    rows = "import('./colours.js').then(({row, roundUp}) => [row(0, 0, false), row(0, 0, true), row(0, 1, true), roundUp(0), roundUp(0.0473)])"
+    labels = ("import('./curves.js').then(({endLabels}) => [endLabels(300.001, 300.0012), endLabels(2, 2), "
+              "endLabels(0, 1)])")
+    rows = ("import('./colours.js').then(({row, roundUp}) => [row(0, 0, false), row(0, 0, true), row(0, 1, true), "
+            "roundUp(0), roundUp(0.0473)])")
     with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"],
