@@ -31,6 +31,10 @@ namespace Guidewire.Core
             {
                 return Inlet(whole);
             }
+            if (whole.IsReached)
+            {
+                return exit;    // that of the start: under loads the hub's node gives way by the clamp's compliance
+            }
             Vector3d from = exit - start;
             double reached = Vector3d.Dot(from, axis);
             if (!((from - reached * axis).Length <= Rounding * length))
