@@ -203,7 +203,7 @@ namespace Guidewire.Core
         {
             if (_isAlone)
             {
-                return null;
+                return base.Energies();
             }
             _chain.TakeTime();
             RodTerms terms = Dynamics.Terms;
