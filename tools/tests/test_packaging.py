@@ -28,7 +28,7 @@ SCENE = {"numberRodElements": 8, "maxSimulationSteps": 30, "deltaThreshold": 0, 
 SOURCES = """import sys, setuptools
 from distutils.core import run_setup
 from setuptools.command.build_py import build_py
-command = build_py(run_setup("setup.py", stop_after="init"))
+command = build_py(run_setup("setup.py", stop_after="config"))
 command.build_lib = sys.argv[1]
 command.ensure_finalized()
 command.run()
