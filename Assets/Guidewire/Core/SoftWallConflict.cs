@@ -33,7 +33,7 @@ namespace Guidewire.Core
                 {
                     continue;
                 }
-                double stiffness = wall.Softness.Stiffness;
+                double stiffness = wall.Softness.Regions?.Stiffest ?? wall.Softness.Stiffness;
                 if (stiffness > AsRigid)
                 {
                     yield return WarningTable.SoftStiff.Text(wall.Softness.Name, stiffness);
@@ -75,8 +75,9 @@ namespace Guidewire.Core
             }
             double weight = density * parameters.Scene.Gravity.Length;
             double most = soft.Limit > 0.0 ? soft.Limit : soft.MostOf(radius);
-            return soft.Stiffness * most > weight ? null
-                : Of(soft, "wallStiffness", string.Format(CultureInfo.InvariantCulture, "more than {0:G4} Pa: the "
+            double softest = Math.Min(soft.Stiffness, soft.Regions?.Softest ?? soft.Stiffness);
+            return softest * most > weight ? null
+                : Of(soft, softest < soft.Stiffness ? "regions" : "wallStiffness", string.Format(CultureInfo.InvariantCulture, "more than {0:G4} Pa: the "
                     + "weight alone, {1:G4} N/m, would press the wall to its softLimit, {2:G4} m", weight / most,
                     weight, most));
         }

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -34,10 +33,18 @@ namespace Guidewire.Core
                 least = radius > 0.0 ? Math.Min(least, radius) : least;
             }
             _cell = CellOfRadius * least;
+            foreach (double one in stiffness)
+            {
+                Softest = Math.Min(Softest, one);
+                Stiffest = Math.Max(Stiffest, one);
+            }
         }
 
-        /// <summary>The stiffnesses of all spheres, Pa.</summary>
-        public IReadOnlyList<double> Stiffnesses => _stiffness;
+        /// <summary>The least K, Pa.</summary>
+        public double Softest { get; } = double.PositiveInfinity;
+
+        /// <summary>The largest K, Pa.</summary>
+        public double Stiffest { get; }
 
         /// <summary>K at a point, units.</summary>
         public double StiffnessAt(in Vector3d x)

@@ -31,19 +31,12 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">A value that is not allowed.</exception>
         public static WallSoftness? Read(JsonFields fields)
         {
-            bool isStated = fields.Has(Stiffness);
-            string? ofWall = Array.Find(OfWall, fields.Has);
-            if (isStated && ofWall != null)
-            {
-                throw fields.Wrong(ofWall, "no wallStiffness beside it");
-            }
-            if (!isStated && ofWall == null)
+            if (!(StiffnessOf(fields) is double stiffness))
             {
                 string? other = Array.Find(Keys, fields.Has);
                 return other == null ? null : throw fields.Wrong(other, "a wallStiffness or a modulus beside it");
             }
             double limit = fields.Number(Limit, 0.0);
-            double stiffness = isStated ? Positive(fields, Stiffness, "Pa") : OfTissue(fields);
             double tip = fields.Has(TipLength) ? Positive(fields, TipLength, "m") : WallSoftness.DefaultTipLength;
             return limit >= 0.0 ? new WallSoftness(fields.Key, stiffness, limit, tip)
                 : throw fields.Wrong(Limit, "a number >= 0 (m)");
@@ -70,7 +63,8 @@ namespace Guidewire.Io
             foreach (JsonFields region in regions)
             {
                 region.Allow("branch", "end", Stiffness, Modulus, Thickness, Radius, Surrounding);
-                double own = region.Has(Stiffness) ? Positive(region, Stiffness, "Pa") : OfTissue(region);
+                double own = StiffnessOf(region)
+                    ?? throw region.Wrong(Stiffness, "a number > 0 (Pa), or a modulus in its place");
                 int branch = BranchOf(region, anatomy);
                 for (int k = 0; k < stiffness.Length; k++)
                 {
@@ -83,6 +77,10 @@ namespace Guidewire.Io
         private static int BranchOf(JsonFields region, Anatomy anatomy)
         {
             string key = region.Has("end") ? "end" : "branch";
+            if (key == "end" && region.Has("branch"))
+            {
+                throw region.Wrong("branch", "no end beside it");
+            }
             string name = region.Text(key);
             VesselEnd? end = key == "end" ? anatomy.Find(name) : null;
             int branch = end != null ? anatomy.Branches[end.Point] : key == "end" ? -1
@@ -90,6 +88,18 @@ namespace Guidewire.Io
                     own => string.Equals(own, name, StringComparison.OrdinalIgnoreCase));
             return branch >= 0 ? branch : throw region.Wrong(key, key == "end" ? "one of the ends " + anatomy.List()
                 : "one of the branches " + string.Join(", ", anatomy.BranchNames.Take(12)));
+        }
+
+        // K as it is stated, or by the tissue; null where neither is given.
+        private static double? StiffnessOf(JsonFields fields)
+        {
+            string? ofWall = Array.Find(OfWall, fields.Has);
+            if (!fields.Has(Stiffness))
+            {
+                return ofWall == null ? (double?)null : OfTissue(fields);
+            }
+            return ofWall == null ? Positive(fields, Stiffness, "Pa")
+                : throw fields.Wrong(ofWall, "no wallStiffness beside it");
         }
 
         private static double OfTissue(JsonFields fields)

@@ -205,6 +205,37 @@ namespace Guidewire.Core.Tests
             return JObject.Parse(File.ReadAllText(Path.Combine(folder, RunSummary.FileName)));
         }
 
+        [TestCase("'end': 'rim 2', 'wallStiffness': 5e3", 5e3)]
+        [TestCase("'branch': 'Branch 1', 'wallStiffness': 2e6", 2e6)]
+        public void Region_HasItsOwnStiffness(string region, double stiffness)
+        {
+            WallSoftness soft = Load(WithRegion(region)).Values.Simulation.Scene.Walls[0].Softness!;
+            Assert.That((soft.Stiffness, soft.Regions!.StiffnessAt(30.0 * Slant)), Is.EqualTo((1e5, stiffness)));
+        }
+
+        [TestCase("'end': 'rim 9', 'wallStiffness': 5e3", "regions[0].end = \"rim 9\" is not allowed: needs one of the")]
+        [TestCase("'end': 'rim 2', 'branch': 'branch 1', 'wallStiffness': 5e3",
+            "regions[0].branch = \"branch 1\" is not allowed: needs no end beside it")]
+        [TestCase("'end': 'rim 2'", "regions[0].wallStiffness = (missing) is not allowed: needs a number > 0 (Pa), or")]
+        [TestCase("'end': 'rim 2', 'wallStiffness': 5e3, 'modulus': 5e5",
+            "regions[0].modulus = 500000.0 is not allowed: needs no wallStiffness beside it")]
+        [TestCase("'end': 'rim 2', 'wallStiffness': 1e-3", "needs more than 39.76 Pa: the weight alone")]
+        public void BadRegion_IsOneLine(string region, string line)
+        {
+            Assert.That(Refusal.Of(() => Load(WithRegion(region))), Does.Contain(line));
+        }
+
+        private string WithRegion(string region)
+        {
+            string file = Scene(Slant, 1, null);
+            JObject parameters = JObject.Parse(File.ReadAllText(file));
+            parameters["gravity"] = new JArray(0.0, -9.81, 0.0);
+            parameters["vessel"]!["wallStiffness"] = 1e5;
+            parameters["vessel"]!["regions"] = new JArray(JObject.Parse("{" + region + "}"));
+            File.WriteAllText(file, parameters.ToString());
+            return file;
+        }
+
         // A tube of twenty sides, open at both ends, and a wire of 80 mm that is pushed 20 mm from one of them.
         private string Scene(Vector3d axis, int inlet, JToken? target)
         {
