@@ -354,13 +354,14 @@ def _add_anatomy(commands: Commands) -> None:
                                                        "(as the file says)")
     anatomy.add_argument("--series", metavar="N", help="of a folder of DICOM slices: number in the list, or "
                                                        "description")
-    anatomy.add_argument("--label", metavar="N", help="of a mask: values of the vessel's voxels, or their names, such "
-                                                      "as 1,2")
+    taken = anatomy.add_mutually_exclusive_group()
+    taken.add_argument("--label", metavar="N", help="of a mask: values of the vessel's voxels, or their names, such as "
+                                                    "1,2")
     anatomy.add_argument("--label-names", type=path, metavar="FILE", help="names of labels: .json, or .csv with the "
                                                                           "columns value and name")
-    anatomy.add_argument("--segment", metavar="NAME", help="of a .seg.nrrd: segments of 3D Slicer, such as "
-                                                           "Aorta,Iliacs")
-    anatomy.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
+    taken.add_argument("--segment", metavar="NAME", help="of a .seg.nrrd: segments of 3D Slicer, such as "
+                                                         "Aorta,Iliacs")
+    taken.add_argument("--threshold", type=finite, metavar="T", help="of an image: the vessel is above T")
     anatomy.add_argument("--region", type=positive, metavar="K",
                          help="among the voxels of --label or --threshold: the K-th largest connected region "
                               "(default 1)")

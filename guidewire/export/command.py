@@ -59,7 +59,8 @@ def run(arguments: argparse.Namespace) -> int:
     for warning in recording.warnings:
         print(f"warning: {warning}")
     print(f"frame: {frame.describe()}")
-    print(f"written: {SERIES} ({len(times)} moments of {', '.join(curve.title for curve in curves)}), {TABLE}, {STAGE}"
+    moments = f"{len(times)} moment{'s' * (len(times) > 1)} of {', '.join(curve.title for curve in curves)}"
+    print(f"written: {SERIES} ({moments}), {TABLE}, {STAGE}"
           + "".join(f", {name}.vtp" for name, *_ in walls) + f" in {os.path.relpath(folder)}")
     return 0
 

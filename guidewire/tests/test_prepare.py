@@ -122,6 +122,8 @@ def test_an_old_python_alone_is_one_clear_line(bare, monkeypatch):
     (["sweep", "time-stp"], "there is no study 'time-stp': did you mean 'time-step'?"),
     (["sweep", "no-such-file.json"], "no-such-file.json: No such file or directory"),
     (["sweep", "time-step", "--jobs", "0"], "'0' is not a whole number above 0"),
+    (["anatomy", "a.nrrd", "--label", "1", "--threshold", "3"], "--threshold: not allowed with argument --label"),
+    (["anatomy", "a.nrrd", "--segment", "Aorta", "--label", "1"], "--label: not allowed with argument --segment"),
     ([], "COMMAND"),
 ])
 def test_a_wrong_command_line_is_one_line_and_exit_code_2(line, said):
