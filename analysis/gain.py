@@ -44,7 +44,7 @@ class ElementRow:
 
     @property
     def element_length(self) -> float:
-        """Give the length l of an element, units."""
+        """Return the length l of an element, units."""
         return self.wire.run.number("guidewireLength") / self.elements
 
 

@@ -52,7 +52,7 @@ class Frontier:
 
     @property
     def middle(self) -> float:
-        """Give the middle between the two."""
+        """Return the middle between the two."""
         return 0.5 * (self.low + self.high)
 
 
@@ -203,7 +203,7 @@ def limit_explicit(wire: Wire, elements: int) -> float:
 
 
 def highest_frequency(wire: Wire, n: int) -> float:
-    """Give the highest frequency of small motions of a free chain with lumped masses, rad/s: across it, with elements
+    """Return the highest frequency of small motions of a free chain with lumped masses, rad/s: across it, with elements
     that turn, and along it."""
     length = wire.length / n
     turning = np.full(n, wire.second_moment / wire.area)

@@ -43,7 +43,7 @@ class Scene:
 
 
 def scenes() -> list[Scene]:
-    """Give all of them."""
+    """Return all of them."""
     orders = ("implicitEuler", "bdf2", "trbdf2", "esdirk3", "esdirk4")
     moving = {"tipForce": [0.02, 0.01, 0.0], "tipForceReleaseTime": 0.05}
     held = {"gravity": [0, -9.81, 0], "distalEnd": "clamped", "rotationSpeed": 3.0}
@@ -83,7 +83,7 @@ def run(runner: Runner, scene: Scene, out: Path, timed: bool = False) -> tuple[s
 
 
 def processor_time(process: int | None) -> float:
-    """Give the processor time of a process and its threads so far, s."""
+    """Return the processor time of a process and its threads so far, s."""
     if process is None:
         return 0.0
     threads = Path(f"/proc/{process}/task").glob("*/schedstat")

@@ -19,7 +19,7 @@ _FLAGS = {"avx2", "bmi1", "bmi2", "f16c", "fma", "movbe", "abm"}  # x86-64-v3, f
 
 
 def version() -> str:
-    """Give the program's version."""
+    """Return the program's version."""
     if INSTALLED:
         import importlib.metadata  # a tenth of the start of a command
 

@@ -97,7 +97,7 @@ class Route:
 
     @staticmethod
     def _distances(line: np.ndarray, parents: list[int], path: list[int]) -> np.ndarray:
-        """Give of each point of the centreline its distance from the wall of the path's lumen along the tree, mm;
+        """Return of each point of the centreline its distance from the wall of the path's lumen along the tree, mm;
         negative within it."""
         # A branch begins at the wall of the path's lumen, a radius from the path.
         away = np.full(len(parents), np.inf)

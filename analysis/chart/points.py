@@ -218,5 +218,5 @@ def repeats_in_words() -> str:
 
 
 def best_by_error(charted: Charted) -> list[tuple[float, Point | None]]:
-    """Give for errors of 10, 1 and 0.1 % the cheapest setting."""
+    """Return the cheapest setting for errors of 10, 1 and 0.1 %."""
     return [(level, charted.cheapest(level)) for level in _LEVELS]

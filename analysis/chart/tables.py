@@ -51,7 +51,7 @@ def as_markdown(found: Sequence[Charted]) -> str:
 
 
 def best_as_markdown(found: Sequence[Charted]) -> str:
-    """Give for this error, on this problem, the cheapest method and its settings."""
+    """Return the cheapest method and its settings for this error, on this problem."""
     lines = ["| problem | error of at most 10 % | 1 % | 0.1 % |", "|---|---|---|---|"]
     for charted in found:
         cells = [_cell(point) for _, point in best_by_error(charted)]

@@ -178,7 +178,7 @@ def _turn(a: np.ndarray, b: np.ndarray) -> Rotation:
 
 
 def _tangent(nodes: np.ndarray) -> np.ndarray:
-    """Give the tangent at the first of three nodes, to second order."""
+    """Return the tangent at the first of three nodes, to second order."""
     one, two = (chord / np.linalg.norm(chord) for chord in np.diff(nodes, axis=0))
     made = one + 0.5 * (one - two)
     return made / np.linalg.norm(made)

@@ -21,12 +21,12 @@ def mode_numbers(count: int) -> np.ndarray:
 
 
 def frequencies(wire: Wire, count: int) -> np.ndarray:
-    """Give the frequencies of a thin cantilever (Euler-Bernoulli), Hz, shape (count,)."""
+    """Return the frequencies of a thin cantilever (Euler-Bernoulli), Hz, shape (count,)."""
     return mode_numbers(count) ** 2 / (2.0 * math.pi * wire.time_unit)
 
 
 def thick_frequencies(wire: Wire, count: int) -> np.ndarray:
-    """Give the frequencies with shear GA and the rotary inertia rho I (Timoshenko), Hz, shape (count,).
+    """Return the frequencies with shear GA and the rotary inertia rho I (Timoshenko), Hz, shape (count,).
 
     State (w, t, m, q) over s/L: deflection, turn of the section, couple, shear force, each in units of L, 1, EI/L and
     EI/L^2. Held at 0; couple and force vanish at 1, which the exponential of the state's matrix has to allow.

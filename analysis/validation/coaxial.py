@@ -106,7 +106,7 @@ def _hub(run: Run, name: str) -> float:
 
 
 def tip_of(run: Run) -> np.ndarray:
-    """Give the tip of the wire, over L."""
+    """Return the tip of the wire, over L."""
     return tip_motion(run)[1][-1] / _LENGTH
 
 

@@ -186,7 +186,7 @@ def draw_overview(report: Report) -> tuple[Figure, str]:
 
 
 def _worst(lines: Sequence[Result]) -> str:
-    """Say of lines of one check that failed how many, and the worst of them."""
+    """Say how many lines of one check failed, and which was the worst."""
     worst = max(lines, key=lambda r: math.inf if math.isnan(r.error) else r.error / r.gate if r.gate else math.inf)
     many = f"{len(lines)} lines, worst " if len(lines) > 1 else ""
     return f"{many}{worst.solver}, {worst.what} ({number(worst.error, 2)} > {number(worst.gate, 2)})"

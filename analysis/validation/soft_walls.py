@@ -39,7 +39,7 @@ _TIP = 5e-3  # m
 
 
 def force(displacement: float, stiffness: float, limit: float) -> float:
-    """Give the force of a contact of this stiffness (N/m) and limit (m), N."""
+    """Return the force of a contact of this stiffness (N/m) and limit (m), N."""
     x = 1.0 - displacement / limit
     return stiffness * displacement + 0.3 * stiffness * limit * (x - 1.0) * (2.0 * math.log(x) + (x - 1.0) / x)
 

@@ -64,7 +64,7 @@ def _cantilever(n: int) -> Case:
 
 
 def _cantilever_error(run: Run) -> float:
-    """Give the error of the deflection, against F L^3/(3 EI)."""
+    """Return the error of the deflection, against F L^3/(3 EI)."""
     exact = _LOAD * _BEAM.length**3 / (3.0 * _BEAM.bending)
     return abs(-float(last_state(run).positions[-1, 1]) / exact - 1.0)
 
@@ -73,7 +73,7 @@ _SPAN = 0.8
 
 
 def catenary_sag(wire: Wire, span: float) -> float:
-    """Give the sag of an elastic cable without bending stiffness between two pins at one height, m (Irvine)."""
+    """Return the sag of an elastic cable without bending stiffness between two pins at one height, m (Irvine)."""
     weight = wire.line_density * _GRAVITY
     half = 0.5 * weight * wire.length
 
@@ -172,7 +172,7 @@ def _pendulum(n: int) -> Case:
 
 
 def _pendulum_error(run: Run) -> float:
-    """Give the error of the period of the one sinusoid that is nearest to the tip's motion across."""
+    """Return the error of the period of the one sinusoid that is nearest to the tip's motion across."""
     time, tip = tip_motion(run)
     exact, _ = first_mode(_CORD)
 
@@ -201,7 +201,7 @@ def _twist(n: int, level: float) -> Case:
 
 
 def _growth(run: Run) -> float:
-    """Give the growth of the largest distance from the axis while the twist is held and that is small, 1/s."""
+    """Return the growth of the largest distance from the axis while the twist is held and that is small, 1/s."""
     log = read_log(run.folder, spheres="all")
     aside = scenes.UNIT * np.max(np.linalg.norm(log.positions[:, :, :2], axis=2), axis=1)
     use = (log.time >= _HELD) & (aside > 0.0) & (aside < 1e-2)

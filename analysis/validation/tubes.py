@@ -54,7 +54,7 @@ def at_bend(radius: float, turn: float) -> np.ndarray:
 
 
 def along_bend(turn: float) -> np.ndarray:
-    """Give its direction there."""
+    """Return its direction there."""
     return np.array([0.0, math.sin(turn), math.cos(turn)])
 
 

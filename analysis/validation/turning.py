@@ -39,7 +39,7 @@ class _Balance:
 
 
 def _balance(wire: Wire, state: State) -> _Balance:
-    """Give the balance of a state with orientations.
+    """Return the balance of a state with orientations.
 
     Elements turn as their chords do, whose difference to their directors is the shear: rotary inertia is 1e-5 of the
     whole, and the part that is left out of it is the shear's.

@@ -221,7 +221,7 @@ class _Measure:
             raise LogError(f"{quantity.said} is 0 in the reference: a relative error is not defined")
 
     def errors(self, run: Run) -> tuple[float, float]:
-        """Give the errors of a run from the reference and from the file as it is; not numbers where it was lost or
+        """Return the errors of a run from the reference and from the file as it is; not numbers where it was lost or
         passed a wall."""
         if run.outcome in _LOST or run.measured("passages") > 0:
             return math.nan, math.nan

@@ -128,7 +128,7 @@ class Quantity:
         return np.full((len(times), 1), number_of(run.summary or {}, self.of))
 
     def _places(self, run: Run, times: np.ndarray) -> np.ndarray:
-        """Give places in units, by cubics in time, straight along elements."""
+        """Return places in units, by cubics in time, straight along elements."""
         log = read_log(run.folder, spheres="all", velocities=True)
         places = CubicHermiteSpline(log.time, log.positions, log.velocities)(np.minimum(times, log.time[-1]))
         if self.of == TIP:

@@ -88,7 +88,7 @@ class Centreline:
         return np.array(walk_back(before, end))
 
     def length(self, indices: np.ndarray) -> float:
-        """Give the length of the polyline through these points."""
+        """Return the length of the polyline through these points."""
         return float(np.linalg.norm(np.diff(self.points[indices], axis=0), axis=1).sum())
 
     def inner(self) -> np.ndarray:

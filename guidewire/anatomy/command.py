@@ -43,7 +43,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def default_folder(name: str) -> Path:
-    """Give the folder of a vessel that no --out says a folder for."""
+    """Return the folder of a vessel that no --out says a folder for."""
     return Path("results") / "anatomy" / name
 
 

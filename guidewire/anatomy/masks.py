@@ -123,7 +123,7 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
 
 
 def _volume(mesh: Mesh, image: Image, spacing: np.ndarray) -> float:
-    """Give the volume of a mesh along the image's own axes, in mm^3 of space."""
+    """Return the volume of a mesh along the image's own axes, in mm^3 of space."""
     return abs(signed_volume(mesh)) * float(abs(np.linalg.det(image.to_space[:3, :3] / spacing)))
 
 

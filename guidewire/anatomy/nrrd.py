@@ -123,7 +123,7 @@ def _skipped(fields: dict[str, str], what: str) -> int:
 
 
 def _directions(fields: dict[str, str], count: int) -> tuple[list[list[float] | None], str]:
-    """Give of each axis the step from voxel to voxel, None where it is none of space; and the space that they are
+    """Return the step from voxel to voxel along each axis, None where it is none of space; and the space that they are
     in."""
     if "space directions" in fields:
         rows = [None if match[0] == "none" else _numbers(match[1].split(","), "space directions", 3)

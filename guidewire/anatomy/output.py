@@ -159,7 +159,7 @@ def scene(line: Centreline, unit: Unit, inlet: End, target: End, diameter: float
 
 
 def _flexible_length(points: np.ndarray, radii: np.ndarray) -> float:
-    """Give the length of the wire behind its tip that has to be as flexible as the tip, mm, a multiple of the body's
+    """Return the length of the wire behind its tip that has to be as flexible as the tip, mm, a multiple of the body's
     elements: from the first narrow and tight bend of a path on, as a carotid siphon is. Points and radii in mm, from
     the inlet."""
     arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]

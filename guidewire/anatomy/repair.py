@@ -368,7 +368,7 @@ def _bulge(mesh: Mesh, rim: Rim) -> float:
 
 
 def _fraction_within(inner: Mesh, outer: Mesh) -> float:
-    """Give of sampled vertices of a surface the fraction of those within another one, its rims closed."""
+    """Return the fraction of sampled vertices of a surface that lie within another one, its rims closed."""
     rims = find_rims(outer, Edges.of(outer))
     points = inner.vertices[:: max(1, len(inner.vertices) // 300)]
     return float(WallDistance(close_rims(outer, rims) if rims else outer).inside(points).mean())

@@ -84,8 +84,8 @@ def tubes_of(kind: str, number: int, seed: int) -> tuple[list[Tube], tuple[tuple
 
 
 def name_of(kind: str, tubes: list[Tube], place: np.ndarray) -> str:
-    """Give the name of the end of one of these tubes that a place (3,) is nearest to, or "" where ends of the kind have
-    no names."""
+    """Return the name of the end of one of these tubes that a place (3,) is nearest to, or "" where ends of the kind
+    have no names."""
     ends = np.array([tubes[0].points[0], *(tube.points[-1] for tube in tubes)])
     return _ENDS[kind][int(np.argmin(np.linalg.norm(ends - place, axis=1)))] if kind in _ENDS else ""
 

@@ -42,7 +42,7 @@ class TurnAndRetry:
         self._to_turn = 0.0
 
     def act(self, observation: Any) -> np.ndarray:
-        """Give the next action."""
+        """Return the next action."""
         distance = float(np.ravel(observation["distance"])[self._hub])
         insertion = float(np.ravel(observation["hub"])[2 * self._hub])
         if self._mouth is not None:
@@ -85,7 +85,7 @@ class Follow(TurnAndRetry):
         self._least = self._ahead / 3.0 if least is None else least
 
     def act(self, observation: Any) -> np.ndarray:
-        """Give the next action."""
+        """Return the next action."""
         is_there = observation["distance"][0] <= self._environment.task.tolerance
         actions = [np.zeros(2, dtype=np.float32) if is_there else super().act(observation)]
         for extension, _ in observation["overlap"]:
@@ -119,7 +119,7 @@ class Lead(TurnAndRetry):
         self._stood = 0
 
     def act(self, observation: Any) -> np.ndarray:
-        """Give the next action."""
+        """Return the next action."""
         left, extension = observation["distance"], observation["overlap"][0][0]
         is_trying = self._mouth is not None or self._to_turn > 1e-9
         if not is_trying and (left[1] <= 0.8 * self._near or extension > 0.0 and left[1] <= self._near):
@@ -162,7 +162,7 @@ class Chance:
         self._held = 0
 
     def act(self, observation: Any) -> Any:
-        """Give the next action."""
+        """Return the next action."""
         if self._held == 0:
             self._held = int(self._random.integers(1, 12))
             if hasattr(self._space, "n"):

@@ -39,7 +39,7 @@ class Draw:
     random: dict[str, Any] = field(default_factory=dict)
 
     def as_options(self) -> dict[str, Any]:
-        """Give the options of a reset that draws the same."""
+        """Return the options of a reset that draws the same."""
         return {key: value for key, value in vars(self).items() if key != "random"} | self.random
 
 

@@ -70,7 +70,7 @@ class Drive:
                 of_each(task.rotation if self.rotation is None else self.rotation, task.hubs))
 
     def space(self, hubs: int = 1) -> Box | Discrete:
-        """Give the space of its actions."""
+        """Return the space of its actions."""
         if self.actions == "discrete":
             return Discrete(len(_DIRECTIONS)**hubs)
         return Box(-1.0, 1.0, (2 * hubs,), np.float32)

@@ -63,7 +63,7 @@ class Reward:
                             "instruments")
 
     def of(self, gone: Sequence[float], forces: Sequence[float], duration: float, is_reached: bool) -> float:
-        """Give what a step returns.
+        """Return what a step returns.
 
         Parameters
         ----------
@@ -129,7 +129,7 @@ class Environment(Env):
 
     @property
     def session(self) -> Session:
-        """Give the session of this episode; who steps it past the environment has to reset."""
+        """Return the session of this episode; who steps it past the environment has to reset."""
         return self._scene.session
 
     @property
@@ -144,7 +144,7 @@ class Environment(Env):
 
     @property
     def report(self) -> Report:
-        """Give the report of this episode so far."""
+        """Return the report of this episode so far."""
         return self._report
 
     @property
@@ -372,7 +372,8 @@ class Environment(Env):
                    else not one.place.is_inside and one.place.distance > 0.0 for one in instruments_of(self._state))
 
     def _remaining(self) -> list[float]:
-        """Give of the wire the distance to the target, of the catheters by how much they are not near enough, units."""
+        """Return of the wire the distance to the target, of the catheters by how much they are not near enough,
+        units."""
         follow = of_each(self.task.follow, self.hubs - 1)
         return [self._places[0][1], *(0.0 if within is None else max(left - within, 0.0)
                                       for within, (_, left) in zip(follow, self._places[1:]))]

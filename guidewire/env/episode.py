@@ -71,12 +71,12 @@ class Report:
 
     @property
     def largest_force(self) -> float:
-        """Give the largest force of a wall on one sphere after any time step, N."""
+        """Return the largest force of a wall on one sphere after any time step, N."""
         return max(part.largest_force for part in self.parts)
 
     @property
     def impulse(self) -> float:
-        """Give the impulse of all walls, N s."""
+        """Return the impulse of all walls, N s."""
         return sum(part.impulse for part in self.parts)
 
     @property
@@ -86,7 +86,7 @@ class Report:
 
     @property
     def path(self) -> float:
-        """Give the way of the wire's tip, units."""
+        """Return the way of the wire's tip, units."""
         return self.parts[0].path
 
     @property
@@ -128,7 +128,7 @@ class Report:
         return most
 
     def as_info(self) -> dict[str, Any]:
-        """Give for `info` numbers, "forces" as a list, and of several instruments "instruments" by name."""
+        """Return for `info` numbers, "forces" as a list, and of several instruments "instruments" by name."""
         shown = {key: value for key, value in vars(self).items() if key not in ("parts", "forces")}
         shown |= {key: getattr(self, key) for key in ("safe_success", "left", "largest_force", "impulse", "path",
                                                       "inserted", "retracted", "turned")}

@@ -48,7 +48,7 @@ class Linear:
         """It keeps nothing."""
 
     def act(self, observation: Any) -> np.ndarray:
-        """Give the next action."""
+        """Return the next action."""
         features = np.r_[2.0 * observation["ahead"], 0.02 * observation["distance"][0],
                          min(10.0 * observation["wall"][0], 2.0)]
         return np.tanh(self._weights @ features + self._bias).astype(np.float32)

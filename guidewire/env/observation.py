@@ -100,14 +100,14 @@ class Observation:
             raise Error(f"screen = {self.screen!r} is not allowed: needs finite numbers of shape (2, 3)")
 
     def shape_of(self, part: str, hubs: int) -> tuple[int, ...]:
-        """Give the shape of a part, with so many instruments, without its history."""
+        """Return the shape of a part, with so many instruments, without its history."""
         own = {**_OF_EACH, "points": (self.points, 3), "screen": (self.points, 2)}.get(part)
         if own is not None:
             return (hubs, *own) if hubs > 1 else own or (1,)
         return {"overlap": (hubs - 1, 2), "action": (2 * hubs,)}.get(part, (3,))
 
     def space(self, hubs: int = 1) -> Space:
-        """Give the space of the observations of so many instruments."""
+        """Return the space of the observations of so many instruments."""
         if hubs == 1 and "overlap" in self.parts:
             raise Error("observation part \"overlap\" needs a task with catheters")
         bounds = {**dict.fromkeys(_UNIT, (-1.0, 1.0)), "wall": (0.0, np.inf), "distance": (0.0, np.inf)}

@@ -68,7 +68,7 @@ class Picture:
             raise Error(f"noise = {self.noise!r} is not allowed: needs a number from 0 to 1")
 
     def space(self) -> Box:
-        """Give the space of the pictures."""
+        """Return the space of the pictures."""
         return Box(0, 255, (len(self.views) * self.frames, self.pixels, self.pixels), np.uint8)
 
 

@@ -20,7 +20,7 @@ class Policy(Protocol):
         """An episode begins."""
 
     def act(self, observation: Any) -> Any:
-        """Give the next action."""
+        """Return the next action."""
 
 
 @dataclass(frozen=True)

@@ -48,8 +48,8 @@ class Residuals:
 
     @property
     def correlation(self) -> float:
-        """Give the correlation of neighbouring offsets along the wire: 0 for independent errors, near 1 where something
-        systematic is left."""
+        """Return the correlation of neighbouring offsets along the wire: 0 for independent errors, near 1 where
+        something systematic is left."""
         inner = np.ones(len(self.offsets) - 1, bool)
         inner[[k - 1 for k in self.blocks if k > 0]] = False
         along = np.sum(self.offsets[1:] * self.offsets[:-1], axis=1)[inner]

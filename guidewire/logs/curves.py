@@ -29,7 +29,7 @@ def smooth(nodes: np.ndarray) -> np.ndarray:
 
 
 def fractions(line: np.ndarray) -> np.ndarray:
-    """Give the fractions of a chain's length up to each of its points (m, d): from 0 to 1."""
+    """Return the fractions of a chain's length up to each of its points (m, d): from 0 to 1."""
     along = np.concatenate(([0.0], np.cumsum(np.linalg.norm(np.diff(line, axis=0), axis=1))))
     return along / max(along[-1], np.finfo(float).tiny)
 

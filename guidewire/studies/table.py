@@ -44,7 +44,7 @@ class Axis:
 
     @property
     def keys(self) -> tuple[str, ...]:
-        """Give what is varied."""
+        """Return what is varied."""
         return (self.key,)
 
     def points(self) -> list[tuple[str, dict[str, Value]]]:
@@ -78,7 +78,7 @@ class Rows:
 
     @property
     def values(self) -> tuple[tuple[Value, ...], ...]:
-        """Give the rows."""
+        """Return the rows."""
         return self.rows
 
     def points(self) -> list[tuple[str, dict[str, Value]]]:

@@ -228,7 +228,7 @@ class Cluster:
                 raise PreparationError(f"worker {place} {problem}")
 
     def _version_here(self) -> str:
-        """Give the version of the runner, which those of the workers have to have."""
+        """Return the version of the runner, which those of the workers have to have."""
         with closing(Runner(self._command)) as here:
             found = here.check(Request("version", None, None))
         if isinstance(found, Answer):

@@ -179,7 +179,7 @@ def make(plugin: str, command: Sequence[str], jobs: str) -> dict[str, Any]:
 
 
 def check(plugin: str, command: Sequence[str], jobs: str) -> list[Plain]:
-    """Give of each job the address of its run, or exit code and line of why it cannot be made."""
+    """Return of each job the address of its run, or exit code and line of why it cannot be made."""
     found = []
     requests = [job.request for job in of_text(jobs)]
     with get_worker().plugins[plugin].runner(command) as runner:

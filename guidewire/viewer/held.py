@@ -84,7 +84,7 @@ class HeldInstruments:
         return moves
 
     def _insertion_of(self, number: int, state: State) -> float | None:
-        """Give the insertion of a hub that other hubs may stop and no force limit, m."""
+        """Return the insertion of a hub that other hubs may stop and no force limit, m."""
         catheters = self._parameters.get("catheters") or []
         own = self._parameters if number == 0 else catheters[number - 1]
         if not catheters or own.get("hubForceLimit"):

@@ -165,7 +165,7 @@ class Units:
 
     @property
     def bend(self) -> str:
-        """Give the unit of curvature, and of twist with "rad" before it."""
+        """Return the unit of curvature, and of twist with "rad" before it."""
         return "/unit" if self.metres is None else "/m"
 
 

@@ -53,10 +53,10 @@ namespace Guidewire.Core
         /// <summary>Positions of the n+1 nodes at rest, in units.</summary>
         public Vector3d[] Positions { get; }
 
-        /// <summary>Has the natural frequencies, Hz, ascending.</summary>
+        /// <summary>The natural frequencies, Hz, ascending.</summary>
         public double[] Frequencies { get; } = Array.Empty<double>();
 
-        /// <summary>Has of each mode the shift of the n+1 nodes, the largest of length 1; 0 where a straight wire only
+        /// <summary>Of each mode the shift of the n+1 nodes, the largest of length 1; 0 where a straight wire only
         /// twists.</summary>
         public Vector3d[][] Shapes { get; } = Array.Empty<Vector3d[]>();
 

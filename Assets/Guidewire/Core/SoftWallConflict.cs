@@ -77,7 +77,8 @@ namespace Guidewire.Core
             double most = soft.Limit > 0.0 ? soft.Limit : soft.MostOf(radius);
             double softest = Math.Min(soft.Stiffness, soft.Regions?.Softest ?? soft.Stiffness);
             return softest * most > weight ? null
-                : Of(soft, softest < soft.Stiffness ? "regions" : "wallStiffness", string.Format(CultureInfo.InvariantCulture, "more than {0:G4} Pa: the "
+                : Of(soft, softest < soft.Stiffness ? "regions" : "wallStiffness",
+                    string.Format(CultureInfo.InvariantCulture, "more than {0:G4} Pa: the "
                     + "weight alone, {1:G4} N/m, would press the wall to its softLimit, {2:G4} m", weight / most,
                     weight, most));
         }

@@ -19,7 +19,7 @@ namespace Guidewire.Editor
         private Task<Found>? _task;
         private Found _found = new Found();
 
-        /// <summary>Is what was found of the loop as it was when it was last asked for; empty until then.</summary>
+        /// <summary>What was found of the loop as it was when it was last asked for; empty until then.</summary>
         public Found Last => _found;
 
         /// <summary>Whether an answer is on its way.</summary>

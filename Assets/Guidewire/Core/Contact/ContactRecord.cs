@@ -17,7 +17,7 @@ namespace Guidewire.Core
         /// sphere's element took stands at that sphere.</summary>
         public Vector3d[] Forces { get; }
 
-        /// <summary>Is the sum of all contact forces.</summary>
+        /// <summary>The sum of all contact forces.</summary>
         public Vector3d Total { get; private set; }
 
         /// <summary>Force of the held or driven first sphere on the rest of the wire in the last step, mass unit *

@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>Lower bounds of the distances between a wire's elements and walls.</summary>
     internal interface IWallClearance
     {
-        /// <summary>Has the walls from which distances count.</summary>
+        /// <summary>The walls from which distances count.</summary>
         ContactShape[] Walls { get; }
 
         /// <summary>Radius of the wire, its least where it varies, units.</summary>

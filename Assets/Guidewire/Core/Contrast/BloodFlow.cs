@@ -28,7 +28,7 @@ namespace Guidewire.Core
         /// <summary>Amplitude of the pulse over the mean flow, from 0 to 1: Q(t) = Q (1 + a sin(2 pi f t)).</summary>
         public double PulseAmplitude { get; set; }
 
-        /// <summary>Is the pulse's rate f, 1/s.</summary>
+        /// <summary>The pulse's rate f, 1/s.</summary>
         public double PulseRate { get; set; } = 1.0;
 
         /// <summary>What is wrong with these values in one phrase, or null.</summary>

@@ -80,7 +80,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Is the number of cells.</summary>
+        /// <summary>The number of cells.</summary>
         public int Count => _cells.Count;
 
         /// <summary>Part of the blood in each cell that is agent, from 0 to 1.</summary>
@@ -98,7 +98,7 @@ namespace Guidewire.Core
         /// <summary>Washed out by the ends so far, ml.</summary>
         public double WashedOut { get; private set; }
 
-        /// <summary>Is the agent that is in the vessel now, ml.</summary>
+        /// <summary>The agent that is in the vessel now, ml.</summary>
         public double Held
         {
             get

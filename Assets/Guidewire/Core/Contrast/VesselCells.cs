@@ -63,16 +63,16 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Is the number of cells.</summary>
+        /// <summary>The number of cells.</summary>
         public int Count => Before.Length;
 
-        /// <summary>Has the cells' middles, mm.</summary>
+        /// <summary>The cells' middles, mm.</summary>
         public Vector3d[] Middles { get; }
 
-        /// <summary>Has the cells' radii, mm.</summary>
+        /// <summary>The cells' radii, mm.</summary>
         public double[] Radii { get; }
 
-        /// <summary>Has the cells' lengths, mm.</summary>
+        /// <summary>The cells' lengths, mm.</summary>
         public double[] Lengths { get; }
 
         /// <summary>The cell before each, smaller than its own number; -1 at the inlet.</summary>

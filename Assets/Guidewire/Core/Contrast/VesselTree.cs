@@ -36,10 +36,10 @@ namespace Guidewire.Core
             Before = before;
         }
 
-        /// <summary>Has the points of the centreline, mm.</summary>
+        /// <summary>The points of the centreline, mm.</summary>
         public Vector3d[] Points { get; }
 
-        /// <summary>Has the radius of the lumen at each point, mm.</summary>
+        /// <summary>The radius of the lumen at each point, mm.</summary>
         public double[] Radii { get; }
 
         /// <summary>The point before each; -1 at the inlet, the first.</summary>

@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// <summary>Points whose hull, widened by the radius, is the body; units.</summary>
         internal Vector3d[] Points => _points;
 
-        /// <summary>Is the radius by which the body is grown, units.</summary>
+        /// <summary>The radius by which the body is grown, units.</summary>
         internal double Radius => _radius;
 
         /// <summary>Makes a ball.</summary>

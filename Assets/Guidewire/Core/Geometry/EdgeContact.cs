@@ -11,7 +11,7 @@ namespace Guidewire.Core
         /// <summary>Position s of the crossing along the segment.</summary>
         public readonly double Position;
 
-        /// <summary>Is the signed distance d, units.</summary>
+        /// <summary>The signed distance d, units.</summary>
         public readonly double Distance;
 
         /// <summary>n, from the edge into the free side.</summary>
@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// q = ((1 - s) H u - n, s H u + n).</summary>
         public readonly Symmetric3 Curvature;
 
-        /// <summary>Is the angle by which the wall turns at the edge over its weight, radians.</summary>
+        /// <summary>The angle by which the wall turns at the edge over its weight, radians.</summary>
         public readonly double Angle;
 
         /// <summary>Radius over which it turns, units; 0 of a sharp edge.</summary>

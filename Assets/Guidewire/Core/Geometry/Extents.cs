@@ -7,10 +7,10 @@ namespace Guidewire.Core
     /// <summary>The box along the axes around some points or a wall, units.</summary>
     internal readonly struct Extents
     {
-        /// <summary>Has the least coordinates.</summary>
+        /// <summary>The least coordinates.</summary>
         public readonly Vector3d Low;
 
-        /// <summary>Has the largest coordinates.</summary>
+        /// <summary>The largest coordinates.</summary>
         public readonly Vector3d High;
 
         /// <summary>The box between two corners.</summary>
@@ -20,7 +20,7 @@ namespace Guidewire.Core
             High = high;
         }
 
-        /// <summary>Is the box's longest side.</summary>
+        /// <summary>The box's longest side.</summary>
         public double LargestSide => Math.Max(High.X - Low.X, Math.Max(High.Y - Low.Y, High.Z - Low.Z));
 
         /// <summary>The box around points, at least one.</summary>

@@ -38,7 +38,7 @@ namespace Guidewire.Core
         /// <summary>How often the cache was cleared; what was found before then is invalid.</summary>
         public int Version { get; private set; }
 
-        /// <summary>Has the lists of features, one behind the other.</summary>
+        /// <summary>The lists of features, one behind the other.</summary>
         public StructList<WallFeature> Features { get; } =
             new StructList<WallFeature>(MaxFeatures + LongestList);
 

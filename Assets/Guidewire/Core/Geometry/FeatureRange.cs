@@ -14,7 +14,7 @@ namespace Guidewire.Core
             Distance = distance;
         }
 
-        /// <summary>Is the feature's number in the wall.</summary>
+        /// <summary>The feature's number in the wall.</summary>
         public int Index { get; }
 
         /// <summary>A distance, units, than which it was no nearer where it was found.</summary>
@@ -49,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>Whether the features nearby are known; if not, the range is empty and meaningless.</summary>
         public bool IsKnown => _features != null;
 
-        /// <summary>Is the first index of the range.</summary>
+        /// <summary>The first index of the range.</summary>
         public int From { get; }
 
         /// <summary>Index behind the last.</summary>

@@ -25,7 +25,7 @@ namespace Guidewire.Core
             /// <summary>Number of a point.</summary>
             public int End { get; }
 
-            /// <summary>Is the angle by which the hull's surface turns there, radians, 0 to pi.</summary>
+            /// <summary>The angle by which the hull's surface turns there, radians, 0 to pi.</summary>
             public double Angle { get; }
         }
 

@@ -18,10 +18,10 @@ namespace Guidewire.Core
             _wall = wall;
         }
 
-        /// <summary>Is the sphere's radius.</summary>
+        /// <summary>The sphere's radius.</summary>
         public double Width { get; set; } = double.PositiveInfinity;
 
-        /// <summary>Is the sphere's centre.</summary>
+        /// <summary>The sphere's centre.</summary>
         public Vector3d Centre { get; set; }
 
         /// <summary>Climbs from x to the middle of the lumen across a direction, or to where the ball is large enough:

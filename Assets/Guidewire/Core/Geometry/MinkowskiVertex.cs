@@ -7,7 +7,7 @@ namespace Guidewire.Core
         /// <summary>End less hull vertex.</summary>
         public readonly Vector3d Offset;
 
-        /// <summary>Is the hull's vertex.</summary>
+        /// <summary>The hull's vertex.</summary>
         public readonly Vector3d HullVertex;
 
         /// <summary>0 for the segment's first end, 1 for its second.</summary>

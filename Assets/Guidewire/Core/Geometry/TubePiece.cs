@@ -7,10 +7,10 @@ namespace Guidewire.Core
     /// changes linearly. Lengths in units.</summary>
     internal readonly struct TubePiece
     {
-        /// <summary>Is the first knot.</summary>
+        /// <summary>The first knot.</summary>
         public readonly Vector3d From;
 
-        /// <summary>Is the last knot.</summary>
+        /// <summary>The last knot.</summary>
         public readonly Vector3d To;
 
         private readonly Vector3d _axis;      // unit vector

@@ -6,7 +6,7 @@ namespace Guidewire.Core
         /// <summary>Where along the segment, 0 at its first end and 1 at its second.</summary>
         public readonly double S;
 
-        /// <summary>Is the signed distance d there, units.</summary>
+        /// <summary>The signed distance d there, units.</summary>
         public readonly double Distance;
 
         /// <summary>The piece that gives it; at a handover, the one that follows.</summary>

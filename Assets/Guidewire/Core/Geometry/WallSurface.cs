@@ -15,7 +15,7 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>Has the corners in units.</summary>
+        /// <summary>The corners in units.</summary>
         public IReadOnlyList<Vector3d> Vertices => _vertices;
 
         /// <summary>Three indices a triangle; seen from the lumen they run counter-clockwise in a right-handed frame.

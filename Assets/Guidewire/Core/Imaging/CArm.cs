@@ -66,7 +66,7 @@ namespace Guidewire.Core
         /// <summary>How the patient lies.</summary>
         public PatientAxes Axes { get; }
 
-        /// <summary>Is the number of pixels per unit.</summary>
+        /// <summary>The number of pixels per unit.</summary>
         public double Scale => Pixels / FieldOfView;
 
         /// <summary>A point in pixels: x to the right and y down from the upper left corner of the picture, and z along

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Cross-section of the wire at one position: stiffness, mass per length and rest curvature.</summary>
     internal struct CrossSection
     {
-        /// <summary>Is the axial stiffness EA, N.</summary>
+        /// <summary>The axial stiffness EA, N.</summary>
         public double StretchStiffness;
 
         /// <summary>GA times the shear factor, N.</summary>
@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// <summary>GJ about d3, N m^2.</summary>
         public double TwistStiffness;
 
-        /// <summary>Is the mass per length rho A, kg/m.</summary>
+        /// <summary>The mass per length rho A, kg/m.</summary>
         public double LineDensity;
 
         /// <summary>rho I about d1, kg m; about d3 it is the sum of both.</summary>

@@ -29,7 +29,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Has the inverse masses of the n + 1 nodes, 1/kg.</summary>
+        /// <summary>The inverse masses of the n + 1 nodes, 1/kg.</summary>
         public double[] InverseMass { get; }
 
         /// <summary>1/I along the element's axes, 1/(kg m^2), n.</summary>

@@ -34,7 +34,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Is the rod's mass, kg.</summary>
+        /// <summary>The rod's mass, kg.</summary>
         public double Total { get; }
 
         /// <summary>Mass of each node, kg, n+1: half of each neighbouring element, or an equal part.</summary>

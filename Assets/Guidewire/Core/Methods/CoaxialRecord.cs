@@ -58,7 +58,7 @@ namespace Guidewire.Core
         /// <summary>The catheter's n + 1 nodes, units.</summary>
         public Vector3d[] Positions { get; }
 
-        /// <summary>Has the orientations of the catheter's n elements.</summary>
+        /// <summary>The orientations of the catheter's n elements.</summary>
         public Quaterniond[] Orientations { get; }
 
         /// <summary>Force of the walls on each node in the last step, N, where it is the outermost instrument.

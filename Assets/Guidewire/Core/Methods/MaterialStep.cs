@@ -41,10 +41,10 @@ namespace Guidewire.Core
         /// <summary>Where it is.</summary>
         protected RodShape Shape => Scene.Shape;
 
-        /// <summary>Has the velocities of the nodes, m/s.</summary>
+        /// <summary>The velocities of the nodes, m/s.</summary>
         protected Vector3d[] Velocities { get; }
 
-        /// <summary>Has the angular velocities of the elements along their own axes, rad/s.</summary>
+        /// <summary>The angular velocities of the elements along their own axes, rad/s.</summary>
         protected Vector3d[] Spins { get; }
 
         /// <summary>What moves node 0.</summary>
@@ -68,7 +68,7 @@ namespace Guidewire.Core
         /// <summary>t after the steps so far, s.</summary>
         protected abstract double Time { get; }
 
-        /// <summary>Is the kinetic energy of the wire as it is, J.</summary>
+        /// <summary>The kinetic energy of the wire as it is, J.</summary>
         protected virtual double KineticEnergy => _inertia.KineticEnergy(Velocities, Spins);
 
         /// <inheritdoc/>

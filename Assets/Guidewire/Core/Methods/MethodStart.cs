@@ -13,7 +13,7 @@ namespace Guidewire.Core
         /// <summary>The wire at its start.</summary>
         public RodState State { get; }
 
-        /// <summary>Is what steps the wire.</summary>
+        /// <summary>What steps the wire.</summary>
         public TimeStepper Stepper { get; }
 
         /// <summary>Why there is no start, in one line, or null.</summary>

@@ -8,16 +8,16 @@ namespace Guidewire.Core
     /// body vectors to world vectors by v -> q v q*. Component order x, y, z, w as in Unity.</summary>
     public readonly struct Quaterniond : IEquatable<Quaterniond>
     {
-        /// <summary>Is the first imaginary component.</summary>
+        /// <summary>The first imaginary component.</summary>
         public readonly double X;
 
-        /// <summary>Is the second imaginary component.</summary>
+        /// <summary>The second imaginary component.</summary>
         public readonly double Y;
 
-        /// <summary>Is the third imaginary component.</summary>
+        /// <summary>The third imaginary component.</summary>
         public readonly double Z;
 
-        /// <summary>Is the real component.</summary>
+        /// <summary>The real component.</summary>
         public readonly double W;
 
         /// <summary>The quaternion x i + y j + z k + w.</summary>

@@ -8,16 +8,16 @@ namespace Guidewire.Core
     /// lane holds the bits which plain doubles give.</summary>
     internal readonly struct Quaterniond4
     {
-        /// <summary>Has the first imaginary components.</summary>
+        /// <summary>The first imaginary components.</summary>
         public readonly Vector256<double> X;
 
-        /// <summary>Has the second imaginary components.</summary>
+        /// <summary>The second imaginary components.</summary>
         public readonly Vector256<double> Y;
 
-        /// <summary>Has the third imaginary components.</summary>
+        /// <summary>The third imaginary components.</summary>
         public readonly Vector256<double> Z;
 
-        /// <summary>Has the real components.</summary>
+        /// <summary>The real components.</summary>
         public readonly Vector256<double> W;
 
         /// <summary>The quaternions x i + y j + z k + w.</summary>

@@ -47,22 +47,22 @@ namespace Guidewire.Core
                 a._33 + b._33);
         }
 
-        /// <summary>Is the entry (1, 1).</summary>
+        /// <summary>The entry (1, 1).</summary>
         public double A11 => _11;
 
-        /// <summary>Is the entry (2, 1).</summary>
+        /// <summary>The entry (2, 1).</summary>
         public double A21 => _21;
 
-        /// <summary>Is the entry (2, 2).</summary>
+        /// <summary>The entry (2, 2).</summary>
         public double A22 => _22;
 
-        /// <summary>Is the entry (3, 1).</summary>
+        /// <summary>The entry (3, 1).</summary>
         public double A31 => _31;
 
-        /// <summary>Is the entry (3, 2).</summary>
+        /// <summary>The entry (3, 2).</summary>
         public double A32 => _32;
 
-        /// <summary>Is the entry (3, 3).</summary>
+        /// <summary>The entry (3, 3).</summary>
         public double A33 => _33;
 
         /// <summary>Makes w c c^T.</summary>

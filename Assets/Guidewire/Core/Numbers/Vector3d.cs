@@ -26,16 +26,16 @@ namespace Guidewire.Core
             Z = z;
         }
 
-        /// <summary>Is (0, 0, 0).</summary>
+        /// <summary>(0, 0, 0).</summary>
         public static Vector3d Zero => default;
 
-        /// <summary>Is (1, 0, 0).</summary>
+        /// <summary>(1, 0, 0).</summary>
         public static Vector3d UnitX => new Vector3d(1.0, 0.0, 0.0);
 
-        /// <summary>Is (0, 1, 0).</summary>
+        /// <summary>(0, 1, 0).</summary>
         public static Vector3d UnitY => new Vector3d(0.0, 1.0, 0.0);
 
-        /// <summary>Is (0, 0, 1).</summary>
+        /// <summary>(0, 0, 1).</summary>
         public static Vector3d UnitZ => new Vector3d(0.0, 0.0, 1.0);
 
         /// <summary>Gives |v|^2.</summary>

@@ -6,10 +6,10 @@ namespace Guidewire.Core
     /// at its start.</summary>
     public sealed class Catheter
     {
-        /// <summary>Is the catheter's length L, units.</summary>
+        /// <summary>The catheter's length L, units.</summary>
         public double Length { get; set; }
 
-        /// <summary>Is the number of its elements n.</summary>
+        /// <summary>The number of its elements n.</summary>
         public int Elements { get; set; } = 30;
 
         /// <summary>Distance of its hub ahead of the wire's at the start, units.</summary>

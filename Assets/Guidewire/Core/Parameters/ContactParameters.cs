@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>Contact with walls, for methods that support them.</summary>
     public sealed class ContactParameters
     {
-        /// <summary>Is the radius r of a sphere, units.</summary>
+        /// <summary>The radius r of a sphere, units.</summary>
         public double SphereRadius { get; set; } = 5.0;
 
         /// <summary>Distance kept beyond the radius, in units.</summary>

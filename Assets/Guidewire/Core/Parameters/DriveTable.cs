@@ -21,13 +21,13 @@ namespace Guidewire.Core
             Rotation = rotation;
         }
 
-        /// <summary>Has the insertion over time, m.</summary>
+        /// <summary>The insertion over time, m.</summary>
         public TimeTable Insertion { get; }
 
-        /// <summary>Has the rotation over time, rad.</summary>
+        /// <summary>The rotation over time, rad.</summary>
         public TimeTable Rotation { get; }
 
-        /// <summary>Is the time from which on the hub stands still, s.</summary>
+        /// <summary>The time from which on the hub stands still, s.</summary>
         public double End => Insertion.End;
     }
 }

@@ -8,7 +8,7 @@ namespace Guidewire.Core
         /// <summary>What holds the wire together: pbd stiffness (pbd) or a material (the others).</summary>
         public Solver Solver { get; set; } = Solver.Pbd;
 
-        /// <summary>Is the time step dt, s.</summary>
+        /// <summary>The time step dt, s.</summary>
         public double TimeStep { get; set; } = 0.01;
 
         /// <summary>m, Gauss-Seidel iterations a step.</summary>

@@ -15,7 +15,7 @@ namespace Guidewire.Core
         /// <summary>Length along the wire at rest from sphere 0, units.</summary>
         public double At { get; }
 
-        /// <summary>Is the force, N.</summary>
+        /// <summary>The force, N.</summary>
         public Vector3d Force { get; }
     }
 }

@@ -38,7 +38,7 @@ namespace Guidewire.Core
         /// <summary>Whether a run had come here: it may then be through an open rim of a wall.</summary>
         internal bool IsReached { get; set; }
 
-        /// <summary>Has the n orientations.</summary>
+        /// <summary>The n orientations.</summary>
         public Quaterniond[] Orientations { get; }
 
         /// <summary>Frame of the proximal clamp of a material, normalised on use; null: what the first elements make it

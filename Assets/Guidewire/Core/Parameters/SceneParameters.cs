@@ -9,7 +9,7 @@ namespace Guidewire.Core
     /// units with a material.</summary>
     public sealed class SceneParameters
     {
-        /// <summary>Is the wire's length L, units.</summary>
+        /// <summary>The wire's length L, units.</summary>
         public double GuidewireLength { get; set; } = 300.0;
 
         /// <summary>n; the wire has n + 1 spheres. Where sections of a material have a number of elements of their

@@ -44,7 +44,7 @@ namespace Guidewire.Core
             _jumps = jumps.ToArray();
         }
 
-        /// <summary>Is the time from which on the value no longer changes, s; where it jumps, after that
+        /// <summary>The time from which on the value no longer changes, s; where it jumps, after that
         /// time.</summary>
         public double End => _times[_times.Length - 1];
 

@@ -14,16 +14,16 @@ namespace Guidewire.Core
         /// elements (see <see cref="ElementLayout"/>).</summary>
         public int? NumberRodElements { get; set; }
 
-        /// <summary>Is Young's modulus E, Pa.</summary>
+        /// <summary>Young's modulus E, Pa.</summary>
         public double? YoungsModulus { get; set; }
 
-        /// <summary>Is the shear modulus G, Pa.</summary>
+        /// <summary>The shear modulus G, Pa.</summary>
         public double? ShearModulus { get; set; }
 
-        /// <summary>Is the density rho, kg/m^3.</summary>
+        /// <summary>The density rho, kg/m^3.</summary>
         public double? Density { get; set; }
 
-        /// <summary>Is the outer radius, m.</summary>
+        /// <summary>The outer radius, m.</summary>
         public double? WireRadius { get; set; }
 
         /// <summary>Radius of a tube's hollow, m.</summary>
@@ -48,10 +48,10 @@ namespace Guidewire.Core
         /// <summary>EI about d2, N m^2.</summary>
         public double? BendingStiffness2 { get; set; }
 
-        /// <summary>Is the torsional stiffness GJ, N m^2.</summary>
+        /// <summary>The torsional stiffness GJ, N m^2.</summary>
         public double? TorsionalStiffness { get; set; }
 
-        /// <summary>Is the mass per length rho A, kg/m.</summary>
+        /// <summary>The mass per length rho A, kg/m.</summary>
         public double? MassPerLength { get; set; }
 
         /// <summary>rho I about d1 and d2, the mean of both, kg m.</summary>

@@ -33,7 +33,7 @@ namespace Guidewire.Core
         /// <summary>The frame to which the distal end is clamped, if it is.</summary>
         public Quaterniond DistalFrame { get; set; } = Quaterniond.Identity;
 
-        /// <summary>Is the number of elements n.</summary>
+        /// <summary>The number of elements n.</summary>
         public int ElementCount => Q.Length;
 
         /// <summary>Angles that each element has.</summary>

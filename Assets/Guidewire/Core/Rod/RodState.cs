@@ -71,10 +71,10 @@ namespace Guidewire.Core
             Rest();
         }
 
-        /// <summary>Is the number of elements n.</summary>
+        /// <summary>The number of elements n.</summary>
         public int ElementCount { get; }
 
-        /// <summary>Is the number of spheres, n + 1.</summary>
+        /// <summary>The number of spheres, n + 1.</summary>
         public int SphereCount => ElementCount + 1;
 
         /// <summary>l = L/n in units: the length of every element at rest with pbd, the mean of them with a

@@ -18,7 +18,7 @@ namespace Guidewire.Core
             Distal = distal;
         }
 
-        /// <summary>Has the prescribed loads.</summary>
+        /// <summary>The prescribed loads.</summary>
         public PrescribedLoads Loads { get; }
 
         /// <summary>The motion of the proximal end.</summary>

@@ -14,10 +14,10 @@ namespace Guidewire.Core
             Direction = Vector3d.Normalize(direction);
         }
 
-        /// <summary>Is the point from which guidewireOffset is measured, units.</summary>
+        /// <summary>The point from which guidewireOffset is measured, units.</summary>
         public Vector3d Origin { get; }
 
-        /// <summary>Is the direction of the wire, of length 1.</summary>
+        /// <summary>The direction of the wire, of length 1.</summary>
         public Vector3d Direction { get; }
 
         /// <summary>The frame of every element: z turned into the direction by the smallest rotation, about x where

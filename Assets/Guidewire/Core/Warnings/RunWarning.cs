@@ -13,7 +13,7 @@ namespace Guidewire.Core
         /// <summary>What it warns of.</summary>
         public WarningKind Kind { get; }
 
-        /// <summary>Is the warning's line.</summary>
+        /// <summary>The warning's line.</summary>
         public string Text { get; }
 
         /// <inheritdoc/>

@@ -10,13 +10,13 @@ namespace Guidewire.Io
     /// those of a homogeneous section with that EI: EA = 4 EI/(r^2 + a^2), a the inner radius.</remarks>
     internal sealed class Instrument
     {
-        /// <summary>Is the outer radius, m.</summary>
+        /// <summary>The outer radius, m.</summary>
         public double Radius { get; set; }
 
         /// <summary>Inner radius, m; 0 for a wire.</summary>
         public double InnerRadius { get; set; }
 
-        /// <summary>Is the length, m.</summary>
+        /// <summary>The length, m.</summary>
         public double Length { get; set; }
 
         /// <summary>EI of the shaft, N m^2.</summary>
@@ -25,7 +25,7 @@ namespace Guidewire.Io
         /// <summary>GJ/EI, the same everywhere.</summary>
         public double TorsionalRatio { get; set; }
 
-        /// <summary>Is the density, kg/m^3.</summary>
+        /// <summary>The density, kg/m^3.</summary>
         public double Density { get; set; }
 
         /// <summary>Coulomb's coefficient against a vessel's wall.</summary>
@@ -55,7 +55,7 @@ namespace Guidewire.Io
     /// <summary>A section between shaft and tip.</summary>
     internal struct DistalSection
     {
-        /// <summary>Is the section's length, m.</summary>
+        /// <summary>The section's length, m.</summary>
         public double Length;
 
         /// <summary>EI at its distal end, N m^2.</summary>
@@ -71,13 +71,13 @@ namespace Guidewire.Io
         /// <summary>rad; negative: to the other side.</summary>
         public double Angle;
 
-        /// <summary>Is the radius of the arc, m.</summary>
+        /// <summary>The radius of the arc, m.</summary>
         public double Radius;
 
         /// <summary>Straight length between this arc and the next or the tip, m.</summary>
         public double Straight;
 
-        /// <summary>Is the length of the arc along the wire, m.</summary>
+        /// <summary>The length of the arc along the wire, m.</summary>
         public readonly double ArcLength => Math.Abs(Angle) * Radius;
     }
 }

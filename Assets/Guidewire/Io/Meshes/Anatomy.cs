@@ -16,7 +16,7 @@ namespace Guidewire.Io
         /// <summary>The ends, in the order of their numbers.</summary>
         public IReadOnlyList<VesselEnd> Ends { get; set; } = Array.Empty<VesselEnd>();
 
-        /// <summary>Has the k points of the centreline.</summary>
+        /// <summary>The k points of the centreline.</summary>
         public Vector3d[] Points { get; set; } = Array.Empty<Vector3d>();
 
         /// <summary>Radius of the sphere at each.</summary>
@@ -34,7 +34,7 @@ namespace Guidewire.Io
         /// <summary>Axes of the patient in the scene, as the file states them, or null.</summary>
         public PatientAxes? Axes { get; set; }
 
-        /// <summary>Has the branches' names.</summary>
+        /// <summary>The branches' names.</summary>
         public IReadOnlyList<string> BranchNames { get; set; } = Array.Empty<string>();
 
         /// <summary>The points next to each: its parent, its children, and those that it meets in a loop.</summary>

@@ -51,7 +51,7 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Is the end at which distances begin.</summary>
+        /// <summary>The end at which distances begin.</summary>
         public VesselEnd Inlet { get; }
 
         /// <summary>Where the tip is to come, units; null without a target.</summary>
@@ -81,7 +81,7 @@ namespace Guidewire.Io
         /// <summary>The target as it is called.</summary>
         public string TargetName { get; private set; } = "";
 
-        /// <summary>Has the distance of each point of the centreline from the inlet along it, units.</summary>
+        /// <summary>The distance of each point of the centreline from the inlet along it, units.</summary>
         public double[] Distances { get; }
 
         /// <summary>The point of the centreline whose sphere a point of the lumen belongs to.</summary>

@@ -31,10 +31,10 @@ namespace Guidewire.Io
         /// <summary>The branch there, from 0.</summary>
         public int Branch { get; }
 
-        /// <summary>Is the distance from the inlet along the centreline, units.</summary>
+        /// <summary>The distance from the inlet along the centreline, units.</summary>
         public double Distance { get; }
 
-        /// <summary>Is the distance from there to the target along the centreline, units; not a number where there is
+        /// <summary>The distance from there to the target along the centreline, units; not a number where there is
         /// no target.</summary>
         public double Left { get; }
 

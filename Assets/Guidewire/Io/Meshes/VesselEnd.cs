@@ -21,13 +21,13 @@ namespace Guidewire.Io
         /// <summary>As reports and keys have it.</summary>
         public string Name { get; }
 
-        /// <summary>Is the end's middle.</summary>
+        /// <summary>The end's middle.</summary>
         public Vector3d Centre { get; }
 
-        /// <summary>Is the radius of the lumen there.</summary>
+        /// <summary>The radius of the lumen there.</summary>
         public double Radius { get; }
 
-        /// <summary>Is the direction of the centreline, into the lumen, of length 1.</summary>
+        /// <summary>The direction of the centreline, into the lumen, of length 1.</summary>
         public Vector3d Direction { get; }
 
         /// <summary>The centreline's point there.</summary>

@@ -9,7 +9,7 @@ namespace Guidewire.Io
     /// <summary>Reads the key catheters: a list of objects, each with the keys of an instrument of its own.</summary>
     internal static class CatheterReader
     {
-        /// <summary>Is the key.</summary>
+        /// <summary>The key.</summary>
         public const string Key = "catheters";
 
         private const double MaxFriction = 2.0;   // it enters as exp(mu angle)

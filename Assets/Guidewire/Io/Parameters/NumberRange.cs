@@ -26,10 +26,10 @@ namespace Guidewire.Io
         /// <summary>Allows numbers from 0 to 1.</summary>
         public static NumberRange Fraction => new NumberRange(0.0, false, 1.0);
 
-        /// <summary>Is the lower bound.</summary>
+        /// <summary>The lower bound.</summary>
         public double Minimum { get; }
 
-        /// <summary>Is the upper bound.</summary>
+        /// <summary>The upper bound.</summary>
         public double Maximum { get; }
 
         /// <summary>Above 0, up to a bound that is inside.</summary>

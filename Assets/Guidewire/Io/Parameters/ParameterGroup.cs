@@ -19,7 +19,7 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Is the group's name, one word.</summary>
+        /// <summary>The group's name, one word.</summary>
         public string Name { get; }
 
         /// <summary>What its keys are about, in one phrase.</summary>

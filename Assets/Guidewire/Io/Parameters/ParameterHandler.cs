@@ -36,7 +36,7 @@ namespace Guidewire.Io
             _from = from;
         }
 
-        /// <summary>Has the effective values.</summary>
+        /// <summary>The effective values.</summary>
         public RunParameters Values { get; private set; } = new RunParameters(Solver.Pbd);
 
         /// <summary>Keys of a file that the method does not use: they were ignored.</summary>

@@ -11,7 +11,7 @@ namespace Guidewire.Io
             Of = of;
         }
 
-        /// <summary>Is the column's name.</summary>
+        /// <summary>The column's name.</summary>
         public string Name { get; }
 
         /// <summary>What its numbers measure, in SI without another unit beside the name.</summary>

@@ -13,7 +13,7 @@ namespace Guidewire.Io
             Property = NamedProperty.Of(key);
         }
 
-        /// <summary>Is the property's name.</summary>
+        /// <summary>The property's name.</summary>
         public string Property { get; internal set; }
 
         /// <summary>Reads the value where that takes more than a property, with Setter; else null.</summary>

@@ -8,10 +8,10 @@ namespace Guidewire.Io
         public string Type;
         public int[] Shape;
 
-        /// <summary>Is the place in a row, bytes.</summary>
+        /// <summary>The place in a row, bytes.</summary>
         public int Offset;
 
-        /// <summary>Is the length of one entry, bytes.</summary>
+        /// <summary>The length of one entry, bytes.</summary>
         public int Length;
     }
 }

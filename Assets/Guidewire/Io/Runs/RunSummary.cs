@@ -207,7 +207,7 @@ namespace Guidewire.Io
                 : (JToken)JValue.CreateNull();
         }
 
-        /// <summary>Is the product's version.</summary>
+        /// <summary>The product's version.</summary>
         public static string Version => ProgramVersion.Number;
 
         /// <summary>What makes runs: version, identity of the compiled simulation, runtime.</summary>

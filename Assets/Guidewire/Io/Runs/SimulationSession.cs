@@ -60,7 +60,7 @@ namespace Guidewire.Io
         /// <summary>The run as it is now; another object after <see cref="Set"/>.</summary>
         public Simulation Simulation { get; private set; }
 
-        /// <summary>Has the effective parameters.</summary>
+        /// <summary>The effective parameters.</summary>
         public SimulationParameters Parameters => _handler.Values.Simulation;
 
         /// <summary>What is allowed but most likely not meant, one line each.</summary>

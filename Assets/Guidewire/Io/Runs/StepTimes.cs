@@ -11,7 +11,7 @@ namespace Guidewire.Io
         private readonly long[] _classes = new long[2800];   // up to 1e7 ms
         private long _count;
 
-        /// <summary>Is the sum of all steps' times, ms.</summary>
+        /// <summary>The sum of all steps' times, ms.</summary>
         public double Sum { get; private set; }
 
         /// <summary>Mean in ms; 0 without steps.</summary>

@@ -15,10 +15,10 @@ namespace Guidewire.Runtime
         /// <summary>Its n + 1 nodes, units.</summary>
         public Vector3d[] Positions { get; }
 
-        /// <summary>Has the orientations of its n elements.</summary>
+        /// <summary>The orientations of its n elements.</summary>
         public Quaterniond[] Orientations { get; }
 
-        /// <summary>Has the state of its hub.</summary>
+        /// <summary>The state of its hub.</summary>
         public HubState Hub { get; internal set; }
 
         /// <summary>Length over which the next instrument is in it, m.</summary>

@@ -72,7 +72,7 @@ namespace Guidewire.Runtime
         /// <summary>What each instrument is called, the wire first.</summary>
         public List<string> Titles { get; } = new List<string>();
 
-        /// <summary>Has the names for a button that takes the next of its kind; empty where there is none.</summary>
+        /// <summary>The names for a button that takes the next of its kind; empty where there is none.</summary>
         public List<string> Choices { get; } = new List<string>();
 
         /// <summary>Keys that can be switched while the wire goes on, and what each has.</summary>

@@ -27,7 +27,7 @@ namespace Guidewire.Runtime
         /// <summary>The state after the newest step.</summary>
         public WireState Newest => _newer;
 
-        /// <summary>Is the state that views draw.</summary>
+        /// <summary>The state that views draw.</summary>
         public WireState Shown { get; }
 
         /// <summary>Takes the newest state.</summary>

@@ -23,7 +23,7 @@ namespace Guidewire.Runtime
             _friction = friction;
         }
 
-        /// <summary>Is the object's name.</summary>
+        /// <summary>The object's name.</summary>
         public string Name { get; }
 
         /// <summary>The wall, in units of the wire's frame.</summary>

@@ -22,7 +22,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Has the vertices, units.</summary>
+        /// <summary>The vertices, units.</summary>
         public Vector3[] Vertices { get; }
 
         /// <summary>Three indices a triangle.</summary>

@@ -67,7 +67,7 @@ namespace Guidewire.Runtime
         /// <summary>What is being done until it is open.</summary>
         public string Progress => _progress;
 
-        /// <summary>Is the session, null for threads other than its own.</summary>
+        /// <summary>The session, null for threads other than its own.</summary>
         /// <exception cref="InvalidOperationException">A thread of its own steps it, which is not the caller's.
         /// </exception>
         public SimulationSession? Session => _thread == null || _thread == Thread.CurrentThread ? _session

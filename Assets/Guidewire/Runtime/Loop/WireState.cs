@@ -31,7 +31,7 @@ namespace Guidewire.Runtime
         /// <summary>Positions, orientations and lengths of the wire; velocities and masses are not copied.</summary>
         public RodState Rod { get; }
 
-        /// <summary>Is the in-game time, s.</summary>
+        /// <summary>The in-game time, s.</summary>
         public double Time { get; private set; }
 
         /// <summary>Counts the steps that are done.</summary>
@@ -52,7 +52,7 @@ namespace Guidewire.Runtime
         /// <summary>Force of the walls on each sphere, N with a material; empty without walls.</summary>
         public Vector3d[] ContactForces { get; }
 
-        /// <summary>Is the sum of the contact forces.</summary>
+        /// <summary>The sum of the contact forces.</summary>
         public Vector3d ContactForce { get; private set; }
 
         /// <summary>Force of the first sphere's support.</summary>

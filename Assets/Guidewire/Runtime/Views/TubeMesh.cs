@@ -45,13 +45,13 @@ namespace Guidewire.Runtime
             WriteTriangles(rings);
         }
 
-        /// <summary>Is the number of spheres, n + 1.</summary>
+        /// <summary>The number of spheres, n + 1.</summary>
         public int Spheres => _spheres;
 
-        /// <summary>Has the vertices in units.</summary>
+        /// <summary>The vertices in units.</summary>
         public Vector3[] Vertices { get; }
 
-        /// <summary>Has the outward unit normals.</summary>
+        /// <summary>The outward unit normals.</summary>
         public Vector3[] Normals { get; }
 
         /// <summary>Coordinates in the colour map, x in [0, 1].</summary>

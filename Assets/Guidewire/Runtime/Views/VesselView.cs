@@ -19,7 +19,7 @@ namespace Guidewire.Runtime
         private readonly List<Mesh> _meshes = new List<Mesh>();
         private Material? _own;
 
-        /// <summary>Has the walls' meshes.</summary>
+        /// <summary>The walls' meshes.</summary>
         public IReadOnlyList<Mesh> Meshes => _meshes;
 
         /// <summary>Material of the walls, taken as it is; null: a transparent one of the pipeline.</summary>

@@ -91,7 +91,7 @@ namespace Guidewire.Runtime
         /// <summary>The tube as it was last drawn, or null before the first wire.</summary>
         internal TubeMesh? Tube => _tube;
 
-        /// <summary>Is the mesh of the wire's tube.</summary>
+        /// <summary>The mesh of the wire's tube.</summary>
         internal Mesh? Mesh => _mesh;
 
         /// <summary>The tubes of the catheters.</summary>

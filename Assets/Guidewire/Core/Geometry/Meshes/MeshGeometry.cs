@@ -61,7 +61,7 @@ namespace Guidewire.Core
         /// <summary>Unit normals of the triangles, into the lumen.</summary>
         public Vector3d[] FaceNormals => _faceNormals;
 
-        /// <summary>Is the number of vertices.</summary>
+        /// <summary>The number of vertices.</summary>
         public int VertexCount => _rest.Length;
 
         /// <summary>The vertex at which a half-edge starts: half-edge 3 t + k starts at corner k of triangle

@@ -19,7 +19,7 @@ namespace Guidewire.Core
             Triangles = triangles;
         }
 
-        /// <summary>Has each different vertex once.</summary>
+        /// <summary>Each different vertex once.</summary>
         public Vector3d[] Vertices { get; private set; }
 
         /// <summary>Three vertices a triangle, consistently oriented.</summary>

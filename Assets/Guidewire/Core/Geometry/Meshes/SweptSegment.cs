@@ -35,7 +35,7 @@ namespace Guidewire.Core
         /// <summary>Second end after the motion.</summary>
         public Vector3d B1 { get; }
 
-        /// <summary>Is the distance from the triangle, units.</summary>
+        /// <summary>The distance from the triangle, units.</summary>
         public double Distance { get; }
 
         /// <summary>No point of the segment goes farther, units.</summary>

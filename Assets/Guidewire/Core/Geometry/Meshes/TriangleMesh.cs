@@ -15,7 +15,7 @@ namespace Guidewire.Core
             _topology = topology;
         }
 
-        /// <summary>Has the vertices in units.</summary>
+        /// <summary>The vertices in units.</summary>
         public IReadOnlyList<Vector3d> Vertices => _topology.Vertices;
 
         /// <summary>Three indices of vertices a triangle; seen from the lumen they run counter-clockwise.</summary>

@@ -68,7 +68,7 @@ namespace Guidewire.Core
         /// <summary>Whether the processor computes with such registers.</summary>
         public static bool IsSupported => Avx2.IsSupported;
 
-        /// <summary>Is the point from which coordinates count, the middle of all, units.</summary>
+        /// <summary>The point from which coordinates count, the middle of all, units.</summary>
         public Vector3d Origin { get; private set; }
 
         /// <summary>What sums of lengths may be off by, units.</summary>

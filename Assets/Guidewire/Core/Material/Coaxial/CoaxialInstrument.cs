@@ -19,7 +19,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Has its elements as a rod.</summary>
+        /// <summary>Its elements as a rod.</summary>
         public MaterialRod Rod { get; }
 
         /// <summary>What it is made of.</summary>

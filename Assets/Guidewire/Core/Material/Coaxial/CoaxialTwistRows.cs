@@ -22,7 +22,7 @@ namespace Guidewire.Core
             Rows = new TwistRow[joints.InnerCount * _count];
         }
 
-        /// <summary>Has the rows.</summary>
+        /// <summary>The rows.</summary>
         public TwistRow[] Rows { get; }
 
         /// <summary>Whether second derivatives by angles are to be positive.</summary>

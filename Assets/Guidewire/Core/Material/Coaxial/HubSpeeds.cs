@@ -10,10 +10,10 @@ namespace Guidewire.Core
             Instruments = new double[count];
         }
 
-        /// <summary>Has the speed of each instrument.</summary>
+        /// <summary>The speed of each instrument.</summary>
         public double[] Instruments { get; }
 
-        /// <summary>Is the speed of the exit.</summary>
+        /// <summary>The speed of the exit.</summary>
         public double Exit { get; set; }
     }
 }

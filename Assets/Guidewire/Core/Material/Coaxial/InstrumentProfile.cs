@@ -23,10 +23,10 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>Is the instrument's length, m.</summary>
+        /// <summary>The instrument's length, m.</summary>
         public double Length => _border[_border.Length - 1];
 
-        /// <summary>Has the pieces.</summary>
+        /// <summary>The pieces.</summary>
         public CrossSection[] Pieces => _piece;
 
         /// <summary>Borders of the pieces, m from the hub.</summary>

@@ -30,7 +30,7 @@ namespace Guidewire.Core
             _elasticSlip = elasticSlip;
         }
 
-        /// <summary>Is the coefficient mu.</summary>
+        /// <summary>The coefficient mu.</summary>
         public double Coefficient { get; }
 
         /// <summary>The inner instrument has slid.</summary>

@@ -356,37 +356,37 @@ namespace Guidewire.Core
             /// <summary>Index in the scene's list.</summary>
             public int Wall;
 
-            /// <summary>Is the element j in contact.</summary>
+            /// <summary>The element j in contact.</summary>
             public int Element;
 
-            /// <summary>Is the place s along the element, 0 to 1.</summary>
+            /// <summary>The place s along the element, 0 to 1.</summary>
             public double Position;
 
             /// <summary>The node at s = 0 or 1.</summary>
             public int Node;
 
-            /// <summary>Is the wall's normal n, towards the wire.</summary>
+            /// <summary>The wall's normal n, towards the wire.</summary>
             public Vector3d Normal;
 
-            /// <summary>Is the wall's offset c.n along the normal, m.</summary>
+            /// <summary>The wall's offset c.n along the normal, m.</summary>
             public double Offset;
 
-            /// <summary>Is the wire's radius r, m.</summary>
+            /// <summary>The wire's radius r, m.</summary>
             public double Radius;
 
             /// <summary>Distance that the substep requires, r or less, m.</summary>
             public double Clearance;
 
-            /// <summary>Is the inverse mass W along the normal, 1/kg.</summary>
+            /// <summary>The inverse mass W along the normal, 1/kg.</summary>
             public double Inverse;
 
-            /// <summary>Is the inverse mass V against slip, 1/kg.</summary>
+            /// <summary>The inverse mass V against slip, 1/kg.</summary>
             public double InverseOfSlip;
 
-            /// <summary>Is the multiplier lambda of the normal force, kg m.</summary>
+            /// <summary>The multiplier lambda of the normal force, kg m.</summary>
             public double NormalImpulse;
 
-            /// <summary>Is the multiplier f of friction, kg m.</summary>
+            /// <summary>The multiplier f of friction, kg m.</summary>
             public Vector3d FrictionImpulse;
 
             /// <summary>What the substeps before have left of the slip, m.</summary>

@@ -128,7 +128,7 @@ namespace Guidewire.Core
         /// <summary>The gradient in the shape evaluated last.</summary>
         public RodVector[] Gradient { get; }
 
-        /// <summary>Has Newton's direction.</summary>
+        /// <summary>Newton's direction.</summary>
         public RodVector[] Direction { get; }
 
         /// <summary>The shape tried last.</summary>

@@ -7,7 +7,7 @@ namespace Guidewire.Io
     /// <summary>The methods that take a key.</summary>
     internal static class Takers
     {
-        /// <summary>Has every method.</summary>
+        /// <summary>Every method.</summary>
         public static IReadOnlyList<Solver> All { get; } = Where(method => true);
 
         /// <summary>Those whose wire has a stiffness per iteration.</summary>
@@ -19,7 +19,7 @@ namespace Guidewire.Io
         /// <summary>Those that meet walls.</summary>
         public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
 
-        /// <summary>Has these methods.</summary>
+        /// <summary>These methods.</summary>
         public static IReadOnlyList<Solver> Only(params Solver[] methods)
         {
             return methods;

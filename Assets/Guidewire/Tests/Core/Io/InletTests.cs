@@ -213,7 +213,7 @@ namespace Guidewire.Core.Tests
             Assert.That((soft.Stiffness, soft.Regions!.StiffnessAt(30.0 * Slant)), Is.EqualTo((1e5, stiffness)));
         }
 
-        [TestCase("'end': 'rim 9', 'wallStiffness': 5e3", "regions[0].end = \"rim 9\" is not allowed: needs one of the")]
+        [TestCase("'end': 'rim 9', 'wallStiffness': 5e3", "regions[0].end = \"rim 9\" is not allowed: needs one of")]
         [TestCase("'end': 'rim 2', 'branch': 'branch 1', 'wallStiffness': 5e3",
             "regions[0].branch = \"branch 1\" is not allowed: needs no end beside it")]
         [TestCase("'end': 'rim 2'", "regions[0].wallStiffness = (missing) is not allowed: needs a number > 0 (Pa), or")]

@@ -44,7 +44,7 @@ namespace Guidewire.Core
             _shortest = shortest;
         }
 
-        /// <summary>Is the hub's drive.</summary>
+        /// <summary>The hub's drive.</summary>
         public MaterialDrive Drive => _drive;
 
         /// <summary>Whether there is a limit.</summary>

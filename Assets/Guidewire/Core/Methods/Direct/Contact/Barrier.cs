@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// s (g0 - g)^2/2 (<see cref="WallLaw"/>).</summary>
     internal readonly struct Barrier
     {
-        /// <summary>Is the distance g0, m.</summary>
+        /// <summary>The distance g0, m.</summary>
         public readonly double Distance;
 
         /// <summary>k, N/m: the force at half of g0 is 1.19 k g0.</summary>

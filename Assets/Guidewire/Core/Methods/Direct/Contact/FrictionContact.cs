@@ -4,22 +4,22 @@ namespace Guidewire.Core
     /// displacement at the start of the step.</summary>
     internal struct FrictionContact
     {
-        /// <summary>Is the index of the anchor.</summary>
+        /// <summary>The index of the anchor.</summary>
         public int Index;
 
-        /// <summary>Is the element j.</summary>
+        /// <summary>The element j.</summary>
         public int Element;
 
-        /// <summary>Is the position s along it.</summary>
+        /// <summary>The position s along it.</summary>
         public double Position;
 
-        /// <summary>Is the wall's normal n.</summary>
+        /// <summary>The wall's normal n.</summary>
         public Vector3d Normal;
 
-        /// <summary>Is the limit mu N of the friction force.</summary>
+        /// <summary>The limit mu N of the friction force.</summary>
         public double Limit;
 
-        /// <summary>Is the tangential stiffness k, N/m.</summary>
+        /// <summary>The tangential stiffness k, N/m.</summary>
         public double Stiffness;
 
         /// <summary>d at the step's start, m, along the wall.</summary>

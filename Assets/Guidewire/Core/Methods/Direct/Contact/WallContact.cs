@@ -7,10 +7,10 @@ namespace Guidewire.Core
         /// <summary>Index in the list of walls.</summary>
         public readonly int Wall;
 
-        /// <summary>Is the element j.</summary>
+        /// <summary>The element j.</summary>
         public readonly int Element;
 
-        /// <summary>Is the position s along it.</summary>
+        /// <summary>The position s along it.</summary>
         public readonly double Position;
 
         /// <summary>Whether a node touches, else the interior of the element.</summary>
@@ -19,7 +19,7 @@ namespace Guidewire.Core
         /// <summary>Unit normal, the direction of the force.</summary>
         public readonly Vector3d Normal;
 
-        /// <summary>Is the normal force, N.</summary>
+        /// <summary>The normal force, N.</summary>
         public readonly double Force;
 
         /// <summary>By how much the wall gives way there, m.</summary>

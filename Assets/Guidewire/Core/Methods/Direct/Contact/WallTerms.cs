@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// <summary>What to change about the barrier where a step has no solution, in one phrase, or null.</summary>
         public string? Advice => _advice?.Invoke();
 
-        /// <summary>Has the barriers of contact.</summary>
+        /// <summary>The barriers of contact.</summary>
         public BarrierEnergy Barrier { get; }
 
         /// <summary>Friction; null where no wall has friction.</summary>

@@ -67,7 +67,7 @@ namespace Guidewire.Core
         /// <summary>The rod's energies and loads.</summary>
         public RodTerms Terms => _terms;
 
-        /// <summary>Has positions and orientations.</summary>
+        /// <summary>Positions and orientations.</summary>
         public RodShape Shape => _motion.Shape;
 
         /// <summary>v of the nodes, m/s.</summary>
@@ -79,7 +79,7 @@ namespace Guidewire.Core
         /// <summary>z' of the angles to an instrument inside, rad/s; none where there is one alone.</summary>
         public double[] TwistRates => _motion.TwistRates;
 
-        /// <summary>Is the time, s.</summary>
+        /// <summary>The time, s.</summary>
         public double Time { get; private set; }
 
         /// <summary>Turn that the proximal frame has made, radians.</summary>
@@ -121,7 +121,7 @@ namespace Guidewire.Core
         /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
         public double Energy => KineticEnergy + _terms.Potential(Shape);
 
-        /// <summary>Is the kinetic energy, J.</summary>
+        /// <summary>The kinetic energy, J.</summary>
         public double KineticEnergy => _terms.Mass.KineticEnergy(Velocities, Spins)
             + (_terms.Supports.Coaxial == null ? 0.0
                 : InnerSpin.KineticEnergy(_terms.Supports.Coaxial, Spins, TwistRates));

@@ -14,7 +14,7 @@ namespace Guidewire.Core
             TwistRates = new double[shape.Twist.Length];
         }
 
-        /// <summary>Has positions and orientations.</summary>
+        /// <summary>Positions and orientations.</summary>
         public RodShape Shape { get; }
 
         /// <summary>v of the nodes, m/s.</summary>

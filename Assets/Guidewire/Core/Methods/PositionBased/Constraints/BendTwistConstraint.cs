@@ -33,10 +33,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Is the number of joints, n - 1.</summary>
+        /// <summary>The number of joints, n - 1.</summary>
         public int Count => _first.Length;
 
-        /// <summary>Is the factor 2/l of the Darboux vector, 1/units.</summary>
+        /// <summary>The factor 2/l of the Darboux vector, 1/units.</summary>
         public double DarbouxScale => _darbouxScale;
 
         /// <summary>gain w_j/(w_j + w_{j+1}) per joint, units.</summary>

@@ -40,10 +40,10 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Is the number of elements n.</summary>
+        /// <summary>The number of elements n.</summary>
         public int Count => _lower.Length;
 
-        /// <summary>Is the length l of an element, units.</summary>
+        /// <summary>The length l of an element, units.</summary>
         public double Length => _length;
 
         /// <summary>gain w_j l/D per element.</summary>

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     internal interface ILanes<T>
         where T : struct, ILanes<T>
     {
-        /// <summary>Is the number of lanes.</summary>
+        /// <summary>The number of lanes.</summary>
         static abstract int Count { get; }
 
         /// <summary>Says about how long an element and a joint in all lanes take, counted in elements of a scalar

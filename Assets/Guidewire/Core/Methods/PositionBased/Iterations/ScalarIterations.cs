@@ -18,10 +18,10 @@ namespace Guidewire.Core
             _joints = IterationOrders.Indices(order, bendTwist.Count);
         }
 
-        /// <summary>Has the elements' constraints.</summary>
+        /// <summary>The elements' constraints.</summary>
         public StretchConstraint Stretch { get; }
 
-        /// <summary>Has the joints' constraints.</summary>
+        /// <summary>The joints' constraints.</summary>
         public BendTwistConstraint BendTwist { get; }
 
         /// <summary>The order of each iteration.</summary>
