@@ -304,7 +304,7 @@ namespace Guidewire.Core
             {
                 slides |= leads[i] != Hubs.Leads[i];
                 Hubs.Leads[i] = leads[i];
-                Hubs.Ends[i] = _instrument[i].Profile.Length - leads[i];
+                Hubs.SetEnd(i, _instrument[i].Profile.Length - leads[i], i > 0 ? StationOf(i - 1, 0) : 0.0);
                 if (i > 0)
                 {
                     SetStations(i);

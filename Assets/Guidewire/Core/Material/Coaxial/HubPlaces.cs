@@ -1,8 +1,11 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Where instruments and the sheath around them are along a chain.</summary>
     internal sealed class HubPlaces
     {
+        private const double Rounding = 1e-14;    // of a length
         /// <summary>Of so many instruments, all hubs in one place.</summary>
         public HubPlaces(int count)
         {
@@ -15,6 +18,14 @@ namespace Guidewire.Core
 
         /// <summary>Where the instruments end, m from the outermost hub.</summary>
         public double[] Ends { get; }
+
+        /// <summary>Sets where an instrument ends, m. A tip that is at the outer instrument's last node but for rounding
+        /// is there: on which side of it forces are does not depend on rounding.</summary>
+        /// <param name="node">That node, m from the outermost hub.</param>
+        public void SetEnd(int instrument, double end, double node)
+        {
+            Ends[instrument] = Math.Abs(end - node) <= Rounding * node ? node : end;
+        }
 
         /// <summary>Where the sheath ends, m from the outermost hub.</summary>
         public double Sheathed { get; set; }

@@ -13,7 +13,8 @@ namespace Guidewire.Core
     ///       - sum (1/2 c^2 (1/K)' + c r').
     /// Of an element of the station's length s, compliances a along and b across its axis, force N and shear force V of
     /// the chain, and f of the loads alone, E' = -N (s' - f a') - 1/2 (N^2 + f^2) a' and what V adds. Where borders of
-    /// two instruments are in one place E has a kink, and E' is that of one side.</remarks>
+    /// two instruments are in one place E has a kink, and E' is that of one side; of two tips, that beyond the outer
+    /// one.</remarks>
     internal sealed class Release
     {
         private readonly CoaxialRod _rod;

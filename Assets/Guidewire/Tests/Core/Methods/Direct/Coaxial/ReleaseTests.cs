@@ -83,6 +83,29 @@ namespace Guidewire.Core.Tests
             Assert.That(force, Is.All.EqualTo(force[3]).Within(1e-7));
         }
 
+        // There the energy has a kink. Stations of 20 and of 40 elements end beside the length by rounding.
+        [Test]
+        public void TipsInOnePlace_ReleaseWhatTheyDoBeyondIt_WhateverIsRounded([Values(10, 20, 37, 40)] int elements)
+        {
+            double[] by = { -1e-12, -2.4e-16, -1.2e-16, 0.0, 1.2e-16, 2.4e-16, 1e-9 };
+            var force = new double[by.Length];
+            for (int k = 0; k < by.Length; k++)
+            {
+                var pair = new CoaxialPair(
+                    new[]
+                    {
+                        new[] { new CoaxialPair.Piece(0.6, 1.0, 0.0), new CoaxialPair.Piece(0.4, 1.0, 1.5) },
+                        new[] { new CoaxialPair.Piece(0.62, 0.5, 0.0), new CoaxialPair.Piece(0.23, 0.5, 3.0) },
+                    }, new[] { elements, 17 }, 0.3, new[] { 0.0, -0.15 + by[k] }, new[] { 0, 0 }, 1e8);
+                pair.Solve(0.6);
+                force[k] = pair.Force;
+            }
+            TestContext.WriteLine(string.Join(" ", force));
+            Assert.That(Math.Abs(force[6] - force[0]), Is.GreaterThan(0.05), "the kink");
+            Array.Resize(ref force, 6);
+            Assert.That(force, Is.All.EqualTo(force[0]).Within(1e-7));
+        }
+
         [Test]
         public void BordersThatMeetInASheath_ReleaseWhatTheyDoBesideIt()
         {
