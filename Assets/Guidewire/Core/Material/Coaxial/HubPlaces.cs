@@ -19,8 +19,8 @@ namespace Guidewire.Core
         /// <summary>Where the instruments end, m from the outermost hub.</summary>
         public double[] Ends { get; }
 
-        /// <summary>Sets where an instrument ends, m. A tip that is at the outer instrument's last node but for rounding
-        /// is there: on which side of it forces are does not depend on rounding.</summary>
+        /// <summary>Sets where an instrument ends, m. A tip that only rounding takes from the outer instrument's last
+        /// node is there, so that rounding does not choose the side of it.</summary>
         /// <param name="node">That node, m from the outermost hub.</param>
         public void SetEnd(int instrument, double end, double node)
         {
