@@ -160,7 +160,7 @@ namespace Guidewire.Benchmarks
 
         private static void PrintPush(string wall, ArchPush push, string speed)
         {
-            const int LeastTurns = 8;
+            const int MinTurns = 8;
             TimeSpan warmUp = TimeSpan.FromSeconds(3.0);
             TimeSpan timed = TimeSpan.FromSeconds(1.0);
             SteppedWire sweep = MotionCost.Sweep();
@@ -176,7 +176,7 @@ namespace Guidewire.Benchmarks
             double shortest = double.PositiveInfinity;
             double shortestSweep = double.PositiveInfinity;
             int turns = 0;
-            for (; turns < LeastTurns || one < timed; turns++)
+            for (; turns < MinTurns || one < timed; turns++)
             {
                 Simulation run = push.Start();
                 TimeSpan start = Processor();

@@ -74,7 +74,7 @@ namespace Guidewire.Core
                     + "radius, {0:G4} m: only planes and tubes may give way farther", radius));
             }
             double weight = density * parameters.Scene.Gravity.Length;
-            double most = soft.Limit > 0.0 ? soft.Limit : soft.MostOf(radius);
+            double most = soft.Limit > 0.0 ? soft.Limit : soft.MaxOf(radius);
             double softest = Math.Min(soft.Stiffness, soft.Regions?.Softest ?? soft.Stiffness);
             return softest * most > weight ? null
                 : Of(soft, softest < soft.Stiffness ? "regions" : "wallStiffness",

@@ -85,7 +85,7 @@ namespace Guidewire.Core
                 ? _walls[w].UnsignedDistance(contact.Distance) : contact.Distance;
             if (distance < 0.0 && radius - distance > known)
             {
-                distance = _walls[w].LeastAlong(a, b, distance);
+                distance = _walls[w].MinAlong(a, b, distance);
             }
             return Math.Max(known, radius - distance);
         }

@@ -7,7 +7,7 @@ namespace Guidewire.Core
     /// ones.</summary>
     internal sealed class VesselCells
     {
-        private const int Most = 1000;
+        private const int MaxCells = 1000;
         private const double PerRadius = 0.5;   // least length of a cell over the mean radius
 
         private readonly List<Vector3d> _middles = new List<Vector3d>();
@@ -32,7 +32,7 @@ namespace Guidewire.Core
                     length += Vector3d.Distance(tree.Points[k], tree.Points[tree.Before[k]]);
                 }
             }
-            double side = Math.Max(length / Most, PerRadius * width);
+            double side = Math.Max(length / MaxCells, PerRadius * width);
             // Chains between forks, each with the cell that it follows and its share of the flow.
             var waiting = new Queue<(int From, int First, int Cell, double Share)>();
             Branch(0, -1, 1.0);

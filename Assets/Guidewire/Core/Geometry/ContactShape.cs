@@ -175,7 +175,7 @@ namespace Guidewire.Core
         /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
         /// segment at a negative distance. The two differ where a segment's distance is the displacement that takes all
         /// of it out of the wall.</summary>
-        internal virtual double LeastAlong(in Vector3d a, in Vector3d b, double distance)
+        internal virtual double MinAlong(in Vector3d a, in Vector3d b, double distance)
         {
             return distance;
         }

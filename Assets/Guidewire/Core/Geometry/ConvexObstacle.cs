@@ -132,7 +132,7 @@ namespace Guidewire.Core
         /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest
         /// displacement out of it, which may be longer.</summary>
         /// <remarks>A point's signed distance from a convex body is convex along a segment: golden sections.</remarks>
-        internal override double LeastAlong(in Vector3d a, in Vector3d b, double distance)
+        internal override double MinAlong(in Vector3d a, in Vector3d b, double distance)
         {
             double from = 0.0;
             double to = 1.0;

@@ -12,7 +12,7 @@ namespace Guidewire.Core
     internal sealed class EnergyMonitor
     {
         /// <summary>The least that T may be over the energy put in.</summary>
-        public const double LeastAllowance = 4.0;
+        public const double MinAllowance = 4.0;
 
         private const double Rounding = 1e-9;   // of EI/L
         private readonly RodShape _shape;
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private readonly RodShape _before;
         private double _start;                  // J, with what changes of the material have put in
         private double _loadWork;               // J
-        private double _mostPutIn;              // J
+        private double _maxPutIn;              // J
         private int _step;
 
         /// <summary>A monitor of a wire at its start.</summary>
@@ -45,11 +45,11 @@ namespace Guidewire.Core
             _ends = ends;
             _before = new RodShape(shape.ElementCount, shape.InnerCount);
             Start();
-            _mostPutIn = Rounding * terms.Rod.BendStiffness1[0] / terms.Rod.TotalLength;
+            _maxPutIn = Rounding * terms.Rod.BendStiffness1[0] / terms.Rod.TotalLength;
         }
 
         /// <summary>What T may be over the energy put in.</summary>
-        public double Allowance { get; set; } = LeastAllowance;
+        public double Allowance { get; set; } = MinAllowance;
 
         /// <summary>Takes the wire after a step that the loads acted in as they are now; one line where it has blown
         /// up, else null.</summary>
@@ -63,21 +63,21 @@ namespace Guidewire.Core
             _loadWork += _terms.LoadWork(_before, _shape);
             _before.CopyFrom(_shape);
             double motion = Motion();
-            double putIn = _start + _loadWork + _ends.MostWork;
+            double putIn = _start + _loadWork + _ends.MaxWork;
             // A NaN fails every comparison, so the conditions state the good case.
             if (!(motion <= double.MaxValue))
             {
                 return string.Format(CultureInfo.InvariantCulture,
                     "the wire has no finite kinetic energy at step {0}", _step);
             }
-            if (motion <= Allowance * Math.Max(_mostPutIn, putIn))
+            if (motion <= Allowance * Math.Max(_maxPutIn, putIn))
             {
-                _mostPutIn = Math.Max(_mostPutIn, putIn);
+                _maxPutIn = Math.Max(_maxPutIn, putIn);
                 return null;
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "the wire moves with {0:G3} times the energy that was put into it (step {1})",
-                motion / Math.Max(_mostPutIn, putIn), _step);
+                motion / Math.Max(_maxPutIn, putIn), _step);
         }
 
         /// <summary>The wire as it is now is the start.</summary>
@@ -117,7 +117,7 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref _start);
             snapshot.Serialize(ref _loadWork);
-            snapshot.Serialize(ref _mostPutIn);
+            snapshot.Serialize(ref _maxPutIn);
             snapshot.Serialize(ref _step);
         }
 

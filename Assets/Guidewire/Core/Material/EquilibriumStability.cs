@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private const double SameEnergy = 1e-9;         // of the sum of the terms' magnitudes
         private const double NoEnergy = 1e-12;          // of EI/L
         private const int PowerIterations = 40;
-        private const int MostHalvings = 40;
+        private const int MaxHalvings = 40;
 
         private readonly RodSupports _supports;
         private readonly EnergyTerm[] _terms;
@@ -115,7 +115,7 @@ namespace Guidewire.Core
                 low = high;
                 high *= 4.0;
             }
-            for (int k = 0; k < MostHalvings && high > 1.02 * low; k++)
+            for (int k = 0; k < MaxHalvings && high > 1.02 * low; k++)
             {
                 double middle = 0.5 * (low + high);
                 bool isPositive = Factorise(shape, middle) == 0;

@@ -12,18 +12,18 @@ namespace Guidewire.Core
     /// shifts.</remarks>
     internal sealed class FollowerTangent
     {
-        private const int Most = 6;
+        private const int MaxSize = 6;
 
         private readonly EnergyTerm[] _terms;
         private readonly TipFollowers _followers;
         private readonly BlockTridiagonal _system;
-        private readonly RodVector[][] _response = new RodVector[Most][];
+        private readonly RodVector[][] _response = new RodVector[MaxSize][];
         private readonly RodVector[] _gradient;
         private readonly int _tip;
-        private readonly double[] _part = new double[Most * Most];    // Z, by rows
-        private readonly double[] _matrix = new double[Most * Most];  // 1 + Z G, then its triangles
-        private readonly int[] _pivot = new int[Most];
-        private readonly double[] _load = new double[Most];
+        private readonly double[] _part = new double[MaxSize * MaxSize];    // Z, by rows
+        private readonly double[] _matrix = new double[MaxSize * MaxSize];  // 1 + Z G, then its triangles
+        private readonly int[] _pivot = new int[MaxSize];
+        private readonly double[] _load = new double[MaxSize];
         private int _size;                                            // 3 or 6
 
         /// <summary>The tangent of this rod; <paramref name="followers"/> are among the terms.</summary>
@@ -34,7 +34,7 @@ namespace Guidewire.Core
             _system = new BlockTridiagonal(rod, supports);
             _gradient = new RodVector[_system.VectorCount];
             _tip = rod.ElementCount - 1;
-            for (int k = 0; k < Most; k++)
+            for (int k = 0; k < MaxSize; k++)
             {
                 _response[k] = new RodVector[_system.VectorCount];
             }
@@ -66,7 +66,7 @@ namespace Guidewire.Core
 
         private void Prepare(RodShape shape)
         {
-            _size = _followers.Force.Force == Vector3d.Zero ? 3 : Most;
+            _size = _followers.Force.Force == Vector3d.Zero ? 3 : MaxSize;
             for (int k = 0; k < _size; k++)
             {
                 Array.Clear(_response[k], 0, _response[k].Length);
@@ -88,9 +88,9 @@ namespace Guidewire.Core
                     double sum = row == column ? 1.0 : 0.0;
                     for (int k = 0; k < _size; k++)
                     {
-                        sum += _part[row * Most + k] * OfTip(_response[column], k);
+                        sum += _part[row * MaxSize + k] * OfTip(_response[column], k);
                     }
-                    _matrix[row * Most + column] = sum;
+                    _matrix[row * MaxSize + column] = sum;
                 }
             }
             Eliminate();
@@ -103,7 +103,7 @@ namespace Guidewire.Core
             SetColumn(0, 0, Vector3d.Cross(half, Vector3d.UnitX));
             SetColumn(0, 1, Vector3d.Cross(half, Vector3d.UnitY));
             SetColumn(0, 2, Vector3d.Cross(half, Vector3d.UnitZ));
-            if (_size == Most)
+            if (_size == MaxSize)
             {
                 _followers.Force.HalfTangent(shape, out Vector3d first, out Vector3d second, out Vector3d third);
                 SetColumn(3, 0, first);
@@ -111,9 +111,9 @@ namespace Guidewire.Core
                 SetColumn(3, 2, third);
                 for (int row = 0; row < 3; row++)
                 {
-                    for (int column = 3; column < Most; column++)
+                    for (int column = 3; column < MaxSize; column++)
                     {
-                        _part[row * Most + column] = -_part[column * Most + row];
+                        _part[row * MaxSize + column] = -_part[column * MaxSize + row];
                     }
                 }
             }
@@ -121,9 +121,9 @@ namespace Guidewire.Core
 
         private void SetColumn(int row, int column, in Vector3d value)
         {
-            _part[row * Most + column] = value.X;
-            _part[(row + 1) * Most + column] = value.Y;
-            _part[(row + 2) * Most + column] = value.Z;
+            _part[row * MaxSize + column] = value.X;
+            _part[(row + 1) * MaxSize + column] = value.Y;
+            _part[(row + 2) * MaxSize + column] = value.Z;
         }
 
         /// <summary>Turns a solution y of the symmetric system into one of the full tangent: y less the answers to
@@ -135,7 +135,7 @@ namespace Guidewire.Core
                 _load[row] = 0.0;
                 for (int k = 0; k < _size; k++)
                 {
-                    _load[row] += _part[row * Most + k] * OfTip(y, k);
+                    _load[row] += _part[row * MaxSize + k] * OfTip(y, k);
                 }
             }
             Substitute();
@@ -161,21 +161,21 @@ namespace Guidewire.Core
                 int pivot = k;
                 for (int row = k + 1; row < _size; row++)
                 {
-                    pivot = Math.Abs(_matrix[row * Most + k]) > Math.Abs(_matrix[pivot * Most + k]) ? row : pivot;
+                    pivot = Math.Abs(_matrix[row * MaxSize + k]) > Math.Abs(_matrix[pivot * MaxSize + k]) ? row : pivot;
                 }
                 _pivot[k] = pivot;
                 for (int column = 0; column < _size; column++)
                 {
-                    (_matrix[k * Most + column], _matrix[pivot * Most + column]) =
-                        (_matrix[pivot * Most + column], _matrix[k * Most + column]);
+                    (_matrix[k * MaxSize + column], _matrix[pivot * MaxSize + column]) =
+                        (_matrix[pivot * MaxSize + column], _matrix[k * MaxSize + column]);
                 }
                 for (int row = k + 1; row < _size; row++)
                 {
-                    double fraction = _matrix[row * Most + k] / _matrix[k * Most + k];
-                    _matrix[row * Most + k] = fraction;
+                    double fraction = _matrix[row * MaxSize + k] / _matrix[k * MaxSize + k];
+                    _matrix[row * MaxSize + k] = fraction;
                     for (int column = k + 1; column < _size; column++)
                     {
-                        _matrix[row * Most + column] -= fraction * _matrix[k * Most + column];
+                        _matrix[row * MaxSize + column] -= fraction * _matrix[k * MaxSize + column];
                     }
                 }
             }
@@ -191,16 +191,16 @@ namespace Guidewire.Core
             {
                 for (int column = 0; column < k; column++)
                 {
-                    _load[k] -= _matrix[k * Most + column] * _load[column];
+                    _load[k] -= _matrix[k * MaxSize + column] * _load[column];
                 }
             }
             for (int k = _size - 1; k >= 0; k--)
             {
                 for (int column = k + 1; column < _size; column++)
                 {
-                    _load[k] -= _matrix[k * Most + column] * _load[column];
+                    _load[k] -= _matrix[k * MaxSize + column] * _load[column];
                 }
-                _load[k] /= _matrix[k * Most + k];
+                _load[k] /= _matrix[k * MaxSize + k];
             }
         }
     }

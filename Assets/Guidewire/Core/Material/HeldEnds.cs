@@ -50,7 +50,7 @@ namespace Guidewire.Core
 
         /// <summary>The most that <see cref="Work"/> has been, J; where steps are counted, with the allowance within
         /// one.</summary>
-        public double MostWork { get; private set; }
+        public double MaxWork { get; private set; }
 
         /// <summary>Sets positions and frames of this time.</summary>
         public void Place(RodShape shape, double time)
@@ -69,7 +69,7 @@ namespace Guidewire.Core
             {
                 Turn(shape, proximalTurn, distalTurn);
             }
-            MostWork = Math.Max(MostWork, Work + _carried);
+            MaxWork = Math.Max(MaxWork, Work + _carried);
         }
 
         /// <summary>The ends are followed from this shape on, in which the frames have made these turns,
@@ -101,7 +101,7 @@ namespace Guidewire.Core
         {
             double all = speed + _terms.Rod.TotalLength * turning;
             _carried = Math.Max(_carried, 0.5 * _terms.Mass.Total * all * all);
-            MostWork = Math.Max(MostWork, Work + _carried);
+            MaxWork = Math.Max(MaxWork, Work + _carried);
         }
 
         /// <summary>Counts what the ends may have put in at most in a step of dt in which a solver has placed them
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             double speed = (move + length * turn) / dt;
             _carried = Math.Max(_carried, 0.5 * (_terms.Mass.Total * speed * speed
                 + (_stretch * move * move + _twist * turn * turn) / length));
-            MostWork = Math.Max(MostWork, Work + _carried);
+            MaxWork = Math.Max(MaxWork, Work + _carried);
         }
 
         /// <summary>Writes or restores the turns that the frames have made.</summary>
@@ -162,7 +162,7 @@ namespace Guidewire.Core
         public void SerializeWork(Snapshot snapshot)
         {
             Work = snapshot.Serialize(Work);
-            MostWork = snapshot.Serialize(MostWork);
+            MaxWork = snapshot.Serialize(MaxWork);
             snapshot.Serialize(ref _carried);
         }
 

@@ -71,7 +71,7 @@ namespace Guidewire.Core
                 Twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
                 double fraction = terms.Supports.FractionOutside(k);
-                LargestCurvature = fraction <= CoaxialJoints.LeastFraction ? LargestCurvature
+                LargestCurvature = fraction <= CoaxialJoints.MinFraction ? LargestCurvature
                     : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
             }
         }

@@ -15,9 +15,9 @@ namespace Guidewire.Core
         private readonly Steering? _steering;
         private readonly DriveTable? _table;
         private readonly bool _followsSpring;
-        private double _leastInsertion = double.NegativeInfinity;  // m
-        private double _mostInsertion = double.PositiveInfinity;   // m
-        private double? _given;              // of the next step, m
+        private double _minInsertion = double.NegativeInfinity;  // m
+        private double _maxInsertion = double.PositiveInfinity;   // m
+        private double? _override;           // of the next step, m
         private readonly double _length;     // of the instrument, m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
@@ -55,8 +55,8 @@ namespace Guidewire.Core
             _steering = drive._steering;
             _table = drive._table;
             _followsSpring = true;
-            _leastInsertion = drive._leastInsertion;
-            _mostInsertion = drive._mostInsertion;
+            _minInsertion = drive._minInsertion;
+            _maxInsertion = drive._maxInsertion;
             var kept = new Snapshot();
             drive.SerializeOwn(kept);
             SerializeOwn(kept.ToRead());
@@ -83,30 +83,30 @@ namespace Guidewire.Core
         public double StepEnd { get; private set; }
 
         /// <summary>The displacement asked for in the present step, m, never negative.</summary>
-        public double Asked { get; private set; }
+        public double CommandedDisplacement { get; private set; }
 
         /// <summary>The displacement asked for in all steps, m, there and back both counted.</summary>
-        public double TotalAsked { get; private set; }
+        public double TotalCommandedDisplacement { get; private set; }
 
         /// <summary>Whether so much was lost that the hub has not done what it was asked.</summary>
-        public bool FallsShort => Shortfall.Counts(Slip, TotalAsked, _length);
+        public bool FallsShort => Shortfall.Counts(Slip, TotalCommandedDisplacement, _length);
 
         /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
-        public double BeyondLimit => Insertion - _mostInsertion;
+        public double BeyondLimit => Insertion - _maxInsertion;
 
         /// <summary>Largest displacements of node 0 from its present position, m.</summary>
         /// <param name="back">0 or less.</param>
         /// <param name="forward">0 or more.</param>
         public void Limit(double back, double forward)
         {
-            _leastInsertion = Math.Min(Insertion, Insertion + back);
-            _mostInsertion = Insertion + forward;
+            _minInsertion = Math.Min(Insertion, Insertion + back);
+            _maxInsertion = Insertion + forward;
         }
 
         /// <summary>Displacement of node 0 in the following steps, m, instead of that asked; null: as asked.</summary>
-        public void Give(double? displacement)
+        public void OverrideDisplacement(double? displacement)
         {
-            _given = displacement;
+            _override = displacement;
         }
 
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
@@ -129,9 +129,9 @@ namespace Guidewire.Core
             double speed = SpeedAt(time);
             double asked = speed * _timeStep;
             _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
-            Asked = Math.Abs(asked);
-            TotalAsked += Asked;
-            double goes = Limited(_given ?? asked);
+            CommandedDisplacement = Math.Abs(asked);
+            TotalCommandedDisplacement += CommandedDisplacement;
+            double goes = Limited(_override ?? asked);
             if (goes != asked)
             {
                 Slip += _sense * (asked - goes);
@@ -145,7 +145,7 @@ namespace Guidewire.Core
         /// <summary>Displacement of node 0 in the step that begins at this time, m.</summary>
         public double NextMove(double time)
         {
-            return _direction == null ? 0.0 : Limited(_given ?? SpeedAt(time) * _timeStep);
+            return _direction == null ? 0.0 : Limited(_override ?? SpeedAt(time) * _timeStep);
         }
 
         /// <summary>The hub slips, after a step, along its axis.</summary>
@@ -162,7 +162,7 @@ namespace Guidewire.Core
 
         /// <summary>The part of a displacement between two positions in the sense in which the drive was last asked to
         /// go, m.</summary>
-        public double Gone(in Vector3d from, in Vector3d to)
+        public double AxialProgress(in Vector3d from, in Vector3d to)
         {
             return _sense * Vector3d.Dot(to - from, Axis);
         }
@@ -179,7 +179,7 @@ namespace Guidewire.Core
             Insertion = snapshot.Serialize(Insertion);
             Turn = snapshot.Serialize(Turn);
             Slip = snapshot.Serialize(Slip);
-            TotalAsked = snapshot.Serialize(TotalAsked);
+            TotalCommandedDisplacement = snapshot.Serialize(TotalCommandedDisplacement);
             snapshot.Serialize(ref _sense);
         }
 
@@ -195,7 +195,7 @@ namespace Guidewire.Core
         {
             Serialize(snapshot);
             Axis = snapshot.Serialize(Axis);
-            Asked = snapshot.Serialize(Asked);
+            CommandedDisplacement = snapshot.Serialize(CommandedDisplacement);
             StepEnd = snapshot.Serialize(StepEnd);
         }
 
@@ -209,8 +209,8 @@ namespace Guidewire.Core
         // The part of a move that the limits allow, m.
         private double Limited(double asked)
         {
-            return Insertion + asked > _mostInsertion || Insertion + asked < _leastInsertion
-                ? Math.Min(Math.Max(Insertion + asked, _leastInsertion), _mostInsertion) - Insertion : asked;
+            return Insertion + asked > _maxInsertion || Insertion + asked < _minInsertion
+                ? Math.Min(Math.Max(Insertion + asked, _minInsertion), _maxInsertion) - Insertion : asked;
         }
 
         private double Rate(TimeTable table, double time)

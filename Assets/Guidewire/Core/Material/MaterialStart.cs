@@ -78,7 +78,7 @@ namespace Guidewire.Core
             {
                 foreach (ContactShape wall in scene.Walls)
                 {
-                    double radius = units * (scene.Rod.Radius[j] - (wall.Softness?.MostOf(scene.Rod.Radius[j]) ?? 0.0));
+                    double radius = units * (scene.Rod.Radius[j] - (wall.Softness?.MaxOf(scene.Rod.Radius[j]) ?? 0.0));
                     if (!WireStart.IsFree(wall, scene.IsReached, x, j, fraction * radius, out double distance))
                     {
                         return name + Text(j, x[j], x[j + 1], radius, distance, wall);

@@ -19,7 +19,7 @@ namespace Guidewire.Core
     {
         private const double Interval = 0.1;           // of t
         private const double Regularisation = 1e-6;    // of EI/L^2; a wire may turn about its own load for nothing
-        private const double MostRegularisation = 0.01;  // of the softest element's EI/L^2
+        private const double MaxRegularisation = 0.01;  // of the softest element's EI/L^2
         private const double Neutral = 1.01e-4;        // of EI/L^2: eigenvalues above its negative may be 0
 
         private readonly MaterialScene _scene;
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             _length = scene.Rod.TotalLength;
             _bendForce = scene.Rod.BendForce;
             double softest = terms.SoftestStiffness;
-            _regularisation = Math.Min(Regularisation * _bendForce, MostRegularisation * softest / (_length * _length));
+            _regularisation = Math.Min(Regularisation * _bendForce, MaxRegularisation * softest / (_length * _length));
             _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
             _tangent = terms.HavePotential ? null
                 : new FollowerTangent(scene.Rod, scene.Supports, _all, terms.Followers);

@@ -32,8 +32,8 @@ namespace Guidewire.Core
         private double _play;             // where the play angle has been the largest, m
         private double _mismatch;         // 1/m
         private double _reduced;          // B_r, N m^2
-        private double _gone;             // of the catheter's hub, m
-        private double _wireGone;
+        private double _displacement;     // of the catheter's hub, m
+        private double _wireDisplacement;
 
         /// <param name="elements">n of the catheter.</param>
         /// <param name="metres">A unit of length.</param>
@@ -78,19 +78,19 @@ namespace Guidewire.Core
         public double Torque { get; private set; }
 
         /// <summary>Displacement that the catheter's hub was asked, there and back both counted, m.</summary>
-        public double Asked { get; private set; }
+        public double CommandedDisplacement { get; private set; }
 
         /// <summary>What it went of that, m.</summary>
-        public double Gone => _gone;
+        public double Displacement => _displacement;
 
         /// <summary>Displacement that the catheter's hub has lost, m.</summary>
         public double Shortfall { get; private set; }
 
         /// <summary>Displacement that the wire's hub was asked, there and back both counted, m.</summary>
-        public double WireAsked { get; private set; }
+        public double WireCommandedDisplacement { get; private set; }
 
         /// <summary>What it went of that, m.</summary>
-        public double WireDisplacement => _wireGone;
+        public double WireDisplacement => _wireDisplacement;
 
         /// <summary>Displacement that the wire's hub has lost, m.</summary>
         public double WireShortfall { get; private set; }
@@ -246,8 +246,8 @@ namespace Guidewire.Core
             int wire = drives.Length - 1;
             int inside = _instrument + 1;
             MaterialDrive drive = drives[_instrument];
-            _gone += drive.DisplacementSince(from[_instrument]);
-            _wireGone += drives[wire].DisplacementSince(from[wire]);
+            _displacement += drive.DisplacementSince(from[_instrument]);
+            _wireDisplacement += drives[wire].DisplacementSince(from[wire]);
             _friction.Slide(drives[inside].Insertion - from[inside] - (drive.Insertion - from[_instrument]));
         }
 
@@ -256,8 +256,8 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _play);
             snapshot.Serialize(ref _mismatch);
             snapshot.Serialize(ref _reduced);
-            snapshot.Serialize(ref _gone);
-            snapshot.Serialize(ref _wireGone);
+            snapshot.Serialize(ref _displacement);
+            snapshot.Serialize(ref _wireDisplacement);
             _friction.Serialize(snapshot);
         }
 
@@ -274,8 +274,8 @@ namespace Guidewire.Core
             Array.Copy(own.Q, Orientations, Orientations.Length);
             Insertion = drive.Insertion;
             Turn = drive.Turn;
-            Asked = drive.TotalAsked;
-            WireAsked = wireDrive.TotalAsked;
+            CommandedDisplacement = drive.TotalCommandedDisplacement;
+            WireCommandedDisplacement = wireDrive.TotalCommandedDisplacement;
             Shortfall = drive.Slip;
             WireShortfall = wireDrive.Slip;
             Torque = torque;
@@ -296,7 +296,7 @@ namespace Guidewire.Core
                 Vector3d turn = bending.TurnOf(shape, k);
                 double curvature = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y) / joints.LengthOf(k);
                 double outside = joints.FractionOutside(k);
-                LargestCurvature = outside <= CoaxialJoints.LeastFraction ? LargestCurvature
+                LargestCurvature = outside <= CoaxialJoints.MinFraction ? LargestCurvature
                     : Math.Max(LargestCurvature, curvature / outside);
                 // A joint has the curvature between the middles of its elements, the last one on to the end.
                 double from = to;

@@ -80,10 +80,11 @@ namespace Guidewire.Io
             if (catheters.Count > 0)
             {
                 CoaxialRecord first = catheters[0];
-                var hubs = new JArray(HubTravel(first.WireAsked, first.WireDisplacement, first.WireShortfall));
+                var hubs = new JArray(
+                    HubTravel(first.WireCommandedDisplacement, first.WireDisplacement, first.WireShortfall));
                 foreach (CoaxialRecord one in catheters)
                 {
-                    hubs.Add(HubTravel(one.Asked, one.Gone, one.Shortfall));
+                    hubs.Add(HubTravel(one.CommandedDisplacement, one.Displacement, one.Shortfall));
                 }
                 json.Property("hub")!.AddAfterSelf(new JProperty("hubs", hubs));
                 json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(catheters.Select(Catheter))));

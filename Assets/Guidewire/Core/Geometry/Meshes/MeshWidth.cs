@@ -17,7 +17,7 @@ namespace Guidewire.Core
         private const double SmallestSphere = 0.7;            // of that radius: smaller balls lie in folds of the wall
         private const int MaxShrinks = 30;
         private const double Converged = 2e-3;    // of a ball's radius squared
-        private const double Least = 1e-6;    // of the mesh's size, for a radius
+        private const double MinRadius = 1e-6;    // of the mesh's size, for a radius
 
         /// <summary>The smallest radius between two, units; infinite where there is none.</summary>
         public static double Narrowest(ContactShape wall, MeshGeometry mesh, double above, double below)
@@ -29,7 +29,7 @@ namespace Guidewire.Core
                 area += Area(mesh, t);
                 size = Math.Max(size, Vector3d.Distance(mesh.Corners[3 * t], mesh.Corners[0]));
             }
-            double least = Math.Max(above, Least * size);
+            double least = Math.Max(above, MinRadius * size);
             double samples = SamplesOverRadius * area / (least * least);
             double cell = area / Math.Min(Math.Max(samples, MinSamples), MaxSamples);
             var walk = new LumenWalk(wall, least);

@@ -135,9 +135,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Stiffen(bool isOn)
+        public override void DropGeometricStiffness(bool isOn)
         {
-            _rows.IsStiffened = isOn;
+            _rows.DropsGeometricStiffness = isOn;
         }
 
         /// <inheritdoc/>
@@ -402,7 +402,7 @@ namespace Guidewire.Core
         private void AddJoint(in CoaxialJointState s, ref RodVector a, ref RodVector b, ref RodBlock blockA,
             ref RodBlock blockB)
         {
-            if (!_rows.IsStiffened)
+            if (!_rows.DropsGeometricStiffness)
             {
                 _law.AddBlocks(s.Joint, s.Relative, ref a, ref b, ref blockA, ref blockB);
                 return;

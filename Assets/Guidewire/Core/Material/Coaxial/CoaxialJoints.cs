@@ -16,7 +16,7 @@ namespace Guidewire.Core
     internal sealed class CoaxialJoints
     {
         /// <summary>Fraction of a joint outside a sheath below which it counts as straight.</summary>
-        public const double LeastFraction = 1e-3;
+        public const double MinFraction = 1e-3;
 
         private readonly CoaxialInstrument[] _instrument;
         private readonly int[] _beyond;            // nodes of each instrument in the chain, from its tip on

@@ -26,7 +26,7 @@ namespace Guidewire.Core
         public TwistRow[] Rows { get; }
 
         /// <summary>Whether second derivatives by angles are to be positive.</summary>
-        public bool IsStiffened { get; set; }
+        public bool DropsGeometricStiffness { get; set; }
 
         /// <summary>Adds the gradient by the angles on both sides of the joint at node k, which is no tip.</summary>
         public void AddGradient(RodVector[] gradient, int k, in CoaxialJointState s)
@@ -114,7 +114,7 @@ namespace Guidewire.Core
             ref TwistRow row = ref Row(k - 1, frame);
             double c = Math.Cos(s.FrameBefore);
             double si = Math.Sin(s.FrameBefore);
-            double half = IsStiffened ? 0.0 : 0.5;
+            double half = DropsGeometricStiffness ? 0.0 : 0.5;
             Vector3d along = TurnedFrame.TimesT(s.Turn, mixed, 0.5);
             row.Turn += Turned(new Vector3d(own.C31 - half * g.T2, own.C32 + half * g.T1, own.C33) - along, c, si);
             row.NextTurn += new Vector3d(own.F13, own.F23, own.F33) + TurnedFrame.TimesT(s.Turn, mixed, -0.5);
@@ -206,12 +206,12 @@ namespace Guidewire.Core
         // Where they are to be positive, at least as much as all of them together have.
         private double Kept(double second, double mixed)
         {
-            return IsStiffened ? Math.Max(second, 0.0) + Math.Abs(mixed) : second;
+            return DropsGeometricStiffness ? Math.Max(second, 0.0) + Math.Abs(mixed) : second;
         }
 
         private double Unkept(double mixed)
         {
-            return IsStiffened ? 0.0 : mixed;
+            return DropsGeometricStiffness ? 0.0 : mixed;
         }
 
         private static Vector3d Turned(in Vector3d v, double c, double s)

@@ -13,7 +13,7 @@ namespace Guidewire.Core
     internal sealed class BendTwistEnergy<TLaw> : BendTwistTerm
         where TLaw : struct, IJointLaw
     {
-        private const double MostWound = 1.0;  // radians of joint 0 from its winding
+        private const double MaxWound = 1.0;  // radians of joint 0 from its winding
 
         private readonly Joint[] _joint;  // 0: proximal clamp; k: between elements k-1 and k; n: distal clamp
         private readonly bool _hasProximal;
@@ -25,7 +25,7 @@ namespace Guidewire.Core
         private double _winding;        // w, radians
         private Quaterniond _wound = Quaterniond.Identity;   // the rotation by w
         private double _rewound;        // change of the energy by the last change of w, J: of its small bending
-        private bool _isStiffened;
+        private bool _dropsGeometricStiffness;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
         private RodVector _clampVector;
         private RodVector[]? _onAfter;        // couple of each joint on the element after it, N m
@@ -68,7 +68,7 @@ namespace Guidewire.Core
                 return;
             }
             double turn = _law.Measure(FirstRelative(shape)).Z;
-            if (Math.Abs(turn) > MostWound)
+            if (Math.Abs(turn) > MaxWound)
             {
                 double before = _law.Value(First, FirstRelative(shape));
                 Wind(_winding + turn);
@@ -168,9 +168,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Leaves the part of the second derivatives out that goes with the couples.</summary>
-        public override void Stiffen(bool isOn)
+        public override void DropGeometricStiffness(bool isOn)
         {
-            _isStiffened = isOn;
+            _dropsGeometricStiffness = isOn;
         }
 
         /// <inheritdoc/>
@@ -189,7 +189,7 @@ namespace Guidewire.Core
             {
                 int stop = Math.Min(j + 4, end);
                 if (stop == j + 4 && HasLanes
-                    && RotationVectorLanes.AddBlocks(_joint, shape, blocks, gradient, j, _isStiffened))
+                    && RotationVectorLanes.AddBlocks(_joint, shape, blocks, gradient, j, _dropsGeometricStiffness))
                 {
                     j = stop;
                 }
@@ -212,7 +212,7 @@ namespace Guidewire.Core
         private void AddJoint(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b,
             ref RodBlock blockA, ref RodBlock blockB)
         {
-            if (!_isStiffened)
+            if (!_dropsGeometricStiffness)
             {
                 _law.AddBlocks(joint, relative, ref a, ref b, ref blockA, ref blockB);
                 return;

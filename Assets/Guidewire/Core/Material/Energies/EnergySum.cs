@@ -63,11 +63,11 @@ namespace Guidewire.Core
         }
 
         /// <summary>Second derivatives with or without what need not be positive.</summary>
-        public static void Stiffen(EnergyTerm[] terms, bool isOn)
+        public static void DropGeometricStiffness(EnergyTerm[] terms, bool isOn)
         {
             foreach (EnergyTerm term in terms)
             {
-                term.Stiffen(isOn);
+                term.DropGeometricStiffness(isOn);
             }
         }
 

@@ -63,7 +63,7 @@ namespace Guidewire.Core
 
         /// <summary>Whether <see cref="AddBlocks"/> is to leave out of the second derivatives what goes with a force
         /// and need not be positive: far from balance such forces need not be there.</summary>
-        public virtual void Stiffen(bool isOn)
+        public virtual void DropGeometricStiffness(bool isOn)
         {
         }
 

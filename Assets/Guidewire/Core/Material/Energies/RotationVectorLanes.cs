@@ -70,7 +70,7 @@ namespace Guidewire.Core
         /// <param name="isStiffened">Whether the blocks are those of joints at rest.</param>
         [MethodImpl(Compiled.AtOnce)]
         public static bool AddBlocks(Joint[] joints, RodShape shape, RodBlock[] blocks, RodVector[] gradient, int j,
-            bool isStiffened)
+            bool dropsGeometricStiffness)
         {
 #if NET8_0_OR_GREATER
             if (!Load(joints, shape, j, out Stiffness stiffness, out Vector3d4 theta, out Vector3d4 rest))
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             Vector256<double> slope = RotationVector4.CotangentSlope(square);
             Vector256<double> tb = Vector256.Create(1.0) - c * square;
             Vector3d4 m = Couple(stiffness, theta - rest);
-            if (isStiffened)
+            if (dropsGeometricStiffness)
             {
                 Vector3d4 couple = m;
                 m = Couple(stiffness, theta - theta);

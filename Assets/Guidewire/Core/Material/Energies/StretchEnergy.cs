@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private readonly double[] _stretch;  // EA, N
         private readonly Vector3d[]? _rest;  // p at rest, where it is not e3
 
-        private bool _isStiffened;
+        private bool _dropsGeometricStiffness;
 
         /// <summary>The energy of a rod with these elements.</summary>
         /// <param name="rest">p at which each element has no stress, or null for e3.</param>
@@ -30,9 +30,9 @@ namespace Guidewire.Core
 
         /// <summary>Leaves the part of compressed elements' second derivatives out that goes with their force, which
         /// is not positive.</summary>
-        public override void Stiffen(bool isOn)
+        public override void DropGeometricStiffness(bool isOn)
         {
-            _isStiffened = isOn;
+            _dropsGeometricStiffness = isOn;
         }
 
         /// <inheritdoc/>
@@ -96,7 +96,7 @@ namespace Guidewire.Core
             if (HasLanes)
             {
                 from = StretchLanes.AddBlocks(shape, _length, _shear, _stretch, blocks, gradient, from, end,
-                    _isStiffened);
+                    _dropsGeometricStiffness);
             }
 #endif
             for (int j = from; j < end; j++)
@@ -134,7 +134,7 @@ namespace Guidewire.Core
                 block.D31 -= h31; block.D32 -= h32; block.D33 -= h33;
 
                 // (x+, theta) = R M, column by column: (a d2 - (EA - GA) p2 d3, -a d1 + (EA - GA) p1 d3, 0).
-                Vector3d g = _isStiffened && n.Z < 0.0 ? Vector3d.Zero : n;
+                Vector3d g = _dropsGeometricStiffness && n.Z < 0.0 ? Vector3d.Zero : n;
                 double a = shear * p.Z - g.Z;
                 Vector3d first = a * d2 - (excess * p.Y) * d3;
                 Vector3d second = (excess * p.X) * d3 - a * d1;

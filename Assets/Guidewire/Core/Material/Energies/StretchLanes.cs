@@ -54,11 +54,12 @@ namespace Guidewire.Core
         /// <summary>Adds gradients and blocks of elements.</summary>
         [MethodImpl(Compiled.AtOnce)]
         public static int AddBlocks(RodShape shape, double[] length, double[] shears, double[] stretch,
-            RodBlock[] blocks, RodVector[] gradient, int from, int end, bool isStiffened)
+            RodBlock[] blocks, RodVector[] gradient, int from, int end, bool dropsGeometricStiffness)
         {
             Vector256<double> one = Vector256.Create(1.0);
             Vector256<double> sign = Vector256.Create(-0.0);
-            Vector256<double> stiffened = isStiffened ? Vector256<double>.AllBitsSet : Vector256<double>.Zero;
+            Vector256<double> dropped = dropsGeometricStiffness
+                ? Vector256<double>.AllBitsSet : Vector256<double>.Zero;
             int j = from;
             for (; j + 4 <= end; j += 4)
             {
@@ -90,7 +91,7 @@ namespace Guidewire.Core
                 Rows4.Add(ref next.A33, Stride, h33, Rows4.Nothing);
 
                 Vector256<double> free = Vector256.AndNot(Vector256<double>.AllBitsSet,
-                    stiffened & Vector256.LessThan(n.Z, Vector256<double>.Zero));
+                    dropped & Vector256.LessThan(n.Z, Vector256<double>.Zero));
                 var g = new Vector3d4(n.X & free, n.Y & free, n.Z & free);
                 Vector256<double> a = shear * p.Z - g.Z;
                 Vector3d4 first = a * d2 - (excess * p.Y) * d3;

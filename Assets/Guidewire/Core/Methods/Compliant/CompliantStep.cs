@@ -159,8 +159,8 @@ namespace Guidewire.Core
                 return;
             }
             // Of the displacement of node 0 only the component along the drive counts: walls may move it aside.
-            double asked = Drive.Asked / Scene.Metres;
-            record.AddDrive(asked, asked - Drive.Gone(start, Shape.X[0]) / Scene.Metres);
+            double asked = Drive.CommandedDisplacement / Scene.Metres;
+            record.AddDrive(asked, asked - Drive.AxialProgress(start, Shape.X[0]) / Scene.Metres);
         }
 
         /// <inheritdoc/>

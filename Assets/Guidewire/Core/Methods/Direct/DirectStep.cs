@@ -13,10 +13,10 @@ namespace Guidewire.Core
         private const string Limit = "; a hubForceLimit lets the hub slip";
         private const string FewIterations = "; maxNewtonIterations is below its default, which may suffice";
 
-        private const int MostSlips = 60;
+        private const int MaxSlips = 60;
         private const double OfElement = 0.01;     // by which a hub may be past its end
 
-        private const double MostSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
+        private const double MaxSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
 
         private readonly RodDynamics _dynamics;
         private HubRecord? _hub;
@@ -177,7 +177,7 @@ namespace Guidewire.Core
                 if (spring != null && Terms.Walls()!.HoldsStart)
                 {
                     SlipHub(spring);
-                    CountDrive(length / TimeStep * Drive.Asked, held, spring.HeldPosition(Shape));
+                    CountDrive(length / TimeStep * Drive.CommandedDisplacement, held, spring.HeldPosition(Shape));
                     Failure ??= FindOverdriven() ?? FindDrivenOut();
                 }
             }
@@ -203,9 +203,9 @@ namespace Guidewire.Core
             double asked = Drive.Insertion;
             double slip = 0.0;
             bool isTooFar = false;
-            for (int left = Terms.Release == null ? 1 : MostSlips; left > 0; left--)
+            for (int left = Terms.Release == null ? 1 : MaxSlips; left > 0; left--)
             {
-                spring.Besides = Terms.Release?.SheathForce(Shape) ?? 0.0;
+                spring.ReleaseForce = Terms.Release?.SheathForce(Shape) ?? 0.0;
                 double needed = spring.SlipOf(Shape);
                 if (needed == 0.0)
                 {
@@ -260,7 +260,7 @@ namespace Guidewire.Core
         {
             get
             {
-                if (_dynamics.MostIterations < new MethodParameters().MaxNewtonIterations)
+                if (_dynamics.MaxIterations < new MethodParameters().MaxNewtonIterations)
                 {
                     return FewIterations;
                 }
@@ -303,7 +303,7 @@ namespace Guidewire.Core
             {
                 warnings.Add(WarningTable.Rounding.With(_dynamics.Newton.BalanceRounding.OfSupports));
             }
-            if (_spinLoss != null && _spinLoss.Expected > MostSpinLoss)
+            if (_spinLoss != null && _spinLoss.Expected > MaxSpinLoss)
             {
                 warnings.Add(WarningTable.SpinLost.With(_spinLoss.LargestTurn, 100.0 * _spinLoss.Expected));
             }
@@ -415,7 +415,7 @@ namespace Guidewire.Core
         private void CountDrive(double asked, in Vector3d before, in Vector3d after)
         {
             Contacts!.DriveAsked += asked / Scene.Metres;
-            Contacts.DriveShortfall += (asked - Drive.Gone(before, after)) / Scene.Metres;
+            Contacts.DriveShortfall += (asked - Drive.AxialProgress(before, after)) / Scene.Metres;
         }
 
         // A hub that misses its position by a tenth of an element pulls at node 0 with EA, the force under which a wire

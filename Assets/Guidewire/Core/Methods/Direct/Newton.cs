@@ -32,20 +32,20 @@ namespace Guidewire.Core
     {
         private const double OfSpring = 10.0;            // EA/l: of the support between walls
         private const double FirstShift = 0.25;          // of EI/L^2, of a rest shape
-        private const double LeastShift = 1e-4;          // of EI/L^2
-        private const double MostReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
-        private const double MostLinear = 1e-2;          // size of a step whose linear model gives forces of walls
+        private const double MinShift = 1e-4;          // of EI/L^2
+        private const double MaxReflected = 1e-2;       // size of a step by pivots of changed sign: radians, or of L
+        private const double MaxLinear = 1e-2;          // size of a step whose linear model gives forces of walls
         private const double FreeParts = 5.0;            // L over what is free of a wire that touches walls
         private const double LargestTurn = 1.0;          // rad an iteration, of one element where forces act
         private const double LargestRelativeTurn = 0.7;  // rad an iteration, between neighbours
         private const double SufficientDecrease = 1e-4;
         private const double Rounding = 1e-13;           // of the energies' magnitudes
-        private const double LeastSize = 8.0 / (1L << 52);   // of a step that rounding of the shape does not hide
+        private const double MinSize = 8.0 / (1L << 52);   // of a step that rounding of the shape does not hide
         private const double Contraction = 0.5;          // of the force left, by a full step
-        private const int MostStiffened = 4;             // iterations of a stage
-        private const int MostCuts = 40;
-        private const int MostReusedWithWalls = 2;       // steps with one factorisation
-        private const int MostReusedWithout = 6;
+        private const int MaxWithoutGeometricStiffness = 4;    // iterations of a stage
+        private const int MaxCuts = 40;
+        private const int MaxReusedWithWalls = 2;       // steps with one factorisation
+        private const int MaxReusedWithout = 6;
 
         private const string NotContracting = "full steps of Newton's method do not converge";
         private const string NotFinite = "the Newton step is not a finite number; loads are too large for the stiffness"
@@ -57,7 +57,7 @@ namespace Guidewire.Core
         private readonly BarrierEnergy? _barrier;
         private readonly ContactMultipliers? _multipliers;
         private readonly bool _hasFriction;
-        private readonly int _mostReused;
+        private readonly int _maxReused;
         private readonly double _totalLength;
         private readonly double _bendForce;       // EI/L^2 of the stiffest element, N
         private readonly double _softestForce;    // softest stiffness/L^2, N
@@ -75,7 +75,7 @@ namespace Guidewire.Core
             _barrier = rodTerms.Walls()?.Barrier;
             _multipliers = _barrier?.Multipliers;
             _hasFriction = rodTerms.Walls()?.Friction != null;
-            _mostReused = _barrier != null ? MostReusedWithWalls : MostReusedWithout;
+            _maxReused = _barrier != null ? MaxReusedWithWalls : MaxReusedWithout;
             _totalLength = _rod.TotalLength;
             _bendForce = _rod.BendForce;
             _softestForce = rodTerms.SoftestStiffness / (_totalLength * _totalLength);
@@ -96,12 +96,12 @@ namespace Guidewire.Core
         public double Balance { get; set; } = 1e-7;
 
         /// <summary>Newton iterations of a stage.</summary>
-        public int MostIterations { get; set; } = 50;
+        public int MaxIterations { get; set; } = 50;
 
         /// <summary>Multiple of the metric in every direction, N: where a shape may move without any change of energy
         /// rounding alone would make large steps. Up to the most of it the second derivative counts as positive
         /// definite.</summary>
-        public (double Least, double Most) Regularisation { get; set; }
+        public (double Min, double Max) Regularisation { get; set; }
 
         /// <summary>Whether a full step below the tolerance ends the search, instead of the balance: near the load at
         /// which it buckles a shape may be far from rest though its forces nearly balance.</summary>
@@ -152,8 +152,8 @@ namespace Guidewire.Core
             double least = double.PositiveInfinity;
             double last = double.PositiveInfinity;    // size of the last Newton step
             bool hasValues = false;                   // of the terms in this shape
-            int reused = _mostReused;                 // steps with the last factorisation
-            for (int k = 0; k < MostIterations; k++)
+            int reused = _maxReused;                 // steps with the last factorisation
+            for (int k = 0; k < MaxIterations; k++)
             {
                 bool isLower = true;
                 if (!JudgesStep && (k > 0 || isSearched))
@@ -180,7 +180,7 @@ namespace Guidewire.Core
                 {
                     EnergySum.Anchor(_terms, shape);
                 }
-                bool isPlain = FindDirection(shape, k < MostStiffened);
+                bool isPlain = FindDirection(shape, k < MaxWithoutGeometricStiffness);
                 double size = Size(out double relative);
                 if (!(size <= double.MaxValue))
                 {
@@ -193,7 +193,7 @@ namespace Guidewire.Core
                     Apply(shape, 1.0, shape);
                     return null;
                 }
-                bool isHidden = true;
+                bool decreaseBelowRounding = true;
                 if (!isSearched)
                 {
                     if (!isPlain)
@@ -205,7 +205,7 @@ namespace Guidewire.Core
                 else
                 {
                     // Where steps do not lower the force left, estimates may hold them back.
-                    if (isLower && isPlain && scale == 1.0 && size < MostLinear)
+                    if (isLower && isPlain && scale == 1.0 && size < MaxLinear)
                     {
                         _multipliers?.Estimate(Direction);
                     }
@@ -213,7 +213,7 @@ namespace Guidewire.Core
                     {
                         _multipliers?.Forget();
                     }
-                    if (!Search(shape, !hasValues, ref scale, size, out isHidden))
+                    if (!Search(shape, !hasValues, ref scale, size, out decreaseBelowRounding))
                     {
                         return "no lower energy along the Newton step, " + Text(left) + " N out of balance";
                     }
@@ -223,15 +223,15 @@ namespace Guidewire.Core
                     }
                     shape.CopyFrom(Trial);
                 }
-                if (isHidden && scale == 1.0 && !isLower && size <= Tolerance)
+                if (decreaseBelowRounding && scale == 1.0 && !isLower && size <= Tolerance)
                 {
                     return null;
                 }
-                hasValues = !isHidden;
+                hasValues = !decreaseBelowRounding;
                 last = size;
-                reused = isPlain && scale == 1.0 ? 0 : _mostReused;
+                reused = isPlain && scale == 1.0 ? 0 : _maxReused;
             }
-            return "Newton's method leaves " + Text(left) + " N out of balance after " + MostIterations
+            return "Newton's method leaves " + Text(left) + " N out of balance after " + MaxIterations
                 + " iterations (maxNewtonIterations)";
         }
 
@@ -311,7 +311,7 @@ namespace Guidewire.Core
         private bool TryReuse(RodShape shape, double left, double before, double allowed, ref int reused)
         {
             double rate = reused == 0 ? 2.0 * left / before : left / before;
-            if (reused >= _mostReused || !(left * Math.Pow(rate, _mostReused - reused) <= allowed))
+            if (reused >= _maxReused || !(left * Math.Pow(rate, _maxReused - reused) <= allowed))
             {
                 return false;
             }
@@ -319,7 +319,7 @@ namespace Guidewire.Core
             double size = Size(out double relative);
             if (MaxStep(shape, size, relative) < 1.0)
             {
-                reused = _mostReused;
+                reused = _maxReused;
                 return false;
             }
             Iterations++;
@@ -331,10 +331,10 @@ namespace Guidewire.Core
 
         // At first without the terms of forces that may vanish; then only those of walls are left out. Says whether
         // what is factorised is the second derivative itself, without a negative eigenvalue.
-        private bool FindDirection(RodShape shape, bool isStiffened)
+        private bool FindDirection(RodShape shape, bool dropsGeometricStiffness)
         {
-            bool isPlain = TryFactorise(shape, Regularisation.Least, isWhole: _hasFriction);
-            for (double more = 10.0 * Regularisation.Least; !isPlain && more < Regularisation.Most; more *= 10.0)
+            bool isPlain = TryFactorise(shape, Regularisation.Min, isWhole: _hasFriction);
+            for (double more = 10.0 * Regularisation.Min; !isPlain && more < Regularisation.Max; more *= 10.0)
             {
                 isPlain = TryFactorise(shape, more);
             }
@@ -342,23 +342,23 @@ namespace Guidewire.Core
             {
                 System.ReflectNegativePivots(Direction);
                 System.Back(Direction);
-                if (Size(out _) < MostReflected)
+                if (Size(out _) < MaxReflected)
                 {
                     return false;
                 }
             }
             if (!isPlain)
             {
-                Stiffen(isStiffened, true);
+                DropGeometricStiffness(dropsGeometricStiffness, true);
                 if (_barrier == null || !TryFactorise(shape, 0.0))
                 {
-                    _shift = Math.Max(0.25 * _shift, LeastShift * _bendForce);
+                    _shift = Math.Max(0.25 * _shift, MinShift * _bendForce);
                     while (!TryFactorise(shape, _shift) && _shift <= double.MaxValue)
                     {
                         _shift *= 4.0;
                     }
                 }
-                Stiffen(isStiffened, false);
+                DropGeometricStiffness(dropsGeometricStiffness, false);
             }
             System.Back(Direction);
             return isPlain;
@@ -372,13 +372,13 @@ namespace Guidewire.Core
             return System.Factorise(_terms, shape, Gradient, Direction, shift, onlyPositive: !isWhole) == 0;
         }
 
-        private void Stiffen(bool isAll, bool isOn)
+        private void DropGeometricStiffness(bool isAll, bool isOn)
         {
             if (isAll && _barrier != null)
             {
-                EnergySum.Stiffen(_terms, isOn);
+                EnergySum.DropGeometricStiffness(_terms, isOn);
             }
-            _barrier?.Stiffen(isOn);
+            _barrier?.DropGeometricStiffness(isOn);
         }
 
         // The largest step along the direction, at most 1; the turn of an instrument against the one whose tip it
@@ -392,17 +392,17 @@ namespace Guidewire.Core
 
         // Halves the step until the energy falls enough; the accepted shape is left in the trial. Where the energy's
         // own rounding hides the decrease the step is Newton's, and small, and is taken without its energies.
-        private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool isHidden)
+        private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool decreaseBelowRounding)
         {
             double slope = RodVectors.Dot(Gradient, Direction);
             double start = isNew ? EnergySum.Value(_terms, shape, _values, out double magnitude)
                 : EnergySum.AnchoredValue(_terms, _values, out magnitude);
             double rounding = Rounding * magnitude;
-            isHidden = (-slope < 1e3 * rounding && size < 1e-2) || size < LeastSize;
-            for (int cut = 0; cut < MostCuts; cut++)
+            decreaseBelowRounding = (-slope < 1e3 * rounding && size < 1e-2) || size < MinSize;
+            for (int cut = 0; cut < MaxCuts; cut++)
             {
                 Apply(shape, scale, Trial);
-                if (isHidden || EnergySum.Value(_terms, Trial, _values, out _)
+                if (decreaseBelowRounding || EnergySum.Value(_terms, Trial, _values, out _)
                     <= start + SufficientDecrease * scale * slope + rounding)
                 {
                     return true;

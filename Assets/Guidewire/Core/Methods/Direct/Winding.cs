@@ -7,7 +7,7 @@ namespace Guidewire.Core
     internal static class Winding
     {
         private const double LargestTurn = 0.5;   // radians a part
-        private const double MostTurn = 10_000.0; // radians that are wound up at once at all
+        private const double MaxTurn = 10_000.0; // radians that are wound up at once at all
 
         /// <summary>Into how many parts a turn is split.</summary>
         /// <param name="turn">Radians.</param>
@@ -16,10 +16,10 @@ namespace Guidewire.Core
         public static string? Split(double turn, out int parts)
         {
             double size = Math.Abs(turn);
-            if (!(size <= MostTurn))
+            if (!(size <= MaxTurn))
             {
                 parts = 0;
-                return "a clamp turns by more than " + MostTurn + " rad at once (distalRotation, twistPerStep)";
+                return "a clamp turns by more than " + MaxTurn + " rad at once (distalRotation, twistPerStep)";
             }
             parts = 1 + (int)(size / LargestTurn);
             return null;

@@ -16,23 +16,23 @@ namespace Guidewire.Core
         private const int AtOnce = 200;   // times the iterations that one solution may take
         private const int AStep = 4;      // the same
 
-        private readonly int _mostIterations;
+        private readonly int _maxIterations;
         private long _left;               // iterations
         private bool _isCounted;
 
         /// <summary>Begins with all of it.</summary>
-        /// <param name="mostIterations">That one solution may take.</param>
-        public WorkLimit(int mostIterations)
+        /// <param name="maxIterations">That one solution may take.</param>
+        public WorkLimit(int maxIterations)
         {
-            _mostIterations = mostIterations;
-            _left = Most;
+            _maxIterations = maxIterations;
+            _left = Max;
         }
 
         /// <summary>Whether nothing is left.</summary>
         public bool IsOver => _left < 0;
 
         /// <summary>Whether less than half of the most is left.</summary>
-        public bool IsScarce => _left < Most / 2;
+        public bool IsScarce => _left < Max / 2;
 
         /// <summary>That nothing is left, in one phrase.</summary>
         public static string Text => string.Format(CultureInfo.InvariantCulture,
@@ -43,7 +43,7 @@ namespace Guidewire.Core
         public void BeginStep()
         {
             _isCounted = false;
-            _left = Math.Min(_left + (long)AStep * _mostIterations, Most);
+            _left = Math.Min(_left + (long)AStep * _maxIterations, Max);
         }
 
         /// <summary>What the step takes from now on is counted.</summary>
@@ -64,6 +64,6 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _left);
         }
 
-        private long Most => (long)AtOnce * _mostIterations;
+        private long Max => (long)AtOnce * _maxIterations;
     }
 }

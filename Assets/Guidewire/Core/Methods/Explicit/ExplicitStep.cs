@@ -38,7 +38,7 @@ namespace Guidewire.Core
             _stable = StableTimeStep(scene.Rod, scene.Supports);
             double part = method.TimeStep / _substeps / _stable;
             Energy.Allowance = part < 1.0
-                ? Math.Max(EnergyMonitor.LeastAllowance, 2.0 / (1.0 - part * part)) : EnergyMonitor.LeastAllowance;
+                ? Math.Max(EnergyMonitor.MinAllowance, 2.0 / (1.0 - part * part)) : EnergyMonitor.MinAllowance;
             _remedy = Text(": a substep of {0:G4} s, stable in its rest shape below {1:G4} s; raise substeps");
             Contacts = record;
         }

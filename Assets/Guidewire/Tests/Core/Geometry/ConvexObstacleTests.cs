@@ -97,7 +97,7 @@ namespace Guidewire.Core.Tests
                     expected = fraction > 0.0 && fraction < 1.0
                         ? Math.Min(expected, Highest(from, to, fraction)) : expected;
                 }
-                worst = Math.Max(worst, Math.Abs(box.LeastAlong(s[0], s[1], wayOut) - expected));
+                worst = Math.Max(worst, Math.Abs(box.MinAlong(s[0], s[1], wayOut) - expected));
                 shorter += expected > wayOut + 1e-3 ? 1 : 0;
             }
             Assert.That(worst, Is.LessThan(Tolerance));

@@ -23,7 +23,7 @@ namespace Guidewire.Core.Tests
         [TestCase(1.0)]
         [TestCase(1e-3)]    // a vessel in metres, given in units of a metre
         [TestCase(1e3)]
-        public void LeastDistance_IsALowerBound_ThatIsTheDistanceOverFacesAndEdges(double scale)
+        public void MinDistance_IsALowerBound_ThatIsTheDistanceOverFacesAndEdges(double scale)
         {
             var random = new RandomGeometry(43);
             int cases = RandomGeometry.Cases(35_000);

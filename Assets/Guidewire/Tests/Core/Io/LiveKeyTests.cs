@@ -13,7 +13,7 @@ namespace Guidewire.Core.Tests
     {
         private const int Steps = 2;               // before, between and after the changes
         private static readonly int RandomChanges = Rods.InFull ? 40 : 16;
-        private const int LeastChanged = 35;       // keys of a scene; the others need more than one change, or refuse
+        private const int MinChanged = 35;       // keys of a scene; the others need more than one change, or refuse
 
         private const string Tube = "\"vessel\": {\"shape\": \"tube\", \"knots\": [[0, 0, -400], [0, 0, 400]],"
             + " \"radius\": 12, \"frictionCoefficient\": 0.2}";
@@ -120,7 +120,7 @@ namespace Guidewire.Core.Tests
                     session.Restore(begun);
                 }
             }
-            Assert.That(changed, Has.Count.GreaterThanOrEqualTo(LeastChanged), string.Join(", ", changed));
+            Assert.That(changed, Has.Count.GreaterThanOrEqualTo(MinChanged), string.Join(", ", changed));
         }
 
         [TestCaseSource(nameof(QuickScenes))]

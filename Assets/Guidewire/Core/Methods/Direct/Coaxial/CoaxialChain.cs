@@ -270,10 +270,10 @@ namespace Guidewire.Core
         {
             WallTerms before = former.Walls()!;
             WallTerms walls = Dynamics.Terms.Walls()!;
-            walls.Spring.Besides = before.Spring.Besides;   // the hub's force stays within its limit
+            walls.Spring.ReleaseForce = before.Spring.ReleaseForce;   // the hub's force stays within its limit
             walls.Barrier.TakeNeighbours(before.Barrier, entered);
             // An element that leaves may have another force than the springs that take its place.
-            Whole.Contacts!.DriveShortfall -= _drives[0].Gone(before.Spring.HeldPosition(oldShape),
+            Whole.Contacts!.DriveShortfall -= _drives[0].AxialProgress(before.Spring.HeldPosition(oldShape),
                 walls.Spring.HeldPosition(Dynamics.Shape)) / _setup.Wire.Metres;
         }
 
@@ -284,7 +284,7 @@ namespace Guidewire.Core
                 _active[i] = Rod.Joints.ActiveCountOf(i);
             }
             Dynamics = _setup.Dynamics(scene, terms);
-            Dynamics.GoOn(time, turn);
+            Dynamics.ResumeAt(time, turn);
             terms.SetTime(scene.Schedule, time);
             if (terms.Walls() != null)
             {

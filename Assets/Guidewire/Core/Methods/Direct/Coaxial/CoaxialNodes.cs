@@ -14,8 +14,8 @@ namespace Guidewire.Core
 
         private const double Reached = 0.02;    // of an element's length
         private const double Left = 0.01;
-        private const double Late = 0.3;        // of an element's length, by which it goes late in a sheath
-        private const int LeastElements = 2;
+        private const double LeaveHysteresis = 0.3;    // of an element's length, by which it goes late in a sheath
+        private const int MinElements = 2;
 
         private readonly CoaxialInstrument[] _instrument;
         private readonly CoaxialHubs _hubs;
@@ -49,8 +49,8 @@ namespace Guidewire.Core
             {
                 first--;
             }
-            int last = station.Length - 1 - LeastElements;
-            while (first < last && Beyond(first + 2) < -Late * _instrument[0].Rod.Length[first + 1])
+            int last = station.Length - 1 - MinElements;
+            while (first < last && Beyond(first + 2) < -LeaveHysteresis * _instrument[0].Rod.Length[first + 1])
             {
                 first++;
             }

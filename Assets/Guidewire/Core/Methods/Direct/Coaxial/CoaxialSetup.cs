@@ -10,7 +10,7 @@ namespace Guidewire.Core
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
         private const double Rounding = 1e-6;   // of a length
-        private const int MostSearches = 8;     // of rest shapes
+        private const int MaxSearches = 8;     // of rest shapes
         private const double SameLength = 1e-12;    // of a length
         private const double OfRadius = 0.01;   // of a radius, by which a hub gives way at first
         private const string CatheterName = "catheters[0]";    // whose hub goes to the exit of a sheath
@@ -241,7 +241,7 @@ namespace Guidewire.Core
             CoaxialRod rod = scene.Supports.Coaxial!;
             double change = double.PositiveInfinity;
             string? failure = null;
-            for (int k = 0; k < MostSearches && failure == null && change > SameLength * rod.Rod.TotalLength; k++)
+            for (int k = 0; k < MaxSearches && failure == null && change > SameLength * rod.Rod.TotalLength; k++)
             {
                 change = k == 0 ? change : rod.TakeLoads(scene.Shape);
                 failure = new RestShape(scene, terms, Math.Min(method.SolverTolerance, 1e-9),

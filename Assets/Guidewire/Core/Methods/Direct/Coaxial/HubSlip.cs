@@ -14,7 +14,7 @@ namespace Guidewire.Core
     internal sealed class HubSlip
     {
         private const double Close = 0.02;      // of the limit
-        private const int MostTrials = 24;
+        private const int MaxTrials = 24;
         private const double Exact = 1e-3;      // of the limit
 
         private readonly MaterialDrive _drive;
@@ -32,7 +32,7 @@ namespace Guidewire.Core
         private bool _isLast;
         private int _trials;
         private int _stepsBeyond;
-        private double _mostBeyond;             // N
+        private double _maxBeyond;             // N
 
         /// <summary>Seeks the displacement of a hub.</summary>
         /// <param name="limit">N; 0: it never slips.</param>
@@ -82,7 +82,7 @@ namespace Guidewire.Core
             {
                 _least = new Trial(moved, force);
             }
-            if (_trials++ >= MostTrials || isOver || _isLast)
+            if (_trials++ >= MaxTrials || isOver || _isLast)
             {
                 // Where the force jumps past the limit, as far as it is no more.
                 Displacement = _hasAllowed ? _allowed : _least.Moved;
@@ -110,7 +110,7 @@ namespace Guidewire.Core
             if (Math.Abs(force) > (1.0 + Exact) * _limit)
             {
                 _stepsBeyond++;
-                _mostBeyond = Math.Max(_mostBeyond, Math.Abs(force));
+                _maxBeyond = Math.Max(_maxBeyond, Math.Abs(force));
             }
         }
 
@@ -119,14 +119,14 @@ namespace Guidewire.Core
         public RunWarning? FindExcess(string name)
         {
             return _stepsBeyond == 0 ? (RunWarning?)null
-                : WarningTable.HubForce.With(name, _mostBeyond, _limit, _stepsBeyond);
+                : WarningTable.HubForce.With(name, _maxBeyond, _limit, _stepsBeyond);
         }
 
         /// <summary>Writes or restores what the steps had beyond the limit.</summary>
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _stepsBeyond);
-            snapshot.Serialize(ref _mostBeyond);
+            snapshot.Serialize(ref _maxBeyond);
         }
 
         private void Take(in Trial trial)
@@ -168,7 +168,8 @@ namespace Guidewire.Core
         // Rest first, then farther and farther back.
         private double Back(double moved, double force)
         {
-            double sense = double.IsNaN(force) ? Math.Sign(_drive.Asked == 0.0 ? -moved : moved) : Math.Sign(force);
+            double sense = !double.IsNaN(force) ? Math.Sign(force)
+                : Math.Sign(_drive.CommandedDisplacement == 0.0 ? -moved : moved);
             return moved * sense > 0.0 ? 0.0 : moved == 0.0 ? -sense * _shortest : 2.0 * moved;
         }
 

@@ -52,7 +52,7 @@ namespace Guidewire.Core
             bool isDone = Step(0);
             for (int i = 0; i < _drives.Length; i++)
             {
-                _drives[i].Give(null);
+                _drives[i].OverrideDisplacement(null);
                 _slips[i].EndStep(isDone && _slips[i].IsLimited ? _force(i) : 0.0);
             }
             return isDone;
@@ -104,7 +104,7 @@ namespace Guidewire.Core
             bool isDone;
             do
             {
-                _drives[hub].Give(slip.Displacement);
+                _drives[hub].OverrideDisplacement(slip.Displacement);
                 isDone = Step(hub + 1);
             }
             while (slip.NeedsAnother(_drives[hub].Insertion - _insertions[hub],

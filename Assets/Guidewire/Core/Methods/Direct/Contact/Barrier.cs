@@ -17,7 +17,7 @@ namespace Guidewire.Core
         public readonly double Spring;
 
         private const double ForceTolerance = 1e-3;    // relative, of where a chord ends
-        private const int MostIterations = 30;
+        private const int MaxIterations = 30;
 
         /// <summary>With this distance and stiffness.</summary>
         public Barrier(double distance, double stiffness, double spring = 0.0)
@@ -72,7 +72,7 @@ namespace Guidewire.Core
             end = asked > 2.0 / 3.0 ? Math.Max(end, 1.0 / (1.0 + asked)) : end;
             end = ratio < 1.0 ? Math.Max(end, x) : end;
             double forceAtEnd = ForceAt(end, out double slopeAtEnd);
-            for (int k = 0; k < MostIterations && Math.Abs(forceAtEnd - asked) > ForceTolerance * asked; k++)
+            for (int k = 0; k < MaxIterations && Math.Abs(forceAtEnd - asked) > ForceTolerance * asked; k++)
             {
                 if (!(slopeAtEnd < 0.0))
                 {

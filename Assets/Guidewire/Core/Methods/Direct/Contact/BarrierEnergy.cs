@@ -21,7 +21,7 @@ namespace Guidewire.Core
         private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
         private const double QuickFraction = 0.9;    // of a gap known only approximately
-        private const int MostCuts = 40;             // of a motion out of a sheath
+        private const int MaxCuts = 40;             // of a motion out of a sheath
 
         private readonly ContactShape[] _walls;
         private readonly WallLaw[] _laws;         // by wall
@@ -33,14 +33,14 @@ namespace Guidewire.Core
         private int _inside;                      // nodes in the sheath in the current shape
         private readonly Vector3d[] _x;           // of the current shape, units
         private readonly Vector3d[] _to;          // where its nodes move to, units
-        private readonly double _mostGap;         // the least range of all barriers, m
+        private readonly double _maxGap;         // the least range of all barriers, m
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
         private readonly ContactSums _sums;       // of the current shape
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
         private readonly StructList<ContactPoint> _contactPoints = new StructList<ContactPoint>(16);
         private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
-        private double _leastGap;                 // of all of these
+        private double _minGap;                 // of all of these
         private bool _hasBending = true;
         private bool _isKnown;
         private double _value;
@@ -59,7 +59,7 @@ namespace Guidewire.Core
             _elementRadius = rod.Radius;
             _barrier = barrier;
             _laws = WallLaw.Of(rod, walls, _units, barrier);
-            _mostGap = WallLaw.LeastDistanceOf(_laws);
+            _maxGap = WallLaw.MinDistanceOf(_laws);
             walls = Array.ConvertAll(_laws, law => law.Wall);
             _walls = walls;
             _nodes = new SheathedNodes(sheath, walls, metresPerUnit);
@@ -79,7 +79,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
-        public override void Stiffen(bool isOn)
+        public override void DropGeometricStiffness(bool isOn)
         {
             _hasBending = !isOn;
         }
@@ -172,7 +172,7 @@ namespace Guidewire.Core
             Update(shape);
             double step = scale * _units;
             double tried = 1.0;
-            for (int k = 0; k < MostCuts; k++)
+            for (int k = 0; k < MaxCuts; k++)
             {
                 double fraction = MaxStepTo(_nodes.Move(shape, direction, tried * step, _x, _to));
                 if (!_nodes.LeavesLumen && (fraction == 1.0 || !_nodes.LeavesSheath))
@@ -189,7 +189,7 @@ namespace Guidewire.Core
         // Of the motion to _to, the square of whose longest displacement is this, units^2.
         private double MaxStepTo(double longestSquared)
         {
-            double sure = QuickFraction * _units * _leastGap;
+            double sure = QuickFraction * _units * _minGap;
             double fraction = 1.0;
             for (int w = 0; w < _walls.Length && !(sure > 0.0 && longestSquared < sure * sure); w++)
             {
@@ -267,7 +267,7 @@ namespace Guidewire.Core
                 Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
-            double most = motion + _laws[w].MostClearance(j);
+            double most = motion + _laws[w].MaxClearance(j);
             bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
@@ -332,7 +332,7 @@ namespace Guidewire.Core
             _isKnown = true;
             _value = 0.0;
             _near.Follow(_x);
-            _leastGap = _mostGap;
+            _minGap = _maxGap;
             for (int w = 0; w < _walls.Length; w++)
             {
                 _laws[w].ClearGaps(w, _nodeGap, _edgeGap);
@@ -381,7 +381,7 @@ namespace Guidewire.Core
                 ref ContactPoint point = ref _contactPoints[k];
                 double gap = point.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
-                _leastGap = Math.Min(_leastGap, gap);
+                _minGap = Math.Min(_minGap, gap);
                 double value = barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0)
                 {
@@ -422,7 +422,7 @@ namespace Guidewire.Core
                 ref EdgeContact edge = ref _edgeContacts[k];
                 double gap = edge.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
-                _leastGap = Math.Min(_leastGap, gap);
+                _minGap = Math.Min(_minGap, gap);
                 Barrier barrier = _laws[w].OfEdge(j, edge);
                 double value = barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0 || edge.Weight == 0.0)

@@ -12,7 +12,7 @@ namespace Guidewire.Core
     {
         private const double SureOfQuick = 0.9;   // of a quick distance: the part that is certain
         private const double SureOfNode = 1.0 - 1e-6;   // of a node's distance: more than rounding takes
-        private const int MostLists = 8;          // of the features of all, before the list is rebuilt
+        private const int MaxLists = 8;          // of the features of all, before the list is rebuilt
         private readonly ContactShape[] _walls;
         private readonly double[] _range;         // by element: its radius and the barrier's distance
         private readonly double _skin;
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private StructList<WallFeature> _features = new StructList<WallFeature>(1024);
         private readonly FeatureCache?[] _caches;  // of nodes, by wall
         private readonly int[] _version;          // of the caches when the nodes were queried
-        private int _mostFeatures;
+        private int _maxFeatures;
 
         /// <summary>A list without any query made.</summary>
         /// <param name="walls">The walls.</param>
@@ -78,7 +78,7 @@ namespace Guidewire.Core
                 return;
             }
             _features = other._features;
-            _mostFeatures = other._mostFeatures;
+            _maxFeatures = other._maxFeatures;
             for (int w = 0; w < _walls.Length; w++)
             {
                 if (_caches[w] != other._caches[w])
@@ -114,7 +114,7 @@ namespace Guidewire.Core
         /// <param name="x">The wire's n + 1 nodes.</param>
         public void Follow(Vector3d[] x)
         {
-            if (_features.Count > _mostFeatures)
+            if (_features.Count > _maxFeatures)
             {
                 _features.Clear();
                 Forget(_element);
@@ -136,7 +136,7 @@ namespace Guidewire.Core
             }
             if (isNew)
             {
-                _mostFeatures = MostLists * Math.Max(_features.Count, _range.Length);
+                _maxFeatures = MaxLists * Math.Max(_features.Count, _range.Length);
             }
         }
 

@@ -41,7 +41,7 @@ namespace Guidewire.Core
         public Vector3d Axis { get; set; }
 
         /// <summary>b, the force that the hub exerts along the axis besides that of the spring, N.</summary>
-        public double Besides { get; set; }
+        public double ReleaseForce { get; set; }
 
         /// <summary>p of the hub, m.</summary>
         public Vector3d Position { get; set; }
@@ -144,7 +144,7 @@ namespace Guidewire.Core
         // Excess of the axial force over the limit, N, with its sign.
         private double Excess(RodShape shape)
         {
-            double force = _axial * Vector3d.Dot(Behind(shape), Axis) + Besides;
+            double force = _axial * Vector3d.Dot(Behind(shape), Axis) + ReleaseForce;
             return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
         }
 
@@ -152,7 +152,7 @@ namespace Guidewire.Core
         public override void Serialize(Snapshot snapshot)
         {
             Position = snapshot.Serialize(Position);
-            Besides = snapshot.Serialize(Besides);
+            ReleaseForce = snapshot.Serialize(ReleaseForce);
         }
     }
 }

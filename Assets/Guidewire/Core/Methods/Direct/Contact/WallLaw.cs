@@ -20,7 +20,7 @@ namespace Guidewire.Core
     {
         private const double BarrierOfSpring = 0.3;
         private const double LeftOfGap = 0.3;     // the least that a step leaves
-        private const double MostLeft = 0.2;      // of the barrier's distance
+        private const double MaxLeft = 0.2;      // of the barrier's distance
         private const double Resolved = 1e-3;     // of the clearance: approaches below it are ignored
         private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
 
@@ -95,7 +95,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The least range of all gaps, m.</summary>
-        public static double LeastDistanceOf(WallLaw[] laws)
+        public static double MinDistanceOf(WallLaw[] laws)
         {
             double least = double.PositiveInfinity;
             foreach (WallLaw law in laws)
@@ -168,13 +168,13 @@ namespace Guidewire.Core
         /// <summary>What a step leaves of a gap of element j, units.</summary>
         public double LeftOf(int j, double gap)
         {
-            return Math.Min(LeftOfGap * gap, MostLeft * _units * _element[j].Distance);
+            return Math.Min(LeftOfGap * gap, MaxLeft * _units * _element[j].Distance);
         }
 
         /// <summary>The most that a step leaves of the distance of element j, units.</summary>
-        public double MostClearance(int j)
+        public double MaxClearance(int j)
         {
-            return _units * (_elementRadius[j] + MostLeft * _element[j].Distance);
+            return _units * (_elementRadius[j] + MaxLeft * _element[j].Distance);
         }
 
         /// <summary>Approaches of a step that are ignored, units.</summary>
@@ -216,7 +216,7 @@ namespace Guidewire.Core
 
         private static Barrier Soft(WallSoftness soft, bool isMoved, double length, double radius, out double from)
         {
-            double most = isMoved ? soft.Limit : soft.MostOf(radius);
+            double most = isMoved ? soft.Limit : soft.MaxOf(radius);
             from = isMoved ? radius : radius - most;
             double spring = soft.Stiffness * length;
             return new Barrier(most, BarrierOfSpring * spring, spring);

@@ -21,7 +21,7 @@ namespace Guidewire.Core
     internal sealed class Clock
     {
         private const int Whole = 1 << 12;        // ticks of a part
-        private const int MostPatience = 256;
+        private const int MaxPatience = 256;
         private const int MoreIterations = 10;    // as a rest shape has
         private const double SameTime = 1e-9;     // of a piece
 
@@ -199,7 +199,7 @@ namespace Guidewire.Core
         // So that the next try ends earlier.
         private void Halve(in Interval tried)
         {
-            _patience = _isDoubled ? Math.Min(2 * _patience, MostPatience) : _patience;
+            _patience = _isDoubled ? Math.Min(2 * _patience, MaxPatience) : _patience;
             _solved = 0;
             _isDoubled = false;
             do
@@ -214,7 +214,7 @@ namespace Guidewire.Core
         private void Grow()
         {
             _patience = _isDoubled ? Math.Max(_patience / 2, 1) : _patience;
-            _solved = Math.Min(_solved + 1, MostPatience);
+            _solved = Math.Min(_solved + 1, MaxPatience);
             _isDoubled = _size < Whole && _tick % (2 * _size) == 0 && _solved >= _patience;
             if (_isDoubled)
             {

@@ -271,7 +271,7 @@ namespace Guidewire.Core
             {
                 return Newton.Minimise(_shape, _inertia.StageLength, _loads, isSearched: true);
             }
-            EquilibriumResult result = _creep.Settle(_shape, Newton.Tolerance, Newton.MostIterations);
+            EquilibriumResult result = _creep.Settle(_shape, Newton.Tolerance, Newton.MaxIterations);
             if (!result.Converged)
             {
                 return result.Reason;

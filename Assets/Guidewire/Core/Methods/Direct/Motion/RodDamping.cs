@@ -90,7 +90,7 @@ namespace Guidewire.Core
         {
             _history.CopyFrom(_begun);
             _history.Add(-h, _rate[0]);
-            Stiffen(1.0 / h);
+            SetSprings(1.0 / h);
         }
 
         /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
@@ -104,7 +104,7 @@ namespace Guidewire.Core
             {
                 _history.Add(dt * row[k], _rate[k]);
             }
-            Stiffen(1.0 / (dt * row[stage]));
+            SetSprings(1.0 / (dt * row[stage]));
         }
 
         /// <summary>The one stage of a step of BDF2 begins: y^ = 4/3 y_0 - 1/3 y_-1, which is y_0 + h/2 y'_0 where y_-1
@@ -123,7 +123,7 @@ namespace Guidewire.Core
             {
                 _history.Add(0.5 * h, _rate[0]);
             }
-            Stiffen(1.0 / h);
+            SetSprings(1.0 / h);
         }
 
         /// <summary>A stage has been solved in this shape.</summary>
@@ -246,7 +246,7 @@ namespace Guidewire.Core
                 {
                     _begun.ForgetStrains();
                 }
-                Stiffen(_perStage);
+                SetSprings(_perStage);
             }
         }
 
@@ -287,7 +287,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Sets springs of b/h, at rest in y^.</summary>
-        private void Stiffen(double perStage)
+        private void SetSprings(double perStage)
         {
             _perStage = perStage;
             if (_ofMaterial == 0.0)

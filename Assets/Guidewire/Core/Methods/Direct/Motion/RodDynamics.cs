@@ -26,10 +26,10 @@ namespace Guidewire.Core
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>
         /// <param name="tolerance">On each stage's error: radians, or displacement over L; and on what a step may leave
         /// of the balance of forces, over the largest force in the rod.</param>
-        /// <param name="mostIterations">Newton iterations of a stage.</param>
+        /// <param name="maxIterations">Newton iterations of a stage.</param>
         /// <param name="work">Of the run; null: of this motion alone.</param>
         public RodDynamics(RodTerms terms, RodSchedule schedule, RodShape shape, RungeKuttaScheme? scheme,
-            double tolerance, int mostIterations, WorkLimit? work = null)
+            double tolerance, int maxIterations, WorkLimit? work = null)
         {
             _terms = terms;
             _schedule = schedule;
@@ -37,11 +37,11 @@ namespace Guidewire.Core
             _stepper = scheme == null ? new Bdf2Stepper(terms, schedule, _motion)
                 : (ImplicitStepper)new RungeKuttaStepper(scheme, terms, schedule, _motion);
             _stage = _stepper.Stage;
-            MostIterations = mostIterations;
+            MaxIterations = maxIterations;
             Newton.Tolerance = tolerance;
             Newton.Balance = tolerance / (2.0 * _stepper.WeightSum);
             _start = new StepStart(SerializeInterval);
-            _work = work ?? new WorkLimit(mostIterations);
+            _work = work ?? new WorkLimit(maxIterations);
             Clock = new Clock(_stepper, schedule, _work);
         }
 
@@ -58,7 +58,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Goes on from this time, s, at which the proximal frame has made a turn, radians.</summary>
-        public void GoOn(double time, double proximalTurn)
+        public void ResumeAt(double time, double proximalTurn)
         {
             Time = time;
             _stage.Frames.Made = (proximalTurn, _stage.Frames.Made.Distal);
@@ -89,7 +89,7 @@ namespace Guidewire.Core
         public double DistalTurn => _stage.Frames.Made.Distal;
 
         /// <summary>Newton iterations of a stage, but for the shortest intervals.</summary>
-        public int MostIterations { get; }
+        public int MaxIterations { get; }
 
         /// <summary>Solves the stages, and counts.</summary>
         public Newton Newton => _stage.Newton;
@@ -215,7 +215,7 @@ namespace Guidewire.Core
         private string? Step(in Interval interval)
         {
             long factor = _terms.Walls() == null ? 1 : Clock.IterationFactor;
-            Newton.MostIterations = (int)Math.Min(factor * MostIterations, int.MaxValue);
+            Newton.MaxIterations = (int)Math.Min(factor * MaxIterations, int.MaxValue);
             Cancellation.ThrowIfCancellationRequested();
             long before = Newton.Iterations;
             string? failure = _stepper.Step(interval);

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// weights, and the change of momentum that they cause.</summary>
     internal sealed class RodReactions
     {
-        private const int LeastApart = 3;     // elements, of which the first and the last have no node in common
+        private const int MinApart = 3;     // elements, of which the first and the last have no node in common
 
         private readonly RodTerms _terms;
         private readonly RodSchedule _schedule;
@@ -191,7 +191,7 @@ namespace Guidewire.Core
         {
             RodShape shape = _motion.Shape;
             int n = shape.ElementCount;
-            if (_rounding.IsLarge || shape.InnerCount > 0 || n < LeastApart)
+            if (_rounding.IsLarge || shape.InnerCount > 0 || n < MinApart)
             {
                 AddAll(_moving);
                 return;

@@ -62,7 +62,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override string? Step(in Interval interval)
         {
-            bool isStart = _scheme.IsFirstExplicit && (!TakeFirstRates(interval) || interval.IsRestarted);
+            bool isStart = _scheme.IsFirstExplicit && (!InitialiseRates(interval) || interval.IsRestarted);
             if (interval.IsRestarted)
             {
                 Stage.Forget();
@@ -108,7 +108,7 @@ namespace Guidewire.Core
 
         /// <summary>Sets the rates of an explicit first stage.</summary>
         /// <returns>False where they are more than the interval can resolve.</returns>
-        private bool TakeFirstRates(in Interval interval)
+        private bool InitialiseRates(in Interval interval)
         {
             double time = interval.Start;
             double h = interval.Length;

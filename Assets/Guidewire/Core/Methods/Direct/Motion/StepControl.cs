@@ -12,8 +12,8 @@ namespace Guidewire.Core
         private const double Shortest = 1.0 / 1024.0;  // of the logged step
         private const double Safety = 0.9;
         private const double Failing = 0.25;  // where a stage has no solution
-        private const double LeastChange = 0.2;
-        private const double MostChange = 2.0;
+        private const double MinChange = 0.2;
+        private const double MaxChange = 2.0;
 
         private readonly double _power;
         private double _length;  // of the next step, s; 0: not yet known
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             if (IsOn)
             {
                 double change = isSolved ? Safety * Math.Pow(Tolerance / Math.Max(error, 1e-300), _power) : Failing;
-                change = Math.Min(Math.Max(change, LeastChange), MostChange);
+                change = Math.Min(Math.Max(change, MinChange), MaxChange);
                 _length = Math.Min(Math.Max(length * change, least), logged);
                 if (!isGood && length > least * (1.0 + 1e-9))
                 {

@@ -14,8 +14,8 @@ namespace Guidewire.Core
     {
         private const double Neutral = 1.01e-4;          // of EI/L^2: eigenvalues above its negative may be 0
         private const double Regularisation = 1e-6;      // of EI/L^2, on every direction
-        private const double MostRegularisation = 0.01;  // of the softest element's EI/L^2
-        private const int MostSaddles = 100;
+        private const double MaxRegularisation = 0.01;  // of the softest element's EI/L^2
+        private const int MaxSaddles = 100;
 
         private const string Saddle = "no descent direction at a saddle of the energy; a small gravity or tipForce "
             + "across the wire provides one";
@@ -37,23 +37,23 @@ namespace Guidewire.Core
             {
                 JudgesStep = true,
                 Regularisation = (Math.Min(Regularisation * rod.BendForce,
-                    MostRegularisation * rod.SoftestStiffness / (length * length)), neutral),
+                    MaxRegularisation * rod.SoftestStiffness / (length * length)), neutral),
             };
             _stability = new EquilibriumStability(rod, rodTerms.Supports, terms, _newton.System, neutral);
         }
 
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
         /// <param name="tolerance">Error that it may have: radians, or displacement over L.</param>
-        /// <param name="mostIterations">Newton iterations, after which the search gives up.</param>
-        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
+        /// <param name="maxIterations">Newton iterations, after which the search gives up.</param>
+        public EquilibriumResult Solve(RodShape shape, double tolerance, int maxIterations)
         {
             EquilibriumResult result = default;
             _newton.Tolerance = tolerance;
             string? failure = null;
             for (int k = 0; failure == null && !result.Converged; k++)
             {
-                _newton.MostIterations = mostIterations - (int)_newton.Iterations;
-                failure = k == MostSaddles ? Saddle
+                _newton.MaxIterations = maxIterations - (int)_newton.Iterations;
+                failure = k == MaxSaddles ? Saddle
                     : _newton.Minimise(shape, double.PositiveInfinity, 0.0, isSearched: true);
                 result.Converged = failure == null && IsAtRest(shape, ref failure);
             }

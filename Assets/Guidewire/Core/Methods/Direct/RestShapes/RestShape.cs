@@ -12,25 +12,25 @@ namespace Guidewire.Core
         public const int IterationFactor = 10;
 
         private const double LargestShift = 0.01;  // of L a part
-        private const double MostShifts = 1000.0;  // parts of a shift; by more than 10 L each is larger
+        private const double MaxShifts = 1000.0;  // parts of a shift; by more than 10 L each is larger
 
         private readonly MaterialScene _scene;
         private readonly RodTerms _terms;
         private readonly double _tolerance;
-        private readonly int _mostIterations;
+        private readonly int _maxIterations;
         private readonly SolverReport _report;
 
         /// <summary>A search in this scene.</summary>
         /// <param name="tolerance">Error that the shape may have: radians, or displacement over L.</param>
-        /// <param name="mostIterations">Newton iterations of a part.</param>
+        /// <param name="maxIterations">Newton iterations of a part.</param>
         /// <param name="report">Told how the rest shape was found and how good it is.</param>
-        public RestShape(MaterialScene scene, RodTerms terms, double tolerance, int mostIterations,
+        public RestShape(MaterialScene scene, RodTerms terms, double tolerance, int maxIterations,
             SolverReport report)
         {
             _scene = scene;
             _terms = terms;
             _tolerance = tolerance;
-            _mostIterations = mostIterations;
+            _maxIterations = maxIterations;
             _report = report;
         }
 
@@ -82,7 +82,7 @@ namespace Guidewire.Core
             {
                 return "no rest shape: " + failure;
             }
-            int parts = Math.Max(turns, 1 + (int)Math.Min(shift / LargestShift, MostShifts));
+            int parts = Math.Max(turns, 1 + (int)Math.Min(shift / LargestShift, MaxShifts));
             for (int k = 1; k <= parts; k++)
             {
                 // Each part is spread over the rod as an even stretch and an even twist; the solver does the rest.
@@ -97,7 +97,7 @@ namespace Guidewire.Core
                     shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, fraction);
                 }
                 schedule.TurnFrames(shape, 0.0, turn * k / parts, 0.0);
-                EquilibriumResult result = statics.Solve(shape, _tolerance, _mostIterations);
+                EquilibriumResult result = statics.Solve(shape, _tolerance, _maxIterations);
                 _report.EquilibriumIterations += result.Iterations;
                 _report.Factorisations += result.Factorisations;
                 _report.EquilibriumResidual = result.Residual;

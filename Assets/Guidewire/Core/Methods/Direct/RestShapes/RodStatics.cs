@@ -24,21 +24,21 @@ namespace Guidewire.Core
 
         /// <summary>Moves <paramref name="shape"/> to a rest shape near it.</summary>
         /// <param name="tolerance">Error that the shape may have: radians, or displacement over L.</param>
-        /// <param name="mostIterations">Newton iterations, after which the search gives up.</param>
-        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
+        /// <param name="maxIterations">Newton iterations, after which the search gives up.</param>
+        public EquilibriumResult Solve(RodShape shape, double tolerance, int maxIterations)
         {
             EquilibriumResult result;
             string method;
             if (_terms.HavePotential)
             {
                 method = "minimum of the energy";
-                result = new RestSearch(_terms, _terms.All).Solve(shape, tolerance, mostIterations);
+                result = new RestSearch(_terms, _terms.All).Solve(shape, tolerance, maxIterations);
             }
             else if (_terms.Followers.Force.HasPotential && FindPlane(shape, out Vector3d normal))
             {
                 method = "minimum of the energy in the plane of the loads, constrained to that plane";
                 PlaneGuide guide = new PlaneGuide(_rod, normal, shape.X[0]);
-                result = new RestSearch(_terms, _terms.With(guide)).Solve(shape, tolerance, mostIterations);
+                result = new RestSearch(_terms, _terms.With(guide)).Solve(shape, tolerance, maxIterations);
                 if (result.Converged && !IsStableInSpace(shape))
                 {
                     method += "; in space it is not stable";
@@ -49,7 +49,7 @@ namespace Guidewire.Core
                 method = _terms.Followers.Force.HasPotential
                     ? "tipMoment has no potential in space: equilibrium found by motion with drag"
                     : "tipFollowerForce has no potential: equilibrium found by motion with drag";
-                result = Creep(shape, tolerance, mostIterations);
+                result = Creep(shape, tolerance, maxIterations);
             }
             result.Method = method;
             result.Residual = Residual(shape);
@@ -62,16 +62,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Minimises without what turns with the tip, then puts it on and creeps.</summary>
-        private EquilibriumResult Creep(RodShape shape, double tolerance, int mostIterations)
+        private EquilibriumResult Creep(RodShape shape, double tolerance, int maxIterations)
         {
             EquilibriumResult first = new RestSearch(_terms, _terms.WithPotential()).Solve(
-                shape, tolerance, mostIterations);
+                shape, tolerance, maxIterations);
             if (!first.Converged)
             {
                 return first;
             }
             EquilibriumResult result = new ViscousRelaxation(_rod, _supports, _terms.All, _terms.Followers).Solve(
-                shape, tolerance, mostIterations);
+                shape, tolerance, maxIterations);
             result.Iterations += first.Iterations;
             result.Factorisations += first.Factorisations;
             return result;

@@ -49,10 +49,10 @@ namespace Guidewire.Core
         /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and checks whether it is
         /// stable.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
-        /// <param name="mostIterations">Steps, after which the search gives up.</param>
-        public EquilibriumResult Solve(RodShape shape, double tolerance, int mostIterations)
+        /// <param name="maxIterations">Steps, after which the search gives up.</param>
+        public EquilibriumResult Solve(RodShape shape, double tolerance, int maxIterations)
         {
-            EquilibriumResult result = Settle(shape, tolerance, mostIterations);
+            EquilibriumResult result = Settle(shape, tolerance, maxIterations);
             if (!result.Converged)
             {
                 result.Reason += Flutter;
@@ -68,13 +68,13 @@ namespace Guidewire.Core
 
         /// <summary>Moves <paramref name="shape"/> to where it comes to rest, stable or not.</summary>
         /// <param name="tolerance">On the last Newton step, radians or displacement over L.</param>
-        /// <param name="mostIterations">Steps, after which the search gives up.</param>
-        public EquilibriumResult Settle(RodShape shape, double tolerance, int mostIterations)
+        /// <param name="maxIterations">Steps, after which the search gives up.</param>
+        public EquilibriumResult Settle(RodShape shape, double tolerance, int maxIterations)
         {
             EquilibriumResult result = default;
             result.Reason = string.Empty;
             double drag = FirstDrag * _bendForce;
-            while (result.Iterations < mostIterations)
+            while (result.Iterations < maxIterations)
             {
                 result.Iterations++;
                 FindStep(shape, ref drag, ref result);
@@ -97,7 +97,7 @@ namespace Guidewire.Core
                 drag *= size > LongStep ? 1.5 : size > ShortStep ? 1.0 : size > NearRest ? 0.7 : 0.2;
             }
             result.Reason = "a wire with drag does not come to rest under " + _keys + " in "
-                + mostIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps";
+                + maxIterations.ToString(System.Globalization.CultureInfo.InvariantCulture) + " steps";
             return result;
         }
 

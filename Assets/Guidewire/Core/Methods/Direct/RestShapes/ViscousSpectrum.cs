@@ -10,14 +10,14 @@ namespace Guidewire.Core
     /// A line is brought to the first of them by bisection.</remarks>
     internal sealed class ViscousSpectrum
     {
-        private const int MostVectors = 24;
+        private const int MaxVectors = 24;
         private const int Halvings = 20;
         private const double Negligible = 1e-12;
 
         private readonly FollowerTangent _tangent;
         private readonly double _bendForce;  // EI/L^2, N
         private readonly double _totalLength;
-        private readonly RodVector[][] _basis = new RodVector[MostVectors + 1][];
+        private readonly RodVector[][] _basis = new RodVector[MaxVectors + 1][];
 
         /// <summary>The spectrum of this rod's tangent.</summary>
         public ViscousSpectrum(FollowerTangent tangent, MaterialRod rod)
@@ -25,7 +25,7 @@ namespace Guidewire.Core
             _tangent = tangent;
             _bendForce = rod.BendForce;
             _totalLength = rod.TotalLength;
-            for (int k = 0; k <= MostVectors; k++)
+            for (int k = 0; k <= MaxVectors; k++)
             {
                 _basis[k] = new RodVector[tangent.System.VectorCount];
             }
@@ -92,10 +92,10 @@ namespace Guidewire.Core
             RodVectors.SetWithoutSymmetry(_basis[0], _totalLength);
             system.Project(_basis[0]);
             RodVectors.Scale(_basis[0], 1.0 / Math.Sqrt(system.MetricDot(_basis[0], _basis[0])));
-            var h = new double[MostVectors, MostVectors];
+            var h = new double[MaxVectors, MaxVectors];
             int count = 0;
             bool closed = false;  // the space holds all that its vectors lead to
-            while (!closed && count < MostVectors)
+            while (!closed && count < MaxVectors)
             {
                 RodVector[] next = _basis[count + 1];
                 Array.Copy(_basis[count], next, next.Length);
@@ -115,7 +115,7 @@ namespace Guidewire.Core
                 double rest = Math.Sqrt(system.MetricDot(next, next));
                 closed = rest <= Negligible * before;
                 count++;
-                if (!closed && count < MostVectors)
+                if (!closed && count < MaxVectors)
                 {
                     h[count, count - 1] = rest;
                     RodVectors.Scale(next, 1.0 / rest);
@@ -124,7 +124,7 @@ namespace Guidewire.Core
             var corner = new double[count, count];
             for (int i = 0; i < count; i++)
             {
-                Array.Copy(h, i * MostVectors, corner, i * count, count);
+                Array.Copy(h, i * MaxVectors, corner, i * count, count);
             }
             return corner;
         }

@@ -18,16 +18,16 @@ namespace Guidewire.Core
     internal static class BarrierDefaults
     {
         /// <summary>Largest displacement of the drive in one step, in g0.</summary>
-        public const double MostMove = 20.0;
+        public const double MaxMove = 20.0;
 
         private const double OfRadius = 0.1;
-        private const double LeastOfRadius = 0.01;
+        private const double MinOfRadius = 0.01;
         private const double InMesh = 0.3;
         private const double OfClearance = 0.5;
         private const double Span = 90.0;           // times the radius, between supports of a wire
-        private const double LeastOfRule = 0.01;    // below, gaps close to nothing
-        private const double MostOfRule = 1e8;
-        private const double MostDistance = 2.0;    // times the rule's: it leaves no clearance
+        private const double MinOfRule = 0.01;    // below, gaps close to nothing
+        private const double MaxOfRule = 1e8;
+        private const double MaxDistance = 2.0;    // times the rule's: it leaves no clearance
 
         /// <summary>What to change about a barrier with which a step has no solution, in one phrase, or null where the
         /// barrier is as good as that of the rule.</summary>
@@ -35,22 +35,22 @@ namespace Guidewire.Core
         /// <param name="ruled">That of the rule.</param>
         public static string? Advice(in Barrier given, in Barrier ruled)
         {
-            if (given.Distance < LeastOfRule * ruled.Distance)
+            if (given.Distance < MinOfRule * ruled.Distance)
             {
                 return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too short for the "
                     + "wire and its motion in a step; {1:G3} m is the default", given.Distance, ruled.Distance);
             }
-            if (given.Distance > MostDistance * ruled.Distance)
+            if (given.Distance > MaxDistance * ruled.Distance)
             {
                 return string.Format(CultureInfo.InvariantCulture, "contactDistance = {0:G3} m is too long for the "
                     + "wire and its walls; {1:G3} m is the default", given.Distance, ruled.Distance);
             }
-            if (given.Stiffness < LeastOfRule * ruled.Stiffness)
+            if (given.Stiffness < MinOfRule * ruled.Stiffness)
             {
                 return string.Format(CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is too soft for the "
                     + "wire; {1:G3} N/m is the default", given.Stiffness, ruled.Stiffness);
             }
-            return given.Stiffness <= MostOfRule * ruled.Stiffness ? null : string.Format(
+            return given.Stiffness <= MaxOfRule * ruled.Stiffness ? null : string.Format(
                 CultureInfo.InvariantCulture, "contactStiffness = {0:G3} N/m is so large that rounding hides the "
                     + "wire's stiffness; {1:G3} N/m is the default", given.Stiffness, ruled.Stiffness);
         }
@@ -80,7 +80,7 @@ namespace Guidewire.Core
             double distance = contact.ContactDistance;
             if (distance == 0.0)
             {
-                distance = Math.Max(OfRadius * thinnest, move / MostMove);
+                distance = Math.Max(OfRadius * thinnest, move / MaxMove);
                 foreach (ContactShape wall in walls)
                 {
                     if (wall.Softness != null)
@@ -92,7 +92,7 @@ namespace Guidewire.Core
                         thickest / metresPerUnit, (thickest + distance / OfClearance) / metresPerUnit);
                     distance = Math.Min(distance, OfClearance * (narrowest - thickest));
                 }
-                distance = Math.Max(distance, LeastOfRadius * thinnest);
+                distance = Math.Max(distance, MinOfRadius * thinnest);
             }
             return new Barrier(distance, contact.ContactStiffness > 0.0 ? contact.ContactStiffness : force / distance);
         }

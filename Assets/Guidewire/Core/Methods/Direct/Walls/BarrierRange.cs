@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// than the range of the barriers.</summary>
     internal static class BarrierRange
     {
-        private const int MostParts = 64;
+        private const int MaxParts = 64;
         private const double LargestTurn = 0.5;   // radians a part
         private const double SmallExcess = 0.01;  // over the longest part without dividing it
 
@@ -28,9 +28,9 @@ namespace Guidewire.Core
                     schedule.Distal.PositionAt(start), schedule.Distal.PositionAt(end)));
             }
             // Rounding, and the small distance of node 0 from its support, must not add a part.
-            double longest = BarrierDefaults.MostMove * walls.Barrier.Barrier.Distance;
+            double longest = BarrierDefaults.MaxMove * walls.Barrier.Barrier.Distance;
             double parts = Math.Ceiling(Math.Max(move / longest, turn / LargestTurn) * (1.0 - SmallExcess));
-            return (int)Math.Min(Math.Max(parts, 1.0), MostParts);
+            return (int)Math.Min(Math.Max(parts, 1.0), MaxParts);
         }
     }
 }

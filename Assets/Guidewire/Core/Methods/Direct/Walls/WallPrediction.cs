@@ -13,7 +13,7 @@ namespace Guidewire.Core
     /// sheath stay on its axis. Each element turns with its chord, and about it by its spin.</remarks>
     internal sealed class WallPrediction
     {
-        private const int MostParts = 16;
+        private const int MaxParts = 16;
         private const double OfElement = 1.0;
         private readonly RodSupports _supports;
         private readonly WallProjection _projection;
@@ -93,7 +93,7 @@ namespace Guidewire.Core
             {
                 farthest = Math.Max(farthest, Math.Abs(_travel + slide));
             }
-            return (int)Math.Min(MostParts, Math.Ceiling(Math.Max(1.0, farthest / (OfElement * _shortest))));
+            return (int)Math.Min(MaxParts, Math.Ceiling(Math.Max(1.0, farthest / (OfElement * _shortest))));
         }
 
         /// <summary>Sets the prediction.</summary>

@@ -10,7 +10,7 @@ namespace Guidewire.Core
     internal sealed class WallProjection
     {
         private const double ProjectedTo = 0.5;      // of the barrier's distance
-        private const double LeastLever = 0.1;
+        private const double MinLever = 0.1;
         private const double Pulled = 5.0;        // barrier's distances, from where a node is still pulled back
         private readonly BarrierEnergy _barrier;
         private readonly double _units;           // per metre
@@ -103,7 +103,7 @@ namespace Guidewire.Core
                 {
                     double a = j > 0 ? 1.0 - edgeContact.Position : 0.0;
                     double b = j < last ? edgeContact.Position : 0.0;
-                    double fraction = (asked - gap) / Math.Max(a * a + b * b, LeastLever);
+                    double fraction = (asked - gap) / Math.Max(a * a + b * b, MinLever);
                     shape.X[j] += fraction * a * edgeContact.Normal;
                     shape.X[j + 1] += fraction * b * edgeContact.Normal;
                     return;

@@ -43,7 +43,7 @@ namespace Guidewire.Core
             SupportSpring spring = _terms.Walls()!.Spring;
             Vector3d lag = spring.LagOf(shape);
             spring.Position = start;
-            spring.Besides = _terms.Release?.SheathForceAtStart ?? 0.0;
+            spring.ReleaseForce = _terms.Release?.SheathForceAtStart ?? 0.0;
             _terms.Walls()!.Friction?.Lag(shape);
             PlaceEnd(shape, end);
             int parts = _prediction.Begin(shape, start - lag);

@@ -280,7 +280,7 @@ namespace Guidewire.Core.Tests
             {
                 term = new BendTwistEnergy<RotationVectorLaw>(rod.Joints(supports), true, true);
             }
-            term.Stiffen(name.StartsWith("stiffened", StringComparison.Ordinal));
+            term.DropGeometricStiffness(name.StartsWith("stiffened", StringComparison.Ordinal));
             return term;
         }
 

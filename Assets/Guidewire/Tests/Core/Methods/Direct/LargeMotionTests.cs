@@ -78,9 +78,9 @@ namespace Guidewire.Core.Tests
             velocities[10] = new Vector3d(0.0, 1.0, 0.0);
             var watch = new EnergyMonitor(terms, new FreeInertia(terms.Mass, terms.Supports), shape, velocities, spins,
                 new HeldEnds(terms, Rods.Schedule()));
-            velocities[10] = new Vector3d(0.0, 0.99 * Math.Sqrt(EnergyMonitor.LeastAllowance), 0.0);
+            velocities[10] = new Vector3d(0.0, 0.99 * Math.Sqrt(EnergyMonitor.MinAllowance), 0.0);
             Assert.That(watch.Blowup(), Is.Null);
-            velocities[10] = new Vector3d(0.0, 1.01 * Math.Sqrt(EnergyMonitor.LeastAllowance), 0.0);
+            velocities[10] = new Vector3d(0.0, 1.01 * Math.Sqrt(EnergyMonitor.MinAllowance), 0.0);
             Assert.That(watch.Blowup(), Does.Contain("energy").And.Contain("step 2"));
             velocities[10] = new Vector3d(0.0, double.NaN, 0.0);
             Assert.That(watch.Blowup(), Does.Contain("no finite"));

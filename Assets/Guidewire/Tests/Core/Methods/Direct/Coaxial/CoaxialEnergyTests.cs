@@ -219,7 +219,7 @@ namespace Guidewire.Core.Tests
         // Of the wire's hub, m.
         private static double Asked(CoaxialStep run)
         {
-            return run.Coaxial()!.WireAsked;
+            return run.Coaxial()!.WireCommandedDisplacement;
         }
 
         // J, by the forces of now.

@@ -44,7 +44,7 @@ namespace Guidewire.Core.Tests
         [TestCase(0.1, 0.1, 0.5, 0)]
         [TestCase(0.3, 0.1, 0.02, 0)]
         public void StepThatKeepsItsElements_LeavesNothing_InAVessel(double wire, double catheter, double limit,
-            int leastBuilt)
+            int minBuilt)
         {
             if (limit > 0.0 && limit < 0.1)
             {
@@ -55,7 +55,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.HubForceLimit = limit;
             parameters.Scene.Catheters[0].Drive.HubForceLimit = limit;
             parameters.Scene.Catheters[0].LumenFriction = 0.1;
-            AssertNothingIsLeft(parameters, leastBuilt);
+            AssertNothingIsLeft(parameters, minBuilt);
         }
 
         private static SimulationParameters Moving(Integrator integrator, double wire, double catheter)
@@ -69,7 +69,7 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
-        private static void AssertNothingIsLeft(SimulationParameters parameters, int leastBuilt)
+        private static void AssertNothingIsLeft(SimulationParameters parameters, int minBuilt)
         {
             // Twice the same steps: what the runtime leaves as it compiles comes once.
             MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
@@ -93,7 +93,7 @@ namespace Guidewire.Core.Tests
                 }
             }
             TestContext.WriteLine("{0} steps in which an element comes or goes, with {1} bytes at most", built, most);
-            Assert.That(built, Is.InRange(leastBuilt, Steps / 2));
+            Assert.That(built, Is.InRange(minBuilt, Steps / 2));
             Assert.That(left, Is.Empty);
         }
     }

@@ -49,8 +49,9 @@ namespace Guidewire.Core.Tests
             Simulation run = Wires.RunAndRestore(parameters, 70, out Simulation other);
             Assert.That(other.Coaxial()!.Positions, Is.EqualTo(run.Coaxial()!.Positions));
             Assert.That(other.Coaxial()!.WireForce, Is.EqualTo(run.Coaxial()!.WireForce));
-            Assert.That(other.Coaxial()!.WireAsked, Is.EqualTo(run.Coaxial()!.WireAsked));
-            Assert.That(other.Coaxial()!.Gone, Is.EqualTo(run.Coaxial()!.Gone));
+            Assert.That(other.Coaxial()!.WireCommandedDisplacement,
+                Is.EqualTo(run.Coaxial()!.WireCommandedDisplacement));
+            Assert.That(other.Coaxial()!.Displacement, Is.EqualTo(run.Coaxial()!.Displacement));
             parameters.Scene.Catheters = Array.Empty<Catheter>();
             Assert.That(() => run.Continue(parameters), Throws.ArgumentException.With.Message.StartsWith("catheters"));
         }
@@ -83,9 +84,9 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
             double asked = 500.0 * parameters.Method.TimeStep;
-            Assert.That(record.Asked, Is.EqualTo(asked * Math.Abs(catheter)).Within(1e-9));
-            Assert.That(record.WireAsked, Is.EqualTo(asked * Math.Abs(wire)).Within(1e-9));
-            Assert.That(record.Gone, Is.EqualTo(went).Within(1e-9));
+            Assert.That(record.CommandedDisplacement, Is.EqualTo(asked * Math.Abs(catheter)).Within(1e-9));
+            Assert.That(record.WireCommandedDisplacement, Is.EqualTo(asked * Math.Abs(wire)).Within(1e-9));
+            Assert.That(record.Displacement, Is.EqualTo(went).Within(1e-9));
             Assert.That(record.WireDisplacement, Is.EqualTo(wireWent).Within(1e-9));
             Assert.That(record.WireShortfall, Is.EqualTo(asked * Math.Abs(wire) - wireWent).Within(1e-9));
             Assert.That(Math.Abs(run.Hub()!.Insertion) + (wire == 0.0 ? 0.0 : WireShortfall(run, asked * wire)),
@@ -229,23 +230,24 @@ namespace Guidewire.Core.Tests
             outer.Drive.HubForceLimit = catheter;
             parameters.Method.MaxSimulationSteps = 150;
             Simulation run = Simulation.Create(parameters);
-            double mostWire = 0.0;
-            double mostCatheter = 0.0;
+            double maxWire = 0.0;
+            double maxCatheter = 0.0;
             while (run.Outcome == Outcome.Running)
             {
                 run.Step();
-                mostWire = Math.Max(mostWire, Math.Abs(run.Coaxial()!.WireForce));
-                mostCatheter = Math.Max(mostCatheter, Math.Abs(run.Coaxial()!.Force));
+                maxWire = Math.Max(maxWire, Math.Abs(run.Coaxial()!.WireForce));
+                maxCatheter = Math.Max(maxCatheter, Math.Abs(run.Coaxial()!.Force));
             }
             CoaxialRecord record = run.Coaxial()!;
-            TestContext.WriteLine("{0:G4} and {1:G4} N, short by {2:G4} and {3:G4} m", mostWire, mostCatheter,
+            TestContext.WriteLine("{0:G4} and {1:G4} N, short by {2:G4} and {3:G4} m", maxWire, maxCatheter,
                 record.WireShortfall, record.Shortfall);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
-            Assert.That(mostWire, wire > 0.0 ? Is.InRange(0.9 * wire, 1.001 * wire) : Is.GreaterThan(0.0));
-            Assert.That(mostCatheter, catheter > 0.0 ? Is.LessThan(1.001 * catheter) : Is.GreaterThan(0.0));
+            Assert.That(maxWire, wire > 0.0 ? Is.InRange(0.9 * wire, 1.001 * wire) : Is.GreaterThan(0.0));
+            Assert.That(maxCatheter, catheter > 0.0 ? Is.LessThan(1.001 * catheter) : Is.GreaterThan(0.0));
             Assert.That(record.WireShortfall > 1e-3, Is.EqualTo(wire > 0.0));
-            Assert.That(record.WireAsked, Is.EqualTo(record.WireDisplacement + record.WireShortfall).Within(1e-12));
-            Assert.That(record.Asked, Is.EqualTo(record.Gone + record.Shortfall).Within(1e-12));
+            Assert.That(record.WireCommandedDisplacement,
+                Is.EqualTo(record.WireDisplacement + record.WireShortfall).Within(1e-12));
+            Assert.That(record.CommandedDisplacement, Is.EqualTo(record.Displacement + record.Shortfall).Within(1e-12));
             Assert.That(run.Contacts!.Passages, Is.Zero);
         }
 

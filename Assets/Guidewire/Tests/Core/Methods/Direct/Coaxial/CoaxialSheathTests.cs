@@ -232,8 +232,9 @@ namespace Guidewire.Core.Tests
                 Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
             }
             CoaxialRecord record = run.Coaxial()!;
-            Assert.That(record.Asked, Is.EqualTo(record.Gone + record.Shortfall).Within(1e-9));
-            Assert.That(record.WireAsked, Is.EqualTo(record.WireDisplacement + record.WireShortfall).Within(1e-9));
+            Assert.That(record.CommandedDisplacement, Is.EqualTo(record.Displacement + record.Shortfall).Within(1e-9));
+            Assert.That(record.WireCommandedDisplacement,
+                Is.EqualTo(record.WireDisplacement + record.WireShortfall).Within(1e-9));
             Assert.That(run.Contacts!.Passages, Is.Zero);
             Assert.That(record.Insertion, Is.EqualTo(double.IsNaN(most) ? 0.0 : most).Within(1e-9));
             Assert.That(run.Hub()!.Insertion, Is.EqualTo(wire > 0.0 ? most + 0.1 : 0.0).Within(1e-9));

@@ -9,7 +9,7 @@ namespace Guidewire.Core.Tests
         private const double Limit = 0.05;       // N
         private const double Asked = 3e-4;       // m
         private const double Shortest = 5e-6;    // m
-        private const int MostTrials = 24;
+        private const int MaxTrials = 24;
 
         // Softer than a tip that bends, and stiffer than steel along its axis; without force where it is from far
         // behind to far ahead of what is asked.
@@ -32,7 +32,7 @@ namespace Guidewire.Core.Tests
             double right = Math.Abs(Force(asked)) <= Limit ? asked
                 : sense * rest + Math.Sign(Force(asked)) * Limit / stiffness;
             TestContext.WriteLine("{0} trials, {1:G6} of {2:G6} m", trials, moved, right);
-            Assert.That(trials, Is.LessThan(MostTrials));
+            Assert.That(trials, Is.LessThan(MaxTrials));
             Assert.That(moved, Is.EqualTo(right).Within(0.0201 * Limit / stiffness));
             Assert.That(Math.Abs(Force(moved)), Is.LessThanOrEqualTo(Limit));
             Assert.That(slip.FindExcess("a hub"), Is.Null);
@@ -54,7 +54,7 @@ namespace Guidewire.Core.Tests
                 while (slip.NeedsAnother(moved, moved > 1e-4 ? ahead : behind, false))
                 {
                     moved = slip.Displacement!.Value;
-                    Assert.That(trials++, Is.LessThanOrEqualTo(MostTrials));
+                    Assert.That(trials++, Is.LessThanOrEqualTo(MaxTrials));
                 }
                 Assert.That(Math.Abs(moved > 1e-4 ? ahead : behind), Is.EqualTo(least));
                 slip.EndStep(moved > 1e-4 ? ahead : behind);

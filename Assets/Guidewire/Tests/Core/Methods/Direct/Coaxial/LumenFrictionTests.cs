@@ -52,9 +52,9 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Coaxial()!.WireForce, Is.InRange(-limit, -0.979 * limit));
             Assert.That(run.Coaxial()!.FrictionForce, Is.EqualTo(run.Coaxial()!.WireForce + Load)
                 .Within(Tolerance * Load));
-            Assert.That(run.Coaxial()!.WireShortfall, Is.GreaterThan(0.9 * run.Coaxial()!.WireAsked));
+            Assert.That(run.Coaxial()!.WireShortfall, Is.GreaterThan(0.9 * run.Coaxial()!.WireCommandedDisplacement));
             Assert.That(run.Coaxial()!.WireDisplacement + run.Coaxial()!.WireShortfall,
-                Is.EqualTo(run.Coaxial()!.WireAsked).Within(1e-12));
+                Is.EqualTo(run.Coaxial()!.WireCommandedDisplacement).Within(1e-12));
             Assert.That(free.Coaxial()!.WireShortfall, Is.Zero, "without friction it does not slip");
         }
 

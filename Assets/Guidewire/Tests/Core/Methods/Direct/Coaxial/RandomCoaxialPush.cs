@@ -16,7 +16,7 @@ namespace Guidewire.Core.Tests
         private readonly double _outerRadius;      // of a catheter around both; 0 without one
         private readonly string _vessel;
         private double _extension;
-        private double _outerAsked;                // m
+        private double _outerCommandedDisplacement;                // m
 
         /// <summary>Draws both and takes them to the end.</summary>
         /// <param name="isSheathed">Whether both come out of a sheath.</param>
@@ -70,9 +70,9 @@ namespace Guidewire.Core.Tests
                     Simulation.Step();
                     if (Simulation.Outcome == Outcome.Running)
                     {
-                        WireAsked += 1e-3 * Math.Abs(_parameters.Drive.Steering.Push);
-                        CatheterAsked += 1e-3 * Math.Abs(catheter.Drive.Steering.Push);
-                        _outerAsked += hasOuter
+                        WireCommandedDisplacement += 1e-3 * Math.Abs(_parameters.Drive.Steering.Push);
+                        CatheterCommandedDisplacement += 1e-3 * Math.Abs(catheter.Drive.Steering.Push);
+                        _outerCommandedDisplacement += hasOuter
                             ? 1e-3 * Math.Abs(_parameters.Scene.Catheters[0].Drive.Steering!.Push) : 0.0;
                         Look();
                     }
@@ -105,9 +105,10 @@ namespace Guidewire.Core.Tests
                 CoaxialRecord outermost = Simulation.Coaxial()!;
                 CoaxialRecord record = outermost.Inside ?? outermost;
                 double outer = outermost == record ? 0.0
-                    : Math.Abs(_outerAsked - outermost.Gone - outermost.Shortfall);
-                return Math.Max(outer, Math.Max(Math.Abs(CatheterAsked - record.Gone - record.Shortfall),
-                    Math.Abs(WireAsked - record.WireDisplacement - record.WireShortfall)));
+                    : Math.Abs(_outerCommandedDisplacement - outermost.Displacement - outermost.Shortfall);
+                double catheter = Math.Abs(CatheterCommandedDisplacement - record.Displacement - record.Shortfall);
+                return Math.Max(outer, Math.Max(catheter,
+                    Math.Abs(WireCommandedDisplacement - record.WireDisplacement - record.WireShortfall)));
             }
         }
 
@@ -115,10 +116,10 @@ namespace Guidewire.Core.Tests
         public double Beyond { get; private set; }
 
         /// <summary>Sum of what the wire's hub was asked to go, there and back both counted, m.</summary>
-        public double WireAsked { get; private set; }
+        public double WireCommandedDisplacement { get; private set; }
 
         /// <summary>The same for the catheter's.</summary>
-        public double CatheterAsked { get; private set; }
+        public double CatheterCommandedDisplacement { get; private set; }
 
         public override string ToString()
         {

@@ -67,10 +67,10 @@ namespace Guidewire.Core.Tests
             Assert.That(isInside && isWireInside, "both tips were inside");
             CoaxialRecord first = run.Coaxial()!;
             CoaxialRecord inside = first.Inside!;
-            AssertSum(first.Asked, first.Gone, first.Shortfall);
-            AssertSum(inside.Asked, inside.Gone, inside.Shortfall);
-            AssertSum(first.WireAsked, first.WireDisplacement, first.WireShortfall);
-            Assert.That(inside.Gone, Is.GreaterThan(0.1));
+            AssertSum(first.CommandedDisplacement, first.Displacement, first.Shortfall);
+            AssertSum(inside.CommandedDisplacement, inside.Displacement, inside.Shortfall);
+            AssertSum(first.WireCommandedDisplacement, first.WireDisplacement, first.WireShortfall);
+            Assert.That(inside.Displacement, Is.GreaterThan(0.1));
             Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.0).Within(1e-9));
         }
 
