@@ -71,6 +71,14 @@ namespace Guidewire.Core
             PotentialEnergy = outside.PotentialEnergy;
         }
 
+        /// <summary>Takes kinetic, elastic and potential energy, J.</summary>
+        internal void TakeEnergies(in Vector3d energies)
+        {
+            KineticEnergy = energies.X;
+            ElasticEnergy = energies.Y;
+            PotentialEnergy = energies.Z;
+        }
+
         /// <summary>Takes the wire as it is.</summary>
         internal void Take(RodTerms terms, RodShape shape, double kineticEnergy)
         {

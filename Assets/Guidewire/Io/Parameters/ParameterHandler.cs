@@ -209,10 +209,6 @@ namespace Guidewire.Io
         private void ReadCatheters()
         {
             CatheterReader.Read(Values, _given.SourceOf, _warnings);
-            if (Values.Simulation.Scene.Catheters.Count > 0 && Values.LogStrains)
-            {
-                throw Refused("logStrains", "false with catheters");
-            }
             foreach (Catheter catheter in Values.Simulation.Scene.Catheters)
             {
                 catheter.Drive.Steering = _isSteered ? new Steering() : null;

@@ -74,6 +74,18 @@ namespace Guidewire.Core
             return _strain[element] + Math.Abs(other) * _joints.AxialOf(element) / rest;
         }
 
+        /// <summary>The axial strain of an instrument in an element: that of its own loads, and its part of what else
+        /// is
+        /// along the axis.</summary>
+        /// <param name="force">Along the element's axis, of the chain, N.</param>
+        public double StrainOf(int instrument, int element, double force)
+        {
+            double rest = _joints.Stations[element + 1] - _joints.Stations[element];
+            int at = instrument * (_n + 1) + element;
+            double stretch = _slide[at + 1] - _slide[at] + _shift[element];
+            return (stretch + (force - _force[element]) * _joints.AxialOf(element)) / rest;
+        }
+
         /// <summary>Finds the compliance of element j of the chain, m/N, after a change of the hubs; those before it
         /// first.</summary>
         /// <param name="before">In and out: of all before it.</param>

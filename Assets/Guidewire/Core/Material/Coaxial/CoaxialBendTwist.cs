@@ -98,6 +98,31 @@ namespace Guidewire.Core
             return CoaxialShape.Angle(shape, shape.Twist, _joints, element, instrument, frame);
         }
 
+        /// <summary>Curvature at joint k about the axes of an instrument, and its own twist, rad/m; 0 in a
+        /// sheath.</summary>
+        public Vector3d CurvatureOf(RodShape shape, int k, int instrument)
+        {
+            double outside = _joints.FractionOutside(k);
+            int frame = _joints.CarrierOf(k);
+            double before = AngleAt(shape, k - 1, instrument, frame);
+            double after = AngleAt(shape, k, instrument, frame);
+            Vector3d turn = _law.Measure(Relative(shape, k));
+            double bend = outside > CoaxialJoints.MinFraction ? 1.0 / outside : 0.0;
+            double c = bend * Math.Cos(0.5 * (before + after));
+            double s = bend * Math.Sin(0.5 * (before + after));
+            return 1.0 / _joints.LengthOf(k) * new Vector3d(c * turn.X + s * turn.Y, c * turn.Y - s * turn.X,
+                turn.Z + after - before);
+        }
+
+        /// <summary>Even twist of an inner instrument from its own hub to the middle of the outermost one's first
+        /// element, rad/m.</summary>
+        public Vector3d LeadTwist(RodShape shape, int instrument)
+        {
+            double length = _joints.LeadOf(instrument) + 0.5 * _joints.Stations[1];
+            double twist = _law.Measure(Relative(shape, 0)).Z + AngleAt(shape, 0, instrument, 0) - HubTwist[instrument];
+            return twist / length * Vector3d.UnitZ;
+        }
+
         /// <inheritdoc/>
         public override void SetTime(double time)
         {

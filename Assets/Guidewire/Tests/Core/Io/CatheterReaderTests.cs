@@ -81,7 +81,6 @@ namespace Guidewire.Core.Tests
         [TestCase("clampRule", "\"wholeElement\"", "no clampRule")]
         [TestCase("tipMoment", "[0, 0, 1]", "no tipMoment")]
         [TestCase("distalEnd", "\"clamped\"", "distalEnd")]
-        [TestCase("logStrains", "true", "false with catheters")]
         [TestCase("displacementDirection", "[0, 1, 0]", "displacementDirection")]
         public void KeyThatDoesNotGoWithACatheter_IsRefused(string key, string value, string expected)
         {

@@ -17,7 +17,8 @@ namespace Guidewire.Core
         private readonly InnerInstrument[] _inner;     // the wire last
         private readonly double[] _insertions;         // before a step, m
         private readonly HubRecord _hub;
-        private readonly StressRecord _stress;
+        private readonly StressRecord _stress;         // of a wire in a sheath
+        private readonly WireStress _wireStress;       // of one among others
         private readonly StepStart _start;
         private readonly CoaxialChain _chain;
 
@@ -43,6 +44,7 @@ namespace Guidewire.Core
             }
             _hub = new HubRecord(_setup.Wire.Rod, _setup.Wire.Supports);
             _stress = new StressRecord(_setup.Wire.Rod, _setup.Wire.Supports);
+            _wireStress = new WireStress(_setup, Wire);
             if (_setup.Wire.Walls.Length > 0)
             {
                 string? outside = _setup.FindProblemOfStart();
@@ -176,9 +178,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override StressRecord? Stress()
         {
-            if (!_isAlone)
+            if (Coaxial() is CoaxialRecord record)
             {
-                return null;
+                return _wireStress.Take(Dynamics, Rod.Joints, Energies()!.Value, record.WireForce);
             }
             _chain.TakeTime();
             Wire.TakeForces(Dynamics.Terms, Dynamics.Shape);

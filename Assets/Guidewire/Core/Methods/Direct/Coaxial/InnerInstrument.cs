@@ -83,10 +83,7 @@ namespace Guidewire.Core
             for (int i = 0; i < Shape.X.Length; i++)
             {
                 double at = _own.Stations[i] - lead;
-                while (j < n - 1 && at > chain[j + 1])
-                {
-                    j++;
-                }
+                j = joints.ElementAt(at, j);
                 // Before the hub and beyond the last node by what is too short for an element.
                 double fraction = (at - chain[j]) / (chain[j + 1] - chain[j]);
                 bool isBefore = at <= 0.0;
@@ -139,24 +136,17 @@ namespace Guidewire.Core
         private void TakeElement(RodDynamics dynamics, CoaxialJoints joints, int element, double at, int j)
         {
             RodShape shape = dynamics.Shape;
-            double[] chain = joints.Stations;
             if (at <= 0.0)
             {
                 // Between the hubs it twists evenly, on to the middle of the outermost instrument's first element.
-                double lead = joints.LeadOf(_instrument);
-                double middle = 0.5 * chain[1];
-                double fraction = (lead + at) / (lead + middle);
-                double hub = ((CoaxialBendTwist)dynamics.Terms.Bending).HubTwist[_instrument];
-                double turn = hub + fraction
-                    * (CoaxialShape.Angle(shape, shape.Twist, joints, 0, _instrument, 0) - hub);
+                var bending = (CoaxialBendTwist)dynamics.Terms.Bending;
+                double turn = bending.HubTwist[_instrument]
+                    + (joints.LeadOf(_instrument) + at) * bending.LeadTwist(shape, _instrument).Z;
                 Shape.Q[element] = shape.ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
                 Spins[element] = Vector3d.Zero;
                 return;
             }
-            while (j < shape.ElementCount - 1 && at > chain[j + 1])
-            {
-                j++;
-            }
+            j = joints.ElementAt(at, j);
             Shape.Q[element] = CoaxialShape.FrameOf(shape, joints, j, _instrument);
             Spins[element] = dynamics.Spins[j];
         }

@@ -36,6 +36,40 @@ namespace Guidewire.Core.Tests
             Assert.That(worst, Is.LessThan(1e-6));
         }
 
+        // Curvatures, couples, strains and forces along the wire, of which the largest is 1; the catheter's are the
+        // shared
+        // axial force's 2e-5.
+        [TestCase(0.05, 3.0, MassRule.Consistent, false)]
+        [TestCase(0.4, -20.0, MassRule.Consistent, true)]
+        public void OnTheSameStations_StrainsAndForcesAreThoseOfTheWireAlone(double speed, double turns, MassRule mass,
+            bool byStiffness)
+        {
+            var stresses = new StressRecord[2];
+            Run(speed, turns, mass, 0, byStiffness, run => stresses[0] = run.Stress()!);
+            Run(speed, turns, mass, Elements / 2, byStiffness, run => stresses[1] = run.Stress()!);
+            AssertClose(stresses, stress => stress.Curvature);
+            AssertClose(stresses, stress => stress.Couple);
+            AssertClose(stresses, stress => stress.Strain);
+            AssertClose(stresses, stress => stress.Force);
+            AssertClose(stresses, stress => new[] { new Vector3d(stress.KineticEnergy, stress.ElasticEnergy,
+                stress.PotentialEnergy) });
+        }
+
+        private static void AssertClose(StressRecord[] stresses, Func<StressRecord, Vector3d[]> part)
+        {
+            Vector3d[] alone = part(stresses[0]);
+            Vector3d[] soft = part(stresses[1]);
+            double largest = 0.0;
+            double worst = 0.0;
+            for (int k = 0; k < alone.Length; k++)
+            {
+                largest = Math.Max(largest, alone[k].Length);
+                worst = Math.Max(worst, (alone[k] - soft[k]).Length);
+            }
+            TestContext.WriteLine("{0:G3} of {1:G3}", worst, largest);
+            Assert.That(worst, Is.LessThan(1e-4 * largest));
+        }
+
         [Test]
         public void OnOtherStations_ItDiffersAsTheirSquares([Values(0.0, 0.4)] double speed)
         {
@@ -67,7 +101,7 @@ namespace Guidewire.Core.Tests
         }
 
         private static List<Vector3d[]> Run(double speed, double turns, MassRule mass, int catheterElements,
-            bool byStiffness = false)
+            bool byStiffness = false, Action<Simulation>? look = null)
         {
             SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
             Catheter catheter = parameters.Scene.Catheters[0];
@@ -101,6 +135,7 @@ namespace Guidewire.Core.Tests
             {
                 found.Add((Vector3d[])run.State.Positions.Clone());
             });
+            look?.Invoke(run);
             return found;
         }
     }
