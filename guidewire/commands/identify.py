@@ -12,7 +12,7 @@ from typing import Any
 from guidewire.commands.arguments import value_of
 from guidewire.commands.progress import seconds_counted
 from guidewire.identification import Identified, identify
-from guidewire.identification.fit import to_json
+from guidewire.identification.identified import to_json
 from guidewire.prepare import PreparationError
 from guidewire.runs import building, checking
 from guidewire.runs.runner import INTERRUPTED

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from guidewire.figures.style import add_caption, letter, new_figure, styled
-from guidewire.identification.fit import Identified
+from guidewire.identification.identified import Identified
 
 _SHAPES = 5    # drawn at most
 
