@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private readonly bool _hasMaterial;
         private readonly bool _hasSheath;
         private readonly CoaxialRecord[] _catheters;
-        private readonly double[] _lengths;    // of the elements of all instruments, units
+        private readonly double[][] _lengths;    // of the elements of the wire and of each catheter, units
         private readonly TimeStepper _stepper;
         private readonly StopRule _stopRule;
         private readonly StepClock _clock;
@@ -230,9 +230,11 @@ namespace Guidewire.Core
         /// another step size) starts again.</summary>
         /// <param name="parameters">For a wire of as many elements. Their <see cref="SceneParameters.Start"/>, <see
         /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are ignored: the start
-        /// is over.</param>
-        /// <exception cref="ArgumentException">As <see cref="Create"/>; another number of elements; pbd that goes on as
-        /// a material, or the reverse; a sheath where there was none, or the reverse.</exception>
+        /// is over. Instruments with other elements take the place of withdrawn ones; their hubs have the insertion of
+        /// those, from a start of their own.</param>
+        /// <exception cref="ArgumentException">As <see cref="Create"/>; other elements of an instrument that is not
+        /// withdrawn (<see cref="FindInVessel"/>), or that does not fit the others; pbd that goes on as a material, or
+        /// the reverse; a sheath where there was none, or the reverse.</exception>
         public Simulation Continue(SimulationParameters parameters)
         {
             if (MethodTable.Of(parameters.Method.Solver).TakesMaterial != _hasMaterial)
@@ -251,19 +253,11 @@ namespace Guidewire.Core
                 throw new ArgumentException("catheters: their number cannot change "
                     + "during a run");
             }
-            if (ElementLayout.Count(parameters) != State.ElementCount)
+            double[][] lengths = LengthsOf(parameters);
+            bool[] isOther = lengths.Select((own, k) => !AreSame(own, _lengths[k])).ToArray();
+            if (Array.Exists(isOther, one => one))
             {
-                throw new ArgumentException("numberRodElements needs to leave " + State.ElementCount
-                    + " elements: a run cannot change its wire");
-            }
-            double[] lengths = LengthsOf(parameters);
-            for (int j = 0; j < lengths.Length; j++)
-            {
-                if (lengths.Length != _lengths.Length || Math.Abs(lengths[j] - _lengths[j]) > Same * _lengths[j])
-                {
-                    throw new ArgumentException("instruments need elements of the lengths that they have: a run cannot "
-                        + "change its wire");
-                }
+                return Exchange(parameters, isOther);
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);
@@ -273,6 +267,14 @@ namespace Guidewire.Core
                 DistalFrame = _start.DistalFrame,
             };
             return Rebuild(parameters, start, snapshot.ToRead());
+        }
+
+        /// <summary>Why another instrument cannot take the place of one now, in one phrase, or null.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        public string? FindInVessel(int instrument)
+        {
+            return _catheters.Length == 0 ? "a wire alone cannot be exchanged: the run has to start anew"
+                : ((CoaxialStep)_stepper).FindInVessel(instrument == 0 ? _catheters.Length : instrument - 1);
         }
 
         /// <summary>All that the next steps depend on besides the parameters, as bytes for <see
@@ -352,26 +354,67 @@ namespace Guidewire.Core
             _ownReason = reason;
         }
 
-        private static double[] LengthsOf(SimulationParameters parameters)
+        /// <summary>Whether each instrument has as many elements as in another run, of the same lengths.</summary>
+        public bool HasElementsOf(Simulation other)
         {
-            IEnumerable<double> lengths = ElementLayout.Lengths(parameters, 1.0, out _);
-            foreach (Catheter catheter in parameters.Scene.Catheters)
-            {
-                SimulationParameters alone = parameters.OfCatheter(catheter, Vector3d.UnitZ);
-                lengths = lengths.Concat(ElementLayout.Lengths(alone, 1.0, out _));
-            }
-            return lengths.ToArray();
+            return _lengths.Length == other._lengths.Length
+                && _lengths.Select((own, k) => AreSame(own, other._lengths[k])).All(isSame => isSame);
+        }
+
+        private static bool AreSame(double[] lengths, double[] others)
+        {
+            return lengths.Length == others.Length
+                && !lengths.Where((length, j) => Math.Abs(length - others[j]) > Same * others[j]).Any();
+        }
+
+        private static double[][] LengthsOf(SimulationParameters parameters)
+        {
+            return parameters.Scene.Catheters.Select(catheter => parameters.OfCatheter(catheter, Vector3d.UnitZ))
+                .Prepend(parameters).Select(one => ElementLayout.Lengths(one, 1.0, out _)).ToArray();
         }
 
         private static Simulation Rebuild(SimulationParameters parameters, RodStart start, Snapshot snapshot)
         {
-            SimulationParameters continued = parameters.Copy();
             start.IsReached = true;
+            Simulation next = Create(Continued(parameters, start));
+            next.Serialize(snapshot);
+            return next;
+        }
+
+        private static SimulationParameters Continued(SimulationParameters parameters, RodStart? start)
+        {
+            SimulationParameters continued = parameters.Copy();
             continued.Scene.Start = start;
             continued.Scene.InitialState = InitialState.Straight;
             continued.Drive.Displacement = 0.0;
-            Simulation next = Create(continued);
-            next.Serialize(snapshot);
+            return continued;
+        }
+
+        // isOther: of the wire and of each catheter.
+        private Simulation Exchange(SimulationParameters parameters, bool[] isOther)
+        {
+            if (_catheters.Length == 0)
+            {
+                throw new ArgumentException(ElementLayout.Count(parameters) != State.ElementCount
+                    ? "numberRodElements needs to leave " + State.ElementCount
+                        + " elements: a run cannot change its wire"
+                    : "instruments need elements of the lengths that they have: a run cannot change its wire");
+            }
+            Simulation next = Create(Continued(parameters, null));
+            if (next.Outcome != Outcome.Running)
+            {
+                throw new ArgumentException(next.Reason);
+            }
+            var stepper = (CoaxialStep)next._stepper;
+            stepper.GoOnFrom((CoaxialStep)_stepper, isOther.Skip(1).Append(isOther[0]).ToArray());
+            stepper.WriteWire(next.State);
+            stepper.WriteWire(next.State);
+            var snapshot = new Snapshot();
+            _clock.Serialize(snapshot);
+            _warnings.Serialize(snapshot, State);
+            Snapshot read = snapshot.ToRead();
+            next._clock.Serialize(read);
+            next._warnings.Serialize(read, next.State);
             return next;
         }
 

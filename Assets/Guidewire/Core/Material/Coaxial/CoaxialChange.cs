@@ -3,23 +3,26 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Maps nodes and elements of a chain of coaxial instruments to those of another chain, after nodes have
-    /// emerged from tips or were withdrawn, or elements have come or gone in a sheath.</summary>
+    /// emerged from tips or were withdrawn, elements have come or gone in a sheath, or another instrument has taken the
+    /// place of one.</summary>
     internal sealed class CoaxialChange
     {
         private readonly double[] _oldStation;   // m, by the new leads
 
         /// <summary>From one chain to another.</summary>
-        public CoaxialChange(CoaxialJoints old, CoaxialJoints joints)
+        /// <param name="isOther">Which instruments are not those of the old chain; null: none.</param>
+        /// <param name="shift">How far the outermost hub is behind that of the old chain, m.</param>
+        public CoaxialChange(CoaxialJoints old, CoaxialJoints joints, bool[]? isOther = null, double shift = 0.0)
         {
             Old = old;
             Joints = joints;
             Entered = old.First - joints.First;
             Node = new int[joints.ElementCount + 1];
             Element = new int[joints.ElementCount];
-            _oldStation = (double[])old.Stations.Clone();
+            _oldStation = Array.ConvertAll(old.Stations, station => station + shift);
             for (int i = 1; i < joints.Count; i++)
             {
-                for (int k = 0; k < old.BeyondOf(i); k++)
+                for (int k = 0; k < old.BeyondOf(i) && isOther?[i] != true; k++)
                 {
                     _oldStation[old.TipOf(i) - k] = joints.StationOf(i, k);
                 }
@@ -28,11 +31,13 @@ namespace Guidewire.Core
             {
                 int carrier = k <= joints.OuterCount ? 0 : joints.CarrierOf(k - 1);
                 int fromTip = joints.TipOf(carrier) - k;
-                Node[k] = carrier == 0 ? Math.Max(k - Entered, -1)
+                Node[k] = isOther?[carrier] == true ? -1 : carrier == 0 ? Math.Max(k - Entered, -1)
                     : fromTip < old.BeyondOf(carrier) ? old.TipOf(carrier) - fromTip : -1;
                 if (k > 0)
                 {
-                    Element[k - 1] = k <= Entered ? 0 : Node[k] >= 0 ? Node[k] - 1 : Containing(joints.Stations[k]);
+                    Element[k - 1] = k <= Entered ? 0 : Node[k] >= 0 ? Node[k] - 1
+                        : isOther?[carrier] == true ? Containing(0.5 * (joints.Stations[k - 1] + joints.Stations[k]))
+                        : Containing(joints.Stations[k]);
                 }
             }
         }
@@ -50,7 +55,7 @@ namespace Guidewire.Core
         public int[] Node { get; }
 
         /// <summary>The element that each one goes on from: that which ended at the same node, else the one in which
-        /// its end comes in, or the last one.</summary>
+        /// its end comes in, or the last one; of another instrument, that in which its middle is.</summary>
         public int[] Element { get; }
 
         /// <summary>The shape with these nodes: what comes in lies on the element that it divides, or on the axis of
@@ -75,7 +80,7 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 shape.X[k] = Node[k] >= 0 ? old.X[Node[k]] : k < Entered ? old.X[0]
-                    : Position(old, Joints.Stations[k], Element[k - 1]);
+                    : Position(old, Joints.Stations[k]);
             }
             return shape;
         }
@@ -147,9 +152,10 @@ namespace Guidewire.Core
             return j;
         }
 
-        private Vector3d Position(RodShape old, double station, int element)
+        private Vector3d Position(RodShape old, double station)
         {
             int last = old.ElementCount;
+            int element = Containing(station);
             if (station > _oldStation[last])
             {
                 return old.X[last] + (station - _oldStation[last]) * old.Q[last - 1].Director3;

@@ -110,7 +110,7 @@ namespace Guidewire.Core
                 _nodes.Find(Dynamics.Time, length);
                 if (!IsAsBuilt())
                 {
-                    Rebuild(0);
+                    Rebuild(this, 0);
                 }
                 isDone = Whole.StepPart(length, insertion, turn);
                 done = length == _method.TimeStep - done ? _method.TimeStep : Dynamics.Time - start;
@@ -129,9 +129,23 @@ namespace Guidewire.Core
                     Math.Max(0.0, _drives[0].NextMove(time)));
                 if (first != Rod.Joints.First)
                 {
-                    Rebuild(first);
+                    Rebuild(this, first);
                 }
             }
+        }
+
+        /// <summary>Goes on from where another chain is, in which other instruments were: what lies along them lies
+        /// where they were.</summary>
+        /// <param name="isOther">Which instruments are not those of that chain.</param>
+        /// <param name="shift">How far the outermost hub is behind that of that chain, m.</param>
+        public void GoOnFrom(CoaxialChain former, bool[] isOther, double shift)
+        {
+            for (int i = 1; i < isOther.Length; i++)
+            {
+                _nodes.Beyond[i] = isOther[i] ? 0 : former._nodes.Beyond[i];
+            }
+            _nodes.Find(former.Dynamics.Time, 0.0);
+            Rebuild(former, 0, isOther, shift);
         }
 
         /// <summary>Writes or restores what says which rod there is.</summary>
@@ -223,18 +237,21 @@ namespace Guidewire.Core
             return true;
         }
 
-        private void Rebuild(int first)
+        // From where a chain is, this one or that of other instruments.
+        private void Rebuild(CoaxialChain from, int first, bool[]? isOther = null, double shift = 0.0)
         {
-            double time = Dynamics.Time;
-            RodShape oldShape = Dynamics.Shape;
-            RodTerms former = Dynamics.Terms;
-            CoaxialRod old = Rod;
+            RodDynamics was = from.Dynamics;
+            double time = was.Time;
+            RodShape oldShape = was.Shape;
+            RodTerms former = was.Terms;
+            CoaxialRod old = from.Rod;
+            DirectStep before = from.Whole;
             Rod = RodAt(time, first);
-            var change = new CoaxialChange(old.Joints, Rod.Joints);
+            var change = new CoaxialChange(old.Joints, Rod.Joints, isOther, shift);
             MaterialScene scene = SceneOf(change.Take(oldShape));
-            double[] rates = Dynamics.TwistRates;
-            change.TakeMotion(oldShape, Dynamics.Velocities, Dynamics.Spins, rates, scene);
-            double turn = Dynamics.ProximalTurn;
+            double[] rates = was.TwistRates;
+            change.TakeMotion(oldShape, was.Velocities, was.Spins, rates, scene);
+            double turn = was.ProximalTurn;
             if (_isAlone)
             {
                 _wire.TakeForces(former, oldShape);
@@ -244,7 +261,6 @@ namespace Guidewire.Core
                 HoldFrame(scene.Shape);
             }
             RodTerms terms = _setup.Terms(scene);
-            DirectStep before = Whole;
             Start(scene, terms, time, turn);
             for (int i = 1; i < _drives.Length; i++)
             {

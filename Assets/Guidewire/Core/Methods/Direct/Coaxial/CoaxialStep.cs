@@ -241,6 +241,64 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Why an instrument cannot be exchanged where it is, in one phrase, or null.</summary>
+        /// <param name="instrument">0 the outermost one.</param>
+        public string? FindInVessel(int instrument)
+        {
+            return CoaxialExchange.FindInVessel(_setup, _hubs, instrument, Dynamics.Time);
+        }
+
+        /// <summary>Goes on from where other instruments were: hubs with the insertion that they had, the rest where it
+        /// was.</summary>
+        /// <param name="isOther">Which instruments were others, the outermost one first.</param>
+        /// <exception cref="ArgumentException">One of them is in the vessel, or one does not fit the others.</exception>
+        public void GoOnFrom(CoaxialStep former, bool[] isOther)
+        {
+            double time = former.Dynamics.Time;
+            Vector3d[] starts = Array.ConvertAll(_drives, drive => drive.Hub.PositionAt(0.0));
+            var kept = new Snapshot();
+            former.SerializeHubs(kept, time);
+            SerializeHubs(kept.ToRead(), time);
+            double shift = 0.0;
+            string? problem = null;
+            for (int i = 0; i < isOther.Length; i++)
+            {
+                if (isOther[i])
+                {
+                    Vector3d place = starts[i] + _drives[i].Insertion * _setup.Axis;
+                    double move = Vector3d.Dot(place - _drives[i].Hub.PositionAt(time), _setup.Axis);
+                    _drives[i].Hub.Shift(move * _setup.Axis);
+                    shift -= i == 0 ? move : 0.0;
+                    problem ??= former.FindInVessel(i);
+                }
+            }
+            for (int i = 0; i < isOther.Length; i++)
+            {
+                problem ??= isOther[i] ? CoaxialExchange.FindInVessel(_setup, _hubs, i, time) : null;
+            }
+            problem ??= CoaxialExchange.FindMisfit(_setup, _hubs, time);
+            if (problem != null)
+            {
+                throw new ArgumentException(problem);
+            }
+            _chain.GoOnFrom(former._chain, isOther, shift);
+            TakeInner();
+            TakeContacts();
+        }
+
+        // How far they have come, and what the run has counted.
+        private void SerializeHubs(Snapshot snapshot, double time)
+        {
+            foreach (MaterialDrive drive in _drives)
+            {
+                drive.Hub.Serialize(snapshot, time);
+                drive.Serialize(snapshot);
+            }
+            _slips.Serialize(snapshot);
+            _records.Serialize(snapshot);
+            _report.Serialize(snapshot);
+        }
+
         /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core.Tests
 {
@@ -8,9 +9,11 @@ namespace Guidewire.Core.Tests
     {
         private const int Samples = 10;        // an element
         private const int OtherSeeds = 1 << 20;   // of what is drawn besides, so that the rest stays as it is
+        private const int MostWithdrawn = 250;    // steps of a unit
+        private const int Advanced = 40;
         private const int Pieces = 6;          // of the manoeuvre, each with speeds of its own
 
-        private readonly SimulationParameters _parameters;
+        private SimulationParameters _parameters;
         private readonly double _wireRadius;       // units
         private readonly double _catheterRadius;
         private readonly double _outerRadius;      // of a catheter around both; 0 without one
@@ -82,7 +85,81 @@ namespace Guidewire.Core.Tests
 
         public int Seed { get; }
 
-        public Simulation Simulation { get; }
+        /// <summary>Withdraws one of them, and puts another one of random stiffness, elements and length in its place,
+        /// which then goes where that one was, turning.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        /// <returns>Why it could not be, or null.</returns>
+        public string? Exchange(RandomGeometry random, int instrument)
+        {
+            for (int k = 0; k < MostWithdrawn && Simulation.FindInVessel(instrument) != null; k++)
+            {
+                Move(instrument, -1.0, 0.0);
+            }
+            SimulationParameters next = _parameters.Copy();
+            var catheters = new List<Catheter>(next.Scene.Catheters);
+            if (instrument == 0)
+            {
+                double longer = random.Number(0.0, 40.0);
+                next.Scene.GuidewireLength += longer;
+                next.Scene.GuidewireOffset -= longer;
+                next.Scene.NumberRodElements = 30 + random.Index(50);
+                next.Material.YoungsModulus = Math.Pow(10.0, random.Number(9.5, 11.0));
+                next.Material.Sections = new[] { Tip(random, next.Scene.GuidewireLength, 30.0) };
+                catheters = catheters.ConvertAll(one => Other(one, one.Length, longer));
+            }
+            else
+            {
+                Catheter former = catheters[instrument - 1];
+                double shorter = random.Number(0.0, 0.3) * former.Length;
+                Catheter other = Other(former, former.Length - shorter, shorter);
+                other.Elements = 10 + random.Index(35);
+                other.Material = former.Material.Copy();
+                other.Material.YoungsModulus = Math.Pow(10.0, random.Number(8.0, 10.0));
+                other.Material.Sections = new[] { Tip(random, other.Length, 20.0) };
+                catheters[instrument - 1] = other;
+            }
+            next.Scene.Catheters = catheters;
+            try
+            {
+                Simulation = Simulation.Continue(next);
+            }
+            catch (ArgumentException refusal)
+            {
+                return refusal.Message;
+            }
+            _parameters = next;
+            double turn = random.Number(-10.0, 10.0);
+            for (int k = 0; k < Advanced; k++)
+            {
+                Move(instrument, 1.0, turn);
+            }
+            return null;
+        }
+
+        // One step of one hub, units and rad/s.
+        private void Move(int instrument, double push, double turn)
+        {
+            for (int k = 0; k <= _parameters.Scene.Catheters.Count; k++)
+            {
+                Steering steering = k == 0 ? _parameters.Drive.Steering!
+                    : _parameters.Scene.Catheters[k - 1].Drive.Steering!;
+                steering.Push = k == instrument ? push : 0.0;
+                steering.Turn = k == instrument ? _parameters.Method.TimeStep * turn : 0.0;
+            }
+            Simulation.Step();
+            Look();
+        }
+
+        private static Catheter Other(Catheter former, double length, double ahead)
+        {
+            return new Catheter
+            {
+                Length = length, Elements = former.Elements, Start = former.Start + ahead,
+                FrictionCoefficient = former.FrictionCoefficient, Material = former.Material, Drive = former.Drive,
+            };
+        }
+
+        public Simulation Simulation { get; private set; }
 
         public SimulationParameters Parameters => _parameters;
 
