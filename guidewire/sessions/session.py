@@ -15,7 +15,6 @@ import json
 import math
 import os
 import re
-import sys
 import threading
 import warnings
 import weakref
@@ -27,13 +26,12 @@ from typing import Any, NoReturn
 import numpy as np
 
 from guidewire.logs.surfaces import Surface
-from guidewire.prepare import DOOR
-from guidewire.runs import building
 from guidewire.sessions.agent import Agent
-from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, obstacle
+from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ended, Library, Process, host_of
 from guidewire.sessions.session_state import (
     Frames, LumenPlace, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
 )
+from guidewire.sessions.session_values import accepted, number, numbers, plain, whole
 
 _MOST = 1 << 31  # from here on a number does not fit a request of the library's
 
@@ -69,7 +67,7 @@ class Session:
 
     def __init__(self, file: str | Path | None = None, hand: bool | None = None, native: bool | None = None,
                  **overrides: Any) -> None:
-        self._host: Library | Process | None = _host(native)
+        self._host: Library | Process | None = host_of(native)
         # Also at the interpreter's exit, before modules go; what holds an unread state holds this session too.
         self._finish = weakref.finalize(self, _end, self._host, os.getpid())
         self._is_closing = False
@@ -126,14 +124,14 @@ class Session:
         SessionError : a value is not allowed, or the run has ended before (`state.outcome`). What a hand steers is not
             ended by `maxSimulationSteps`.
         """
-        steps, hub = _whole("steps", steps, "1"), _whole("hub", hub, "0, the wire's")
+        steps, hub = whole("steps", steps, "1"), whole("hub", hub, "0, the wire's")
         if not isinstance(push, (list, tuple, np.ndarray)) and not isinstance(turn, (list, tuple, np.ndarray)):
-            push, turn = _number("push", push), _number("turn", turn)
+            push, turn = number("push", push), number("turn", turn)
             if not isinstance(self._host, Library) or not (1 <= steps < _MOST and 0 <= hub < self.hubs):
                 return self._move("step", push=push, turn=turn, steps=steps, hub=hub)
             motion = [0.0] * (2 * hub) + [push, turn]
         else:
-            pushes, turns = _numbers("push", push, hub, self.hubs), _numbers("turn", turn, hub, self.hubs)
+            pushes, turns = numbers("push", push, hub, self.hubs), numbers("turn", turn, hub, self.hubs)
             if not isinstance(self._host, Library) or not 1 <= steps < _MOST:
                 return self._move("step", push=pushes, turn=turns, steps=steps)
             motion = [one for pair in zip(pushes, turns) for one in pair]
@@ -141,7 +139,7 @@ class Session:
             self._leave(keeps=steps > STEPS_AT_ONCE)
             made = self._guarded(lambda host: host.step(motion, steps))
             if isinstance(made, dict):
-                return self._take(_accepted(made))
+                return self._take(accepted(made))
             self._state, self._head = None, made
             return self._unread()
 
@@ -175,9 +173,34 @@ class Session:
     def change(self, **parameters: Any) -> State:
         """Change parameters, such as `timeStep`, or parts of them, such as `**{"vessel.frictionCoefficient": 0.1}`; the
         wire continues from its current state. What takes the place of an override counts after a `reset` too."""
+        return self._change("change", parameters)
+
+    def exchange(self, hub: int, instrument: str | None = None, **parameters: Any) -> State:
+        """Put another instrument in the place of one that is withdrawn into the sheath, or, inside another one, into
+        the first element of the outermost catheter. Its tip is where that one's was, and the rest goes on.
+
+        Parameters
+        ----------
+        hub : 0 the wire's, k that of catheter k.
+        instrument : name of the new one.
+        parameters : of it, as of a catheter: `length` (units) and `elements`; without them as before.
+
+        Raises
+        ------
+        SessionError : it is in the vessel (the line says how far), does not fit the others, or a value is not allowed.
+        """
+        hub = whole("hub", hub, "0, the wire's")
+        own = {"length": "guidewireLength", "elements": "numberRodElements"}
+        if instrument is not None:
+            parameters["instrument"] = instrument
+        asked = {own.get(name, name) if hub == 0 else f"catheters[{hub - 1}].{name}": value
+                 for name, value in parameters.items()}
+        return self._change("exchange", asked, hub=hub)
+
+    def _change(self, what: str, parameters: Mapping[str, Any], **more: Any) -> State:
         with self._lock:
             self._leave()
-            answer = self._ask("change", set=parameters)
+            answer = self._ask(what, set=parameters, **more)
             self.parameters = answer["effective"]
             return self._take(answer)
 
@@ -216,8 +239,8 @@ class Session:
         ------
         SessionError : a value is not allowed, or the vessel has no centreline (`vessel.anatomy`).
         """
-        place = {"inlet": True} if hub is None else {"hub": _whole("hub", hub, "0, the wire's")}
-        return Agent.of(self._ask("agent", amount=_number("amount", amount), rate=_number("rate", rate), **place))
+        place = {"inlet": True} if hub is None else {"hub": whole("hub", hub, "0, the wire's")}
+        return Agent.of(self._ask("agent", amount=number("amount", amount), rate=number("rate", rate), **place))
 
     def agent(self, seconds: float = 0.0, **flow: float) -> Agent:
         """What contrast agent is where.
@@ -229,8 +252,8 @@ class Session:
             (coefficient over mean velocity times radius; 1), pulse (amplitude over mean flow; 0), pulseRate (1/s; 1).
             At forks it divides by radii cubed.
         """
-        asked = {"flow": {name: _number(name, value) for name, value in flow.items()}} if flow else {}
-        return Agent.of(self._ask("agent", seconds=_number("seconds", seconds), **asked))
+        asked = {"flow": {name: number(name, value) for name, value in flow.items()}} if flow else {}
+        return Agent.of(self._ask("agent", seconds=number("seconds", seconds), **asked))
 
     def places(self, positions: np.ndarray) -> list[LumenPlace]:
         """Say where a wire with nodes elsewhere, (f, n+1, 3), units, is in its vessel, for each of f states; an empty
@@ -294,12 +317,12 @@ class Session:
             view["fieldOfView"] = view.pop("field_of_view")
         several = positions if isinstance(positions, (list, tuple)) else [positions]
         nodes = None if positions is None else np.concatenate([np.asarray(one, dtype="<f8").ravel() for one in several])
-        text = json.dumps(view, default=_plain)
+        text = json.dumps(view, default=plain)
         if isinstance(self._host, Library):
             made = self._guarded(lambda host: host.picture(text, nodes))
             if isinstance(made, np.ndarray):
                 return made
-            raise SessionError(_accepted(made)["message"])
+            raise SessionError(accepted(made)["message"])
         positions_text = "" if nodes is None else base64.b64encode(nodes.tobytes()).decode("ascii")
         answer = self._ask("picture", view=view, positions=positions_text)
         grey = np.frombuffer(base64.b64decode(answer["grey"]), dtype=np.uint8)
@@ -379,8 +402,8 @@ class Session:
             return self._take(self._ask(what, **more))
 
     def _ask(self, what: str, **more: Any) -> dict[str, Any]:
-        line = json.dumps({"id": 0, "session": what, **more}, default=_plain)
-        return _accepted(self._guarded(lambda host: host.ask(line)))
+        line = json.dumps({"id": 0, "session": what, **more}, default=plain)
+        return accepted(self._guarded(lambda host: host.ask(line)))
 
     def _guarded(self, ask: Callable[[Library | Process], Any]) -> Any:
         with self._lock:
@@ -416,55 +439,3 @@ def session_of(file: Path, native: bool | None = None) -> Session:
 def _end(host: Library | Process, process: int) -> None:
     if os.getpid() == process:    # it is not that of a fork
         host.close()
-
-
-def _host(native: bool | None) -> Library | Process:
-    reason = "" if native is False else obstacle()
-    if native and reason:
-        raise SessionError(reason)
-    library = None if native is False or reason else building.native_library()
-    if library is None and native:
-        raise SessionError(f"the native library is not built from these sources: '{DOOR} native' builds it")
-    if library is not None:
-        return Library(library)
-    return Process(building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True)))
-
-
-def _accepted(answer: dict[str, Any]) -> dict[str, Any]:
-    if answer["exitCode"] != 0:
-        raise SessionError(answer["message"].removeprefix("request: "))
-    return answer
-
-
-def _plain(value: Any) -> Any:
-    """What JSON has for a numpy array or number, and for a path."""
-    if isinstance(value, (np.ndarray, np.generic)):
-        return value.tolist()
-    if isinstance(value, Path):
-        return str(value)
-    raise TypeError(f"a parameter cannot be a {type(value).__name__}")
-
-
-def _whole(name: str, value: Any, least: str) -> int:
-    if isinstance(value, (bool, np.bool_)) or not isinstance(value, (int, np.integer)):
-        raise SessionError(f"{name} = {value!r} is not allowed: needs a whole number from {least}")
-    return int(value)
-
-
-def _numbers(name: str, value: Any, hub: int, hubs: int) -> list[float]:
-    """A number for each hub, or for none where all of them have 0."""
-    try:
-        one_each = [0.0] * hubs if not isinstance(value, (list, tuple, np.ndarray)) and value == 0.0 else list(value)
-    except TypeError:
-        one_each = []
-    if hub != 0 or len(one_each) != hubs:
-        raise SessionError(f"{name} = {value!r} is not allowed: needs a number, or a list of one for each of the "
-                           f"{hubs} hubs, with hub = 0")
-    return [_number(name, one) for one in one_each]
-
-
-def _number(name: str, value: Any) -> float:
-    is_number = isinstance(value, (int, float, np.integer, np.floating)) and not isinstance(value, bool)
-    if not is_number or not math.isfinite(value):
-        raise SessionError(f"{name} = {value!r} is not allowed: needs a finite number")
-    return float(value)

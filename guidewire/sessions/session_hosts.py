@@ -10,6 +10,7 @@ import json
 import math
 import os
 import subprocess
+import sys
 import threading
 from collections.abc import Mapping, Sequence
 from functools import cache
@@ -19,8 +20,9 @@ from typing import Any
 import numpy as np
 
 from guidewire.installed import has_avx2
-from guidewire.prepare import INSTALLED, ROOT, PreparationError
-from guidewire.sessions.session_state import PARTS, part_of
+from guidewire.prepare import DOOR, INSTALLED, ROOT, PreparationError
+from guidewire.runs import building
+from guidewire.sessions.session_state import PARTS, SessionError, part_of
 
 SECONDS_TO_END = 10.0
 STEPS_AT_ONCE = 64  # of a library; between them Ctrl-C is heard
@@ -243,3 +245,16 @@ def obstacle() -> str:
 def lanes(path: Path) -> int:
     """How many numbers the library computes with at once, 4 where its vector paths are on."""
     return _load(str(path)).guidewire_lanes()
+
+
+def host_of(native: bool | None) -> Library | Process:
+    """Return what simulates: the native library where it has been built and is not refused, else a process."""
+    reason = "" if native is False else obstacle()
+    if native and reason:
+        raise SessionError(reason)
+    library = None if native is False or reason else building.native_library()
+    if library is None and native:
+        raise SessionError(f"the native library is not built from these sources: '{DOOR} native' builds it")
+    if library is not None:
+        return Library(library)
+    return Process(building.build(building.RUNNER, lambda line: print(line, file=sys.stderr, flush=True)))

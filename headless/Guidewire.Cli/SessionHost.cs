@@ -58,7 +58,12 @@ namespace Guidewire.Cli
                     return;
                 case "change":
                     _pictures = null;
-                    Change(Opened(), request);
+                    Change(() => Opened().Set(request.Overrides));
+                    answer["effective"] = _session!.EffectiveParameters;
+                    break;
+                case "exchange":
+                    Change(() => Opened().Exchange(request.Hub, request.Overrides));
+                    _pictures = null;
                     answer["effective"] = _session!.EffectiveParameters;
                     break;
                 case "reset":
@@ -76,7 +81,7 @@ namespace Guidewire.Cli
                 default:
                     throw new ParameterException("request", "session", "\"" + request.Session + "\"",
                         "one of \"open\", \"step\", \"state\", \"picture\", \"describe\", \"places\", \"walls\","
-                            + " \"agent\", \"change\", \"reset\", \"save\", \"restore\"");
+                            + " \"agent\", \"change\", \"exchange\", \"reset\", \"save\", \"restore\"");
             }
             State(_session!.Simulation, answer);
         }
@@ -91,11 +96,11 @@ namespace Guidewire.Cli
                 ?? throw new ParameterException("request: no session is open: \"session\": \"open\" opens one");
         }
 
-        private static void Change(SimulationSession session, RunRequest request)
+        private static void Change(Action change)
         {
             try
             {
-                session.Set(request.Overrides);
+                change();
             }
             catch (ArgumentException error)
             {

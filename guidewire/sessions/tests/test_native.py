@@ -11,9 +11,8 @@ from guidewire.prepare import ROOT
 from guidewire.runs import building
 from guidewire.sessions import session_hosts
 from guidewire.sessions.session import Session, SessionError
-from guidewire.sessions.tests.test_session import (
-    ACCURATE, CATHETER, MATERIAL, TUBE, WIRE, assert_hubs_that_are_not_there_are_refused, assert_same_bits,
-)
+from guidewire.sessions.tests.test_session import ACCURATE, MATERIAL, TUBE, WIRE, assert_same_bits
+from guidewire.sessions.tests.test_session_catheters import CATHETER, assert_hubs_that_are_not_there_are_refused
 
 ENDLESS = {"maxSimulationSteps": 10**9, "deltaThreshold": 0}
 

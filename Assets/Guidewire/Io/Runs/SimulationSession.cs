@@ -27,7 +27,7 @@ namespace Guidewire.Io
         private readonly bool _statesReactions;
         private RunFolder? _results;
         private bool _isNoted;
-        private readonly byte[] _start;
+        private byte[] _start;
         private readonly CancellationToken _cancellation;
         private readonly bool _limitsHubs;
         private readonly double[] _motion;     // of the hubs, where one moves
@@ -380,11 +380,53 @@ namespace Guidewire.Io
             Prepare(handler);
             method.StatesReactions |= _statesReactions && CanStateReactions(method);
             handler.Values.Simulation.Drive.Steering = _steering;
-            Simulation = Simulation.Continue(handler.Values.Simulation);
+            Simulation next = Simulation.Continue(handler.Values.Simulation);
+            // A start of other instruments is another one.
+            _start = next.HasElementsOf(Simulation) ? _start : Simulation.Create(handler.Values.Simulation).Save();
+            Simulation = next;
             Note("parameters changed by hand");
             _handler = handler;
             _overrides.Clear();
             _overrides.AddRange(changed);
+        }
+
+        /// <summary>Puts another instrument in the place of one that is withdrawn: its tip is where that one's was, and
+        /// the rest goes on.</summary>
+        /// <param name="instrument">0 the wire, k catheter k.</param>
+        /// <param name="values">Parameters of it, such as its name, length and elements.</param>
+        /// <exception cref="ParameterException">It is in the vessel, or a value is not allowed; nothing has
+        /// changed.</exception>
+        /// <exception cref="ArgumentException">It does not fit the others; nothing has changed.</exception>
+        public void Exchange(int instrument, IReadOnlyCollection<KeyValuePair<string, JToken>> values)
+        {
+            CheckHub(instrument);
+            string? problem = Simulation.FindInVessel(instrument);
+            if (problem != null)
+            {
+                throw new ParameterException("request: " + problem);
+            }
+            SceneParameters scene = Parameters.Scene;
+            string own = instrument == 0 ? "guidewireLength" : "catheters[" + (instrument - 1) + "].length";
+            double before = instrument == 0 ? scene.GuidewireLength : scene.Catheters[instrument - 1].Length;
+            JToken? asked = values.LastOrDefault(value => value.Key == own).Value;
+            bool isLength = asked != null && (asked.Type == JTokenType.Float || asked.Type == JTokenType.Integer);
+            double longer = isLength ? (double)asked! - before : 0.0;
+            var all = new List<KeyValuePair<string, JToken>>(values);
+            if (longer != 0.0)
+            {
+                if (instrument == 0)
+                {
+                    all.Add(KeyValuePair.Create("guidewireOffset", (JToken)(scene.GuidewireOffset - longer)));
+                }
+                for (int k = 0; k < scene.Catheters.Count; k++)
+                {
+                    // From the wire's hub.
+                    double start = scene.Catheters[k].Start
+                        + (instrument == 0 ? longer : k == instrument - 1 ? -longer : 0.0);
+                    all.Add(KeyValuePair.Create("catheters[" + k + "].start", (JToken)start));
+                }
+            }
+            Set(all);
         }
 
         private void Prepare(ParameterHandler handler)
