@@ -6,6 +6,7 @@ import os
 import signal
 import sys
 import tempfile
+import time
 from pathlib import Path
 
 import pytest
@@ -15,7 +16,7 @@ from guidewire.runs import building
 from guidewire.runs.key_table import read_key_table
 from guidewire.runs.runner import Runner
 from guidewire.viewer.tests.browsing import browse, firefox  # noqa: F401  fixtures
-from tools.testing import FULL_CAMPAIGNS
+from tools.testing import FULL_CAMPAIGNS, READY
 
 
 # A shell that starts us in the background leaves Ctrl-C ignored, for us and for every program that we start; the tests
@@ -70,7 +71,9 @@ def fake(tmp_path):
 
 @pytest.fixture(scope="session")
 def runner_command():
-    """The real runner's command."""
+    """The real runner's command, once it is built."""
+    while READY in os.environ and not Path(os.environ[READY]).exists():
+        time.sleep(0.1)
     return building.build(building.RUNNER, print)
 
 

@@ -24,13 +24,14 @@ from guidewire.runs import building
 
 RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
+READY = "GUIDEWIRE_READY"  # a file that is there once the runner is built that the tests in Python start
 # In this order, so that what needs nothing built runs beside the build, and no long file is left over at the end.
-PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "guidewire/viewer", "tools/unitycheck",
-          "guidewire/sessions",
-          "experiments", "analysis", "guidewire", "tools")
-# The build that Unity compiles has the same sources and runs here on the same runtime as the other. Where campaigns do
-# not run in full it makes the tests of what the two do in different ways: how sweeps are made and numbers are written.
-_BY_TARGET = ["--filter", "TestCategory=Target&TestCategory!=Long"]
+PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "tools/unitycheck", "guidewire/viewer",
+          "guidewire/sessions", "experiments", "analysis", "guidewire", "tools")
+# What is [Category("Long")] runs where campaigns run in full. The build that Unity compiles has the same sources and
+# runs here on the same runtime as the other. Elsewhere it makes the tests of what the two do in different ways: how
+# sweeps are made and numbers are written.
+_QUICK = "TestCategory!=Long"
 _SECONDS = {False: 1800, True: 6 * 3600}  # for each runner
 _LAST_LINES = 60
 PYTEST = (sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", "faulthandler_timeout=300")
@@ -57,6 +58,7 @@ def test(arguments: argparse.Namespace) -> int:
     RESULTS.mkdir(parents=True)
     os.environ.pop("PYTHONDONTWRITEBYTECODE", None)    # tests start the program some hundred times
     os.environ.pop(FULL_CAMPAIGNS, None)
+    os.environ[READY] = str(RESULTS / "ready")
     if arguments.all:
         os.environ[FULL_CAMPAIGNS] = "1"
     seconds = _SECONDS[arguments.all]
@@ -85,12 +87,26 @@ def _dotnet(full: bool, seconds: float, not_built: threading.Event) -> Count:
     finally:
         building.end_compiler()
     _say(f"build: ok ({time.monotonic() - started:.0f} s)")
+    native = threading.Thread(target=_build_native)
+    native.start()
     total = Count()
-    tests = [(name, "net10.0", []) for name in building.DOTNET_TESTS]
-    for name, target, words in [*tests, (building.DOTNET_TESTS[0], "netstandard2.1", [] if full else _BY_TARGET)]:
+    tests = [(name, "net10.0", _QUICK) for name in building.DOTNET_TESTS]
+    for name, target, chosen in [*tests, (building.DOTNET_TESTS[0], "netstandard2.1", f"TestCategory=Target&{_QUICK}")]:
         library = building.HEADLESS / name / "bin" / "Release" / target / f"{name}.dll"
+        words = [] if full else ["--filter", chosen]
         total += run(f"{name}-{target}", [building.dotnet()[0], "test", str(library), "--nologo", *words], seconds)
+    native.join()
     return total
+
+
+def _build_native() -> None:
+    """Build the runner of machine code where that is possible: tests start a runner some thousand times."""
+    try:
+        building.build_native(_say)
+    except PreparationError as error:
+        _say(f"the runner compiles while it runs: {error}")
+    finally:
+        Path(os.environ[READY]).touch()
 
 
 def run(name: str, command: Sequence[str], seconds: float, stop: threading.Event | None = None) -> Count:

@@ -10,7 +10,7 @@ from pathlib import Path
 import pytest
 
 from analysis.stability import limit_explicit
-from analysis.validation import scenes, statics, tube_buckling, vessel
+from analysis.validation import scenes
 from analysis.validation.report import FAST, Report, as_csv, as_markdown
 from analysis.validation.wire import BASE, Wire
 from guidewire.logs.runs import read_runs
@@ -19,18 +19,10 @@ from guidewire.sweeps.check import Check, Finding, Result, replay
 from guidewire.sweeps.sweep import Means, SweepResult, sweep
 from tools.testing import FULL_CAMPAIGNS
 
-# The longest run only where campaigns run in full: of the rows in the vessel all but the whip, which needs all of
-# contact, and those whose claim a test of Core holds with the same closed form (TwistedWireTests, MaterialRunTests,
-# MotionTests, ClampTests, CoaxialStaticsTests, CoaxialSlidingTests, StabilityTests, LargeTurnTests); of several checks
-# of one claim one, or those at both ends of its range; of the wire on a plane the row with direct alone.
-HELD_BY_CORE = ("ring", "localised-helix", "bar", "clamp-frequencies", "coaxial-stability", "coaxial-snap",
-                "coaxial-expulsion", "coaxial-sliding", "coaxial-limits", "strips", "large-turns")
-SECOND = ("end-moment-darboux", "force-balance-default",    # joint-law has both laws; force-balance is stricter
-          "tip-load-1", "tip-load-2", "tip-load-10", "own-weight-0.2", "couple-tension-0", "couple-tension-10",
-          "elements")    # clamp-compliance has the order in the number of elements
-CHECKS = FAST if FULL_CAMPAIGNS in os.environ else tuple(
-    check for check in FAST
-    if check not in (*vessel.FAST, *tube_buckling.FAST, *statics.CHECKS) and check.name not in HELD_BY_CORE + SECOND)
+# All only where campaigns run in full. Elsewhere one of each kind of row that no test of Core has: a large load, a bend
+# in space, derivatives, steps, a tube with clearance.
+ONE_OF_A_KIND = ("tip-load-100", "spatial-bend", "gradient", "order-in-time-axial", "twisted-tube")
+CHECKS = FAST if FULL_CAMPAIGNS in os.environ else tuple(check for check in FAST if check.name in ONE_OF_A_KIND)
 
 
 def make(checks: Sequence[Check], folder: Path, command: list[str]) -> SweepResult:
@@ -47,7 +39,6 @@ def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[s
 
 
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.name)
-@pytest.mark.few(5)
 def test_direct_solver_keeps_its_gates(fast_report: Report, check: Check) -> None:
     results = fast_report.findings[check].results
     assert any(result.gate is not None for result in results) or all(result.reason for result in results)

@@ -15,6 +15,8 @@ from tools.testing import PYTEST, Count, read_trx, run
 @pytest.fixture(autouse=True)
 def results_in_a_folder_of_their_own(tmp_path, monkeypatch):
     monkeypatch.setattr(testing, "RESULTS", tmp_path / "results")
+    for name in (testing.READY, testing.FULL_CAMPAIGNS):    # `test` sets its own
+        monkeypatch.delenv(name, raising=False)
     testing.RESULTS.mkdir()
 
 
@@ -75,6 +77,7 @@ def all_tests(monkeypatch, file, build, dotnet):
     """The exit code of `test`, with a build and a `dotnet test` of these and a file in place of all in Python."""
     monkeypatch.setattr(testing, "PYTHON", [str(file)])
     monkeypatch.setattr(testing.building, "build_part", build)
+    monkeypatch.setattr(testing.building, "build_native", lambda tell: None)
     monkeypatch.setattr(testing.building, "dotnet", lambda: (dotnet, ""))
     return testing.test(argparse.Namespace(all=False))
 

@@ -63,6 +63,7 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
             ["press", " "], PAUSED, ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"],
             ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
+            ["until", f"{darkest} < 0.6"],
             ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")],
             # Mask, agent and wire of one moment.
             ["see",

@@ -9,7 +9,6 @@ namespace Guidewire.Core.Tests
         private const double Tolerance = 1e-9;
 
         [Test]
-        [Category("Long")]
         public void Nearest_AgreesWithTheLoopOverAllTriangles()
         {
             Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), RandomGeometry.Cases(10_000, 40));
@@ -46,7 +45,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        [Category("Long")]
         public void Nearest_WithARange_FindsExactlyWhatIsWithinIt()
         {
             Vector3d[] corners = TestMeshes.Ball(10, 0.0).Corners;

@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
         private const int Rows = 100;
         private const double Length = 20.0;
         private const double Widest = 1.6;    // radii of a wire in which a throat limits its barriers
-        private const int OneOf = 4;    // parts of the length that a rough tube has where campaigns do not run in full
+        private const int OneOf = 8;    // parts of the length that a rough tube has where campaigns do not run in full
 
         /// <summary>A throat of radius 0.3 in a tube of radius 1, seen by balls in the middle of triangles.</summary>
         [Test]

@@ -18,7 +18,7 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase(1.98, 0.1)]
-        [TestCase(0.1, 10.0)]
+        [TestCase(0.1, 10.0, Category = "Long")]
         public void GainWithinItsLimit_IsNotDiverged(double stretch, double bend)
         {
             Assert.That(RunOf(stretch, bend).Outcome, Is.EqualTo(Outcome.Finished));
@@ -55,7 +55,7 @@ namespace Guidewire.Core.Tests
         }
 
         // Few sweeps and a displacement of ten element lengths make a wire that swings for long, but recovers.
-        [TestCase(500, 600)]
+        [TestCase(500, 600, Category = "Long")]
         [TestCase(10, 4000)]
         [TestCase(3, 4000)]
         [TestCase(1, 4000)]

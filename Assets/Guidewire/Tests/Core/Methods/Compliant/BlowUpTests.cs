@@ -49,7 +49,6 @@ namespace Guidewire.Core.Tests
 
         [TestCase(1)]
         [TestCase(3)]
-        [Category("Long")]
         public void TooFewSubsteps_EndDiverged_OrSayHowWrongTheyAre(int sweeps)
         {
             if (sweeps > 1)

@@ -11,14 +11,12 @@ namespace Guidewire.Core.Tests
         private const double Settled = 14.0; // a critically damped motion is over after so many 1/omega: 15 exp(-14)
 
         [Test]
-        [Category("Long")]
         public void RunThatClaimsConvergence_EndsInTheRestShape()
         {
             Campaign(11, Rods.InFull ? 240 : 3, true, ErrorAtRest);
         }
 
         [Test]
-        [Category("Long")]
         public void RunThatClaimsConvergence_MovesAsImplicitEuler()
         {
             Campaign(12, Rods.InFull ? 240 : 8, false, ErrorInMotion);

@@ -10,7 +10,7 @@ namespace Guidewire.Core.Tests
         private const double Gravity = 9.81;  // m/s^2
 
         [TestCase(0.0)]
-        [TestCase(1e5)]
+        [TestCase(1e5, Category = "Long")]
         public void Cantilever_OnAPlane_PressesAsTheBoundaryValueProblemSays(double stiffness)
         {
             // As direct's: r = 0.3 mm over a plane 20 mm below the axis presses with 1.16164 mN. Ten times as thick
@@ -63,7 +63,7 @@ namespace Guidewire.Core.Tests
 
         // One sweep a substep leaves elements that pitch, and a creep of 0.02 mm/s; three hold.
         [TestCase(1, 0.4, 20, 6e-3)]
-        [TestCase(3, 0.4, 100, 1e-4)]
+        [TestCase(3, 0.4, 100, 1e-4, Category = "Long")]
         [TestCase(10, 0.05, 5, 1e-4)]
         public void Wire_AlongASlope_StaysBelowTheAngleOfFriction(int sweeps, double fraction, int steps, double creep)
         {

@@ -12,7 +12,6 @@ namespace Guidewire.Core.Tests
 
         [TestCase(1)]
         [TestCase(4)]
-        [Category("Long")]
         public void Ring_LeavesItsPlane_AtTheTwistOfMichellAndZajac(int sweeps)
         {
             if (sweeps > 1)
@@ -27,7 +26,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        [Category("Long")]
         public void StraightWire_LeavesItsAxis_AtTheCoupleOfGreenhill()
         {
             Rods.OnlyInFull("rings, whose limit is another closed form");

@@ -10,7 +10,6 @@ namespace Guidewire.Core.Tests
         [TestCase(Solver.Direct, 1, 1e-9)]
         [TestCase(Solver.Xpbd, 10, 1e-4)]
         [TestCase(Solver.Explicit, 1000, 1e-6)]
-        [Category("Long")]
         public void SoftWire_HoldsItsStrain(Solver solver, int substeps, double tolerance)
         {
             if (solver == Solver.Explicit)

@@ -21,7 +21,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(Solver.Direct)]
         [TestCase(Solver.Xpbd)]
-        [TestCase(Solver.Explicit)]
+        [TestCase(Solver.Explicit, Category = "Long")]
         public void DistributedForceOfTheWiresWeight_MovesItAsGravityDoes(Solver solver)
         {
             SimulationParameters heavy = Moving(solver);

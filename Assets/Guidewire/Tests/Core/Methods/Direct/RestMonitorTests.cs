@@ -9,7 +9,7 @@ namespace Guidewire.Core.Tests
         private const double Threshold = 0.001;   // units: 1 um
 
         [TestCase(1e-4, ProximalEnd.Clamped, 0.02)]
-        [TestCase(0.5e-3, ProximalEnd.Held, 0.5)]
+        [TestCase(0.5e-3, ProximalEnd.Held, 0.5, Category = "Long")]
         public void SwingingWire_IsNotAtRest_InSmallSteps(double radius, ProximalEnd end, double force)
         {
             // A tip force, let go at 3 ms: in steps of 10 us the tip's prediction error is below 1 um all the time.
@@ -40,7 +40,6 @@ namespace Guidewire.Core.Tests
         [TestCase(Solver.Direct, 1e-2, 1, 30.0)]
         [TestCase(Solver.Direct, 1.0, 1, 0.0)]
         [TestCase(Solver.Explicit, 1e-3, 5000, 50.0)]
-        [Category("Long")]
         public void DampedWire_ComesToRest_WhereItsRestShapeIs(Solver solver, double step, int substeps,
             double massDamping)
         {

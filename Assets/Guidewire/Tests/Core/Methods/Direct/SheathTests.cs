@@ -159,7 +159,7 @@ namespace Guidewire.Core.Tests
             Assert.That(reader.Value(shape), Is.EqualTo(term.Value(shape)));
         }
 
-        [Test, Category("Long")]
+        [Test]
         public void TipThatJumpsRound_LosesNoTurn([Values(0.01, 0.05)] double timeStep)
         {
             // So long a wire winds up by more than half a turn before its tip gives way in the bend.
@@ -268,7 +268,7 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(0.03).Within(1e-12));
         }
 
-        [Test, Category("Long")]
+        [Test]
         public void WireInASheath_IsTheWholeWireInALongTightTube()
         {
             // Gates: force, torque and angle of the tip within 2 %, its place within 3 % of the lumen's radius. The

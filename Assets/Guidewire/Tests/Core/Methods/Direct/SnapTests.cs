@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
         /// <summary>A wire that is a coil at rest is let go from straight, and comes to rest in its coil.</summary>
         [TestCase(1.5, Integrator.ImplicitEuler)]
         [TestCase(3.0, Integrator.Esdirk3)]
-        [TestCase(6.0, Integrator.Esdirk3)]
+        [TestCase(6.0, Integrator.Esdirk3, Category = "Long")]
         [TestCase(6.0, Integrator.Bdf2)]
         [TestCase(4.0, Integrator.Trbdf2)]
         public void CoilLetGoFromStraight_WindsUp(double turns, Integrator integrator)
@@ -89,7 +89,7 @@ namespace Guidewire.Core.Tests
         /// pulled against the walls within the first step, and steps of 2 to 16 ms all come to the same shape. Halved
         /// no further than to 1/64 the first step by esdirk3 has no solution, to 1/16 by neither.</summary>
         [TestCase(Integrator.ImplicitEuler)]
-        [TestCase(Integrator.Esdirk3)]
+        [TestCase(Integrator.Esdirk3, Category = "Long")]
         public void LoadAtOnceBetweenWalls_EndsInTheSameShapeWhateverTheStep(Integrator integrator)
         {
             const double Tolerance = 1e-3;  // mm

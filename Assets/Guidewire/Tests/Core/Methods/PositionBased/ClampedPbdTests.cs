@@ -8,8 +8,7 @@ namespace Guidewire.Core.Tests
     public sealed class ClampedPbdTests
     {
         [TestCase(SweepOrder.Naive, 8)]
-        [TestCase(SweepOrder.Bilateral, 12)]
-        [Category("Long")]
+        [TestCase(SweepOrder.Bilateral, 12, Category = "Long")]
         public void TwistOfATurnedEnd_IsLinearAtRest(SweepOrder order, int n)
         {
             // At rest no element is turned by a sweep. An inner joint turns either element by half of g E, one at a

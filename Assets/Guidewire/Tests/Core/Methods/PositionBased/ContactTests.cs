@@ -141,7 +141,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        [Category("Long")]
         public void Drive_AgainstAWall_IsShortened_AndTheShortfallReported()
         {
             // Sphere 0 is asked 60 units across a tube of radius 8: it gets to the wall, less the clearance.

@@ -31,7 +31,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        [Category("Long")]
         public void VerletAndEuler_Agree_WithDampingToo()
         {
             // Without damping both are those of the prototype, above.

@@ -12,8 +12,8 @@ namespace Guidewire.Core.Tests
 
         // Both hubs go and turn, at speeds with which nodes come in and go.
         [TestCase(0.2, 0.07)]
-        [TestCase(-0.3, 0.0)]
-        [TestCase(0.0, -0.2)]
+        [TestCase(-0.3, 0.0, Category = "Long")]
+        [TestCase(0.0, -0.2, Category = "Long")]
         public void StepThatKeepsItsElements_LeavesNothing(double wire, double catheter)
         {
             // Schemes of several steps and of several stages keep more; implicitEuler is that of the vessels below.
@@ -26,7 +26,7 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase(0.2, 0.05, 0.07)]
-        [TestCase(-0.1, -0.2, 0.05)]
+        [TestCase(-0.1, -0.2, 0.05, Category = "Long")]
         public void StepOfThreeThatKeepsItsElements_LeavesNothing(double wire, double middle, double outer)
         {
             SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);

@@ -34,10 +34,9 @@ namespace Guidewire.Core.Tests
             Assert.That(push.Contacts.Passages + push.PointsOutside, Is.Zero);
         }
 
-        [Category("Long")]
         [TestCase(false, false)]
-        [TestCase(true, false)]
-        [TestCase(false, true)]
+        [TestCase(true, false, Category = "Long")]
+        [TestCase(false, true, Category = "Long")]
         [TestCase(true, true)]
         public void NoInstrumentIsEverOutside_AndEveryRunHasAnEnd(bool isSheathed, bool hasOuter)
         {

@@ -39,7 +39,7 @@ namespace Guidewire.Core.Tests
 
         [TestCase(0.1, 1.02)]
         [TestCase(0.3, 1.01)]
-        [TestCase(0.5, 1.02)]
+        [TestCase(0.5, 1.02, Category = "Long")]
         public void RopeOverADrum_SlidesOff_AboveItsLimit(double mu, double load)
         {
             Simulation run = OverDrum(mu, load, out _);

@@ -11,14 +11,12 @@ namespace Guidewire.Core.Tests
     internal sealed class RandomWallPushTests
     {
         [Test]
-        [Category("Long")]
         public void Wire_IsNeverOutside_AndEveryRunHasAnEnd()
         {
             Check(seed => new RandomWallPush(seed));
         }
 
         [Test]
-        [Category("Long")]
         public void WireWithASoftBentTip_IsNeverOutside_AndEveryRunHasAnEnd()
         {
             Check(seed => new RandomWallPush(seed, scene => WithSoftTip(scene, seed)));

@@ -11,7 +11,6 @@ namespace Guidewire.Core.Tests
         private const double Gap = 0.05;     // mm
 
         [Test]
-        [Category("Long")]
         public void Tip_DoesNotDependOnTheElements()
         {
             Vector3d coarse = Tip(60, 0.01, Gap);
@@ -43,7 +42,6 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        [Category("Long")]
         public void Tip_DoesNotDependOnTheMesh()
         {
             // Chords along the bend take up to 33 mm (1 - cos(pi/48)) = 0.07 mm off the outer wall of the coarse one;
