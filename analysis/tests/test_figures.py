@@ -65,7 +65,7 @@ LAID_OUT = list(FIGURES) if os.environ.get("GUIDEWIRE_ALL") else list(
 
 
 @pytest.mark.parametrize("name", LAID_OUT)
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 def test_axes_are_labelled_with_units(drawn: dict[str, tuple[Figure, str]], name: str) -> None:
     for axes in panels(drawn[name][0]):
         for label in (axes.get_xlabel(), axes.get_ylabel()):
@@ -74,7 +74,7 @@ def test_axes_are_labelled_with_units(drawn: dict[str, tuple[Figure, str]], name
 
 
 @pytest.mark.parametrize("name", LAID_OUT)
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 def test_caption_stands_under_the_panels_and_inside_the_picture(
     drawn: dict[str, tuple[Figure, str]], name: str
 ) -> None:

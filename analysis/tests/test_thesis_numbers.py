@@ -36,7 +36,7 @@ def key_of(name):
 
 
 @pytest.mark.parametrize("name", TAU)
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 def test_tau_is_that_of_an_independent_program(made, name):
     table = read_table(made / name, key_of(name))
     assert {row.run.outcome for row in table.rows} == {"converged"}

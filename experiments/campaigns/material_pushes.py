@@ -72,6 +72,8 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     if random.uniform() < 0.5:
         for wall in (scene["vessel"], *scene.get("obstacles", [])):
             wall["frictionCoefficient"] = random.uniform(0.02, 0.4)
+    if seed % 3 == 2 and method != "xpbd":
+        _turn_back(np.random.default_rng([67, seed]), scene, folder / f"push-{seed}.csv")
     return kind, scene
 
 
@@ -142,6 +144,16 @@ def _resolve(random, scene: dict[str, Any], distance: float) -> None:
     per_step = 1e3 * _between(random, 0.3, 3.0) * scene["timeStep"]  # at 0.3 to 3 m/s
     steps = int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 1000))
     scene |= {"displacementPerStep": per_step, "maxSimulationSteps": steps}
+
+
+def _turn_back(random, scene: dict[str, Any], file: Path) -> None:
+    """The wire is drawn back from half of its steps on, turning the other way."""
+    half = scene["maxSimulationSteps"] // 2
+    ahead, turn = (half * scene.pop(key, 0.0) for key in ("displacementPerStep", "twistPerStep"))
+    middle, end = (steps * scene["timeStep"] for steps in (half, scene["maxSimulationSteps"]))
+    file.write_text("time,insertion,rotation\n0,0,0\n"
+                    f"{middle!r},{1e-3 * ahead!r},{turn!r}\n{end!r},{1e-3 * ahead * random.uniform(-0.2, 0.8)!r},0\n")
+    scene["driveFile"] = str(file)
 
 
 def _lead_in(random, scene: dict[str, Any], spacing: float, straight: float) -> None:

@@ -18,6 +18,7 @@ from guidewire.commands.instruments import files
 from guidewire.logs.logs import read_log
 from guidewire.prepare import ROOT
 from guidewire.runs.runner import Request, Runner
+from tools.seeds import keep, of_the_day, seeds
 
 FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 NAMES = sorted(files())
@@ -35,7 +36,8 @@ def _broken(runs):
 
 @pytest.mark.long("the wire of a test below goes through the same checks")
 def test_pushes_pulls_and_turns_pass_no_wall_and_say_what_is_true(runner_command, artery, tmp_path):
-    runs = list(campaign(runner_command, artery, range(100), tmp_path))
+    runs = list(campaign(runner_command, artery, seeds("artery", [], 20), tmp_path))
+    keep("artery", [run.seed for run in runs if run.claims])
     assert not _broken(runs), "\n".join(_broken(runs))
     assert sum(run.outcome != "refused" for run in runs) > 0.5 * len(runs)
 
@@ -47,14 +49,14 @@ def test_an_instrument_passes_no_wall_and_says_what_is_true(runner_command, arte
     assert not run.claims and run.outcome != "refused", (run.claims, run.reason)
 
 
-@pytest.mark.skipif(not FULL, reason="makes four vessels and 400 runs; the artery's are made in either case")
-@pytest.mark.parametrize("kind", MADE)
+@pytest.mark.skipif(not FULL, reason="makes a vessel and its runs; the artery's are made in either case")
+@pytest.mark.parametrize("kind", [MADE[of_the_day(1, len(MADE))[0]]])
 def test_wires_in_vessels_made_by_code_pass_no_wall(runner_command, tmp_path, kind):
     pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
     folder = tmp_path / kind
     subprocess.run([sys.executable, str(ROOT / "guidewire.py"), "anatomy", "--make", kind, "--out", str(folder)],
                    check=True)
-    runs = list(campaign(runner_command, Vessel(folder), range(100), tmp_path))
+    runs = list(campaign(runner_command, Vessel(folder), of_the_day(12), tmp_path))
     assert not _broken(runs), "\n".join(_broken(runs))
 
 

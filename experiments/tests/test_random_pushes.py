@@ -1,7 +1,6 @@
 """Wires pushed at random into vessels of twelve kinds: what each log says, found by an independent search."""
 
 import json
-import os
 import subprocess
 from pathlib import Path
 
@@ -15,13 +14,13 @@ from experiments.campaigns.push_claims import passage_bounds, violations
 from guidewire.logs.hub import read_hub
 from guidewire.logs.logs import read_log
 from guidewire.logs.surfaces import read_obj
+from tools.seeds import keep, seeds
 
-FULL = os.environ.get("GUIDEWIRE_ALL") == "1"
 # In the fraction six kinds with one rule each, and each rule with two of them.
 FRACTION = [1008 + 12 * rule + kind for rule in range(3) for kind in range(rule, 12, 6)]
-SEEDS = range(1000) if FULL else FRACTION
-# Of a wire with a material, by method: how many seeds in full, and those of the fraction.
-MATERIAL = {"direct": (300, (3, 6)), "sheath": (150, (3, 7)), "xpbd": (100, (3, 8))}
+DAILY = 120
+# Of a wire with a material, by method: how many seeds a day in full, and those of the fraction.
+MATERIAL = {"direct": (60, (3, 5)), "sheath": (33, (3, 8)), "xpbd": (24, (3, 8))}
 CASES = Path(__file__).with_name("wall_cases")
 
 BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)    # its corners
@@ -30,19 +29,23 @@ FACES = np.array([face for a, b, c, d in
                   for face in ((a, b, c), (a, c, d))])
 
 
+def assert_true(name, broken):
+    keep(name, [push.seed for push in broken])
+    assert not broken, "\n".join(f"{push.seed} {push.kind} {push.outcome}: {push.claims}" for push in broken)
+
+
 def test_pushes_pass_no_wall_freeze_nowhere_and_say_what_is_true(runner_command, tmp_path):
-    broken = [f"{push.seed} {push.kind}: {push.claims}" for push in campaign(runner_command, SEEDS, tmp_path)
-              if push.claims]
-    assert not broken, "\n".join(broken)
+    runs = campaign(runner_command, seeds("pbd", FRACTION, DAILY), tmp_path)
+    assert_true("pbd", [push for push in runs if push.claims])
 
 
 @pytest.mark.parametrize("method", MATERIAL)
 def test_wires_with_a_material_pass_no_wall_and_say_what_is_true(runner_command, tmp_path, method):
-    count, fraction = MATERIAL[method]
-    runs = list(campaign(runner_command, range(count) if FULL else fraction, tmp_path, method))
-    broken = [f"{push.seed} {push.kind} {push.outcome}: {push.claims}" for push in runs if push.claims]
-    assert not broken, "\n".join(broken)
-    assert len(runs) > 0.5 * len(range(count) if FULL else fraction)
+    daily, fraction = MATERIAL[method]
+    chosen = seeds(method, fraction, daily)
+    runs = list(campaign(runner_command, chosen, tmp_path, method))
+    assert_true(method, [push for push in runs if push.claims])
+    assert len(runs) > 0.5 * len(chosen)
 
 
 @pytest.mark.long("random pushes go through the same judge; BentTipFrictionTests has a hub that slips")

@@ -73,6 +73,7 @@ def test_wrong_words_are_one_line_and_nothing_is_written(tmp_path: Path, words: 
     assert not (tmp_path / "out").exists()
 
 
+@pytest.mark.long("lines become tubes in the tests of lines")
 def test_a_centreline_alone_becomes_a_tube(tmp_path: Path) -> None:
     z = np.linspace(0.0, 30.0, 7)
     rows = [f"{5.0 * np.sin(a / 20.0)},{a},{0.1 * a},{2.0 + 0.01 * a}" for a in z]
@@ -113,6 +114,7 @@ def test_axes_that_are_given_turn_the_vessel_and_lead_back(tmp_path: Path) -> No
         anatomy(f"{file} --unit mm --axes LRS --out {tmp_path / 'no'}")
 
 
+@pytest.mark.long("units are asked for in the tests of repair")
 def test_a_unit_that_is_not_certain_is_asked_for(tmp_path: Path) -> None:
     file = write_stl(tmp_path / "a.stl", tube(1.2, 20.0, rings=60))
     with pytest.raises(PreparationError, match="not certain from the sizes: give --unit mm, .* or --unit cm"):

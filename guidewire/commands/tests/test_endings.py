@@ -79,7 +79,7 @@ def assert_steps_are_whole(log, time_step=0.01):
     assert np.all(np.isfinite(log.positions))
 
 
-@pytest.mark.parametrize("moment", range(40 if FULL else 1))
+@pytest.mark.parametrize("moment", range(8 if FULL else 1))
 def test_a_killed_run_leaves_a_log_up_to_its_last_whole_step(start, scratch, moment):
     out = scratch / "out"
     process = start(scene_of(scratch), out)

@@ -159,7 +159,7 @@ def test_evolution_learns_the_same_from_the_same_seed(tube, tmp_path):
 
 @pytest.mark.parametrize("task", ["tube", *(all_tasks() if FULL else [])])
 def test_random_episodes_end_as_they_say_without_a_number_that_is_none(tube, task):
-    count = 1000 if FULL else 2
+    count = 50 if FULL else 2
 
     def bits():
         with Environment(tube if task == "tube" else task) as own:

@@ -176,7 +176,7 @@ def test_a_fork_of_a_process_with_native_sessions_takes_runners():
 
 def test_a_library_that_was_not_built_is_said(monkeypatch):
     monkeypatch.setattr(building, "native_library", lambda: None)
-    with pytest.raises(SessionError, match="'guidewire.py native' builds it"):
+    with pytest.raises(SessionError, match="guidewire.py native' builds it"):
         Session(native=True)
 
 

@@ -174,7 +174,7 @@ def test_a_sweep_that_is_killed_goes_on_where_it_was(runner_command, tmp_path):
 
 
 @pytest.mark.parametrize("when", ["get_versions", "run"])
-@pytest.mark.few(1)
+@pytest.mark.long("that none is at an address is one line, too")
 def test_a_scheduler_that_is_killed_while_its_workers_are_asked_is_one_line(fake, tmp_path, monkeypatch, when):
     made = Processes(tmp_path)
     try:

@@ -59,30 +59,6 @@ def test_lists_let_the_hand_steer_and_another_case_asks_first(browse, runner_com
     assert seen[4] != "scenes" and seen[5] == ["sheath.json", "sheath.json", False] and seen[6] == [1, 0]
 
 
-def test_both_pictures_have_the_head_above_turn_together_and_follow_the_held_instrument(
-        browse, runner_command, tmp_path):
-    arm = "viewer.xray.fluoroscopy.arm"
-    camera = "viewer.stage._camera"
-    look = (f"[...{camera}.position.clone().sub(viewer.stage._controls.target).normalize().toArray(),"
-            f" ...{arm}.towards, ...{camera}.up.toArray(), ...{arm}.head]")
-    orbit = ("{ const { position } = viewer.stage._camera; const { target } = viewer.stage._controls;"
-             " position.set(target.x + 3, target.y + 40, target.z + 20); viewer.stage._controls.update(); }")
-    with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
-        seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["see", look], ["click", "LAO 30"], ["see", look],
-            ["see", orbit], ["see", look],
-            ["click", "together"], ["click", "AP"], ["see", look],
-            ["press", "i"], ["until", f"{STATUS}.held === 1"],
-            ["see", "[[...viewer.shown.model.watchedTip], [...viewer.shown.model.centreline(1).slice(-3)]]"],
-        )["seen"]
-    for k in (0, 1, 3):
-        np.testing.assert_allclose(seen[k][:3], seen[k][3:6], atol=1e-6)
-        assert seen[k][6:9] == seen[k][9:]
-    assert seen[0][3:6] == pytest.approx([1, 0, 0]) and seen[1][4] == pytest.approx(0.5)
-    assert abs(seen[3][4]) > 0.8 and abs(seen[4][0] - seen[4][3]) > 0.5    # separated, the C-arm alone is turned
-    assert seen[5][0] == seen[5][1]
-
-
 @pytest.mark.long("who has the hand stands in the tests of the server")
 def test_who_looks_on_is_told_when_the_run_is_free(browse, runner_command, tmp_path):
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):

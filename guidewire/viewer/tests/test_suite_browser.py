@@ -32,6 +32,7 @@ def levels(grey):
     return np.frombuffer(b64decode(grey), np.uint8).astype(int)
 
 
+@pytest.mark.long("the shader draws the pictures of the core in the tests of the page; agent is seen below")
 def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_path):
     scene = near_target(tmp_path)
     with Session(scene, hand=True, native=False, **live._ENDLESS) as session:
@@ -58,12 +59,12 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]],
-            ["see", f"{VIEW}.look.noise = 0"],
+            # ml: as long as it takes the page to pause, and longer
+            ["see", f"{VIEW}.look.noise = 0; document.querySelector('#contrast input').value = 150"],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
             ["press", " "], PAUSED, ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"],
-            ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
-            ["until", f"{darkest} < 0.6"],
+            ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap && {darkest} < 0.6"],
             ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")],
             # Mask, agent and wire of one moment.
             ["see",
@@ -133,7 +134,14 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     assert seen[7] == "20 mm" and seen[8].startswith("second plane, LAO 90") and seen[10] == 30
 
 
-def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repeated(browse, runner_command, tmp_path):
+def test_both_pictures_turn_together_with_the_head_above_both_hands_steer_and_the_run_is_repeated(
+        browse, runner_command, tmp_path):
+    """By keys, sticks and the dial; the picture follows the instrument in the hand."""
+    arm, camera = f"{VIEW}.arm", "viewer.stage._camera"
+    look = (f"[...{camera}.position.clone().sub(viewer.stage._controls.target).normalize().toArray(),"
+            f" ...{arm}.towards, ...{camera}.up.toArray(), ...{arm}.head]")
+    orbit = ("{ const { position } = viewer.stage._camera; const { target } = viewer.stage._controls;"
+             " position.set(target.x + 3, target.y + 40, target.z + 20); viewer.stage._controls.update(); }")
     turn = HUB.replace("hubInsertion", "hubTurn")
     drag = ("{ const face = document.querySelector('.dial .turned'); const { left, top, width, height } ="
             " face.getBoundingClientRect(); face.setPointerCapture = () => {}; const at = (kind, x, y) => "
@@ -143,7 +151,11 @@ def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repea
     steered = "['steered.csv', 'steered-1.csv'].map((file) => fetch(file).then((answer) => answer.text()))"
     with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["down", "w"], ["down", "u"],
+            ["open", address], DRAWN, ["click", "got it"], ["see", look], ["click", "LAO 30"], ["see", look],
+            ["see", orbit], ["see", look], ["click", "together"], ["click", "AP"], ["see", look],
+            ["press", "i"], ["until", f"{STATUS}.held === 1"],
+            ["see", "[[...viewer.shown.model.watchedTip], [...viewer.shown.model.centreline(1).slice(-3)]]"],
+            ["press", "i"], ["until", f"{STATUS}.held === 0"], ["down", "w"], ["down", "u"],
             ["until", f"{HUB} > 0.008 && {HUB_OF_CATHETER} > 0.006"], ["up", "u"], ["up", "w"],
             ["see", f"[{HUB}, {HUB_OF_CATHETER}]"], ["see", GAMEPAD], ["see", "pad.axes[3] = -0.5"],
             ["until", "viewer.shown.steering.otherPush === 0.5"], ["until", f"{HUB_OF_CATHETER} > 0.012"],
@@ -154,6 +166,13 @@ def test_both_hands_steer_by_keys_and_sticks_the_dial_turns_and_the_run_is_repea
             ["press", " "], PAUSED, ["see", f"Promise.all({steered})"], ["see", "[...viewer.shown.model.tip]"],
             ["see", "viewer.shown.model.recording.at('step', viewer.shown.model.recording.count - 1)[0]"],
             size=(1000, 700))["seen"]
+    looks, (watched, held), seen = (seen[0], seen[1], *seen[3:5]), seen[5], seen[6:]
+    for one in looks[:3]:
+        np.testing.assert_allclose(one[:3], one[3:6], atol=1e-6)
+        assert one[6:9] == one[9:]
+    assert looks[0][3:6] == pytest.approx([1, 0, 0]) and looks[1][4] == pytest.approx(0.5)
+    assert abs(looks[2][4]) > 0.8 and abs(looks[3][0] - looks[3][3]) > 0.5    # separated, the C-arm alone is turned
+    assert watched == held
     wire, catheter = seen[0]
     assert wire > 0.008 and catheter > 0.006 and seen[4] == pytest.approx(0.2)
     tables, tip, step = seen[6:9]

@@ -41,6 +41,7 @@ def test_types_of_the_page_are_right(browse):
     assert done.returncode == 0, done.stdout
 
 
+@pytest.mark.long("keys steer as the page says in the tests of the suite")
 def test_who_reads_the_page_alone_brings_the_wire_into_the_branch(browse, runner_command, tmp_path):
     """What is pressed, and when, is as its texts say. What was reached is not."""
     def dial(label):

@@ -8,20 +8,14 @@ namespace Guidewire.Core.Tests
     {
         private const double Asked = 200.0;    // units
         private readonly SimulationParameters _parameters;
-        private readonly Vector3d[] _start;
-        private double _path;                  // length of the path of sphere 0, units
 
         /// <summary>Draws the wire and pushes it to its end.</summary>
         public RandomPush(int seed, ElementContact rule)
         {
-            Seed = seed;
             _parameters = Draw(new RandomGeometry(seed), rule);
             Simulation = Simulation.Create(_parameters);
-            _start = (Vector3d[])Simulation.State.Positions.Clone();
             Run();
         }
-
-        public int Seed { get; }
 
         public Simulation Simulation { get; }
 
@@ -29,71 +23,6 @@ namespace Guidewire.Core.Tests
 
         /// <summary>Points of the wire that lay outside the wall after a step, summed over the steps.</summary>
         public int PointsOutside { get; private set; }
-
-        /// <summary>Mean distance of the spheres from their start, as a fraction of the displacement asked
-        /// for.</summary>
-        public double Reached
-        {
-            get
-            {
-                double sum = 0.0;
-                for (int i = 0; i < _start.Length; i++)
-                {
-                    sum += Vector3d.Distance(_start[i], Simulation.State.Positions[i])
-                        / (Contacts.DriveAsked * _start.Length);
-                }
-                return sum;
-            }
-        }
-
-        /// <summary>Fraction of the displacement asked for in which sphere 0 was not held back by the walls.</summary>
-        public double Driven => 1.0 - Contacts.DriveShortfall / Contacts.DriveAsked;
-
-        /// <summary>How far sphere 0 came along the sheath, as a fraction of the displacement asked for.</summary>
-        public double Advance => (Simulation.State.Positions[0].Z - _start[0].Z) / Contacts.DriveAsked;
-
-        /// <summary>Length of wire that does not reach forward, as a fraction of the displacement asked for: in the
-        /// sheath what is not along z, in the vessel what is compressed.</summary>
-        public double TakenUp
-        {
-            get
-            {
-                RodState state = Simulation.State;
-                double sum = 0.0;
-                for (int j = 0; j < state.ElementCount; j++)
-                {
-                    Vector3d along = state.Positions[j + 1] - state.Positions[j];
-                    bool isInSheath = state.Positions[j].Z < ArchVessel.SheathEnd
-                        && state.Positions[j + 1].Z < ArchVessel.SheathEnd;
-                    sum += state.ElementLength - (isInSheath ? along.Z : along.Length);
-                }
-                return sum / Contacts.DriveAsked;
-            }
-        }
-
-        /// <summary>Fraction of the motion that the wire lacks and neither its base nor its shape accounts for: what
-        /// sphere 0 did not advance (shortfall, or turned aside) is lost to all spheres, what buckles and compression
-        /// take up at most to all. A tenth is left to the bend, whose chord is shorter than the path.</summary>
-        public double Unexplained => 0.9 - Reached - (1.0 - Advance) - TakenUp;
-
-        public override string ToString()
-        {
-            return "seed " + Seed + ": n " + _parameters.Scene.NumberRodElements
-                + ", m " + _parameters.Method.ConstraintSolverSteps
-                + ", r " + _parameters.Contact.SphereRadius.ToString("F2")
-                + ", kC " + _parameters.Contact.CollisionStiffness.ToString("F4")
-                + ", per step " + _parameters.Drive.DisplacementPerStep.ToString("F1")
-                + ", " + Simulation.Outcome + " after " + Simulation.StepCount
-                + ", passages " + Contacts.Passages
-                + ", outside " + PointsOutside
-                + ", reached " + Reached.ToString("F3")
-                + ", driven " + Driven.ToString("F3")
-                + ", advance " + Advance.ToString("F3")
-                + ", taken up " + TakenUp.ToString("F3")
-                + ", path " + _path.ToString("F1")
-                + ", deepest " + Contacts.MaxPenetration.ToString("F2")
-                + ", tip " + Simulation.State.Positions[^1];
-        }
 
         // The order of the draws is what a seed means.
         private static SimulationParameters Draw(RandomGeometry random, ElementContact rule)
@@ -126,9 +55,7 @@ namespace Guidewire.Core.Tests
         {
             while (Simulation.Outcome == Outcome.Running)
             {
-                Vector3d before = Simulation.State.Positions[0];
                 Simulation.Step();
-                _path += Vector3d.Distance(before, Simulation.State.Positions[0]);
                 PointsOutside += ArchVessel.PointsOutside(Simulation.State);
             }
         }

@@ -50,14 +50,6 @@ namespace Guidewire.Core.Tests
 
         public ContactRecord Contacts => Simulation.Contacts!;
 
-        /// <summary>Of the wire, units.</summary>
-        public double Radius => _radius;
-
-        /// <summary>Whether an obstacle stands across the straight path of the wire, so that none of its elements
-        /// passes as it comes.</summary>
-        public bool IsBlocked => Array.Exists(_parameters.Scene.Walls, wall => wall is ConvexObstacle obstacle
-            && DistanceFromAxis(obstacle) < _radius);
-
         /// <summary>Points of the wire's axis outside a wall after a step, summed over the steps.</summary>
         public int PointsOutside { get; private set; }
 
@@ -81,24 +73,6 @@ namespace Guidewire.Core.Tests
                 + ", deepest " + Math.Max(Deepest, Contacts.MaxPenetration).ToString("G3")
                 + ", asked " + Contacts.DriveAsked.ToString("F1") + ", short " + Contacts.DriveShortfall.ToString("G3")
                 + ": " + Simulation.Reason;
-        }
-
-        // Of the obstacle, seen along the axis on which the wire starts; below 0 where it covers the axis.
-        private static double DistanceFromAxis(ConvexObstacle obstacle)
-        {
-            const int directions = 360;
-            double distance = double.NegativeInfinity;
-            for (int k = 0; k < directions; k++)
-            {
-                double angle = 2.0 * Math.PI * k / directions;
-                double farthest = double.NegativeInfinity;
-                foreach (Vector3d point in obstacle.Points)
-                {
-                    farthest = Math.Max(farthest, Math.Cos(angle) * point.X + Math.Sin(angle) * point.Y);
-                }
-                distance = Math.Max(distance, -farthest - obstacle.Radius);
-            }
-            return distance;
         }
 
         // The order of the draws is what a seed means.
