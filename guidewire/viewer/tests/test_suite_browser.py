@@ -59,13 +59,14 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]],
-            # ml: as long as it takes the page to pause, and longer
-            ["see", f"{VIEW}.look.noise = 0; document.querySelector('#contrast input').value = 150"],
+            # ml: so much flows for longer than it takes the page to pause
+            ["see", f"{VIEW}.look.noise = 0; document.querySelector('#contrast input').value = 30"],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
             ["press", " "], PAUSED, ["click", "subtract"], ["until", f"{VIEW}.look.isSubtracted && {VIEW}.hasMask"],
             ["press", " "], ["until", f"!{STATUS}.isPaused"],
-            ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap && {darkest} < 0.6"],
-            ["press", " "], PAUSED, ["see", darkest], ["see", text("#contrast output")],
+            ["press", "e"], ["until", f"{INJECTED} > 1 && {VIEW}.hasMap && {darkest} < 0.6"
+                                      " && (viewer.shown.send({do: 'pause', value: true}), true)"],
+            PAUSED, ["see", darkest], ["see", text("#contrast output")],
             # Mask, agent and wire of one moment.
             ["see",
              f"{{ const x = {VIEW}; window.agent = x.parts; x.parts = null; x.takeMask(viewer.xray._instruments);"
