@@ -32,7 +32,7 @@ MAY_BE_NULL = {
     "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
     "wallIterations", "halvedSteps", "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque",
-    "elementForce", "wallPressure", "wallDisplacement", "frictionPower", "frictionWork",
+    "elementForce", "wallPressure", "wallDisplacement", "wallWork", "frictionPower", "frictionWork",
 }
 FORCES = {"largestContactForce", "largestWallForce"}    # impulses over timeStep
 WALL_TIMES = ("computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "elapsedMilliseconds")

@@ -81,7 +81,7 @@ def candidates(scene: Values) -> list[Trial]:
     return list(found.values())
 
 
-_SOFTNESS = ("wallStiffness", "softLimit", "tipLength", "modulus", "wallThickness", "lumenRadius", "surroundingModulus",
+_SOFTNESS = ("wallStiffness", "softLimit", "tipLength", "relaxationTime", "modulus", "wallThickness", "lumenRadius", "surroundingModulus",
              "regions")
 _VARIED = ("solver", "integrator", "numberRodElements", "catheters", "timeStep", "constraintSolverSteps", "substeps",
            "elementContact", *_STIFFNESSES)

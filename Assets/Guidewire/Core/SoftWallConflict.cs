@@ -8,6 +8,7 @@ namespace Guidewire.Core
     public static class SoftWallConflict
     {
         private const double AsRigid = 1e7;    // Pa
+        private const double MostInStep = 1e12;    // Pa, of a wall and its dashpot
 
         /// <summary>The first value that does not, or null.</summary>
         internal static ParameterConflict? Find(SimulationParameters parameters)
@@ -72,6 +73,12 @@ namespace Guidewire.Core
             {
                 return Of(soft, "softLimit", string.Format(CultureInfo.InvariantCulture, "a value below the wire's "
                     + "radius, {0:G4} m: only planes and tubes may give way farther", radius));
+            }
+            double longest = MostInStep / (soft.Regions?.Stiffest ?? soft.Stiffness) * parameters.Method.TimeStep;
+            if (soft.RelaxationTime > longest)
+            {
+                return Of(soft, "relaxationTime", string.Format(CultureInfo.InvariantCulture, "at most {0:G4} s: with "
+                    + "this timeStep the wall would not give way in a step", longest));
             }
             double weight = density * parameters.Scene.Gravity.Length;
             double most = soft.Limit > 0.0 ? soft.Limit : soft.MaxOf(radius);

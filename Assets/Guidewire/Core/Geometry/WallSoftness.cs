@@ -14,13 +14,15 @@ namespace Guidewire.Core
         /// <param name="stiffness">K, Pa.</param>
         /// <param name="limit">u_max, m; 0: by the radius.</param>
         /// <param name="tipLength">m.</param>
+        /// <param name="relaxationTime">s.</param>
         public WallSoftness(string name, double stiffness, double limit = 0.0,
-            double tipLength = DefaultTipLength)
+            double tipLength = DefaultTipLength, double relaxationTime = 0.0)
         {
             Name = name;
             Stiffness = stiffness;
             Limit = limit;
             TipLength = tipLength;
+            RelaxationTime = relaxationTime;
         }
 
         /// <summary>The key or the item of the parameters that states it.</summary>
@@ -36,6 +38,9 @@ namespace Guidewire.Core
         /// <summary>Length of wall that gives way with the tip, and times the angle in radians with a wall's edge, m:
         /// more than 0.</summary>
         public double TipLength { get; }
+
+        /// <summary>Time in which the wall follows a force (Kelvin-Voigt), s; 0: at once.</summary>
+        public double RelaxationTime { get; }
 
         /// <summary>K by place instead; null where it is the same everywhere.</summary>
         public WallRegions? Regions { get; set; }

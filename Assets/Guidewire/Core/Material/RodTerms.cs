@@ -178,7 +178,7 @@ namespace Guidewire.Core
             double sum = 0.0;
             for (int k = first; k < All.Length; k++)
             {
-                sum += All[k].HasPotential && All[k].StoresEnergy ? All[k].Value(shape) : 0.0;
+                sum += All[k].HasPotential && All[k].StoresEnergy ? All[k].Stored(shape) : 0.0;
             }
             return sum + FrictionStored;
         }

@@ -54,6 +54,10 @@ namespace Guidewire.Core
         /// </summary>
         public double WallDisplacement { get; private set; } = double.NaN;
 
+        /// <summary>Work of walls that follow with a delay, J, minus the heat of their dashpots in all steps; NaN where
+        /// none does.</summary>
+        public double WallWork { get; internal set; } = double.NaN;
+
         /// <summary>The largest over its wall's limit.</summary>
         internal double LimitShare { get; private set; }
 

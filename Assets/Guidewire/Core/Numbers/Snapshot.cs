@@ -14,6 +14,7 @@ namespace Guidewire.Core
         private long[] _bits = new long[256];
         private int _count;
         private int _at;
+        private int _sectionEnd;
 
         /// <summary>Whether numbers are written; else they are taken over.</summary>
         public bool IsWritten { get; private set; } = true;
@@ -248,6 +249,7 @@ namespace Guidewire.Core
             bool agrees = written == key && writtenStep == timeStep;
             if (agrees)
             {
+                _sectionEnd = (int)next;
                 content(this);
                 if (_at != next)
                 {
@@ -257,6 +259,15 @@ namespace Guidewire.Core
             }
             _at = (int)next;
             return agrees;
+        }
+
+        /// <summary>Numbers left of a section that is read and has none within.</summary>
+        public int LeftOfSection => _sectionEnd - _at;
+
+        /// <summary>Leaves out what is left of it.</summary>
+        public void SkipSection()
+        {
+            _at = _sectionEnd;
         }
 
         /// <summary>A section of a part that a writer or a reader may be without; where only one of them has it, it is

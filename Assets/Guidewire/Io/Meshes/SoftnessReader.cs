@@ -11,6 +11,7 @@ namespace Guidewire.Io
         private const string Stiffness = "wallStiffness";
         private const string Limit = "softLimit";
         private const string TipLength = "tipLength";
+        private const string Relaxation = "relaxationTime";
         private const string Modulus = "modulus";
         private const string Thickness = "wallThickness";
         private const string Radius = "lumenRadius";
@@ -25,7 +26,7 @@ namespace Guidewire.Io
 
         /// <summary>The fields of a wall that say so.</summary>
         public static string[] Keys { get; } =
-            { Stiffness, Limit, TipLength, Modulus, Thickness, Radius, Surrounding };
+            { Stiffness, Limit, TipLength, Relaxation, Modulus, Thickness, Radius, Surrounding };
 
         /// <summary>What the fields of a wall say; null of a rigid one.</summary>
         /// <exception cref="ParameterException">A value that is not allowed.</exception>
@@ -38,7 +39,12 @@ namespace Guidewire.Io
             }
             double limit = fields.Number(Limit, 0.0);
             double tip = fields.Has(TipLength) ? Positive(fields, TipLength, "m") : WallSoftness.DefaultTipLength;
-            return limit >= 0.0 ? new WallSoftness(fields.Key, stiffness, limit, tip)
+            double relaxation = fields.Number(Relaxation, 0.0);
+            if (!(relaxation >= 0.0))
+            {
+                throw fields.Wrong(Relaxation, "a number >= 0 (s)");
+            }
+            return limit >= 0.0 ? new WallSoftness(fields.Key, stiffness, limit, tip, relaxation)
                 : throw fields.Wrong(Limit, "a number >= 0 (m)");
         }
 

@@ -145,6 +145,7 @@ namespace Guidewire.Io
                 ["elementForceTime"] = Finite(extremes.ElementForceTime),
                 ["wallPressure"] = Finite(extremes.WallPressure),
                 ["wallDisplacement"] = Finite(extremes.WallDisplacement),
+                ["wallWork"] = Finite(extremes.WallWork),
                 ["frictionPower"] = Finite(extremes.FrictionPower),
                 ["frictionWork"] = Finite(extremes.FrictionWork),
             };

@@ -19,6 +19,12 @@ namespace Guidewire.Core
         /// <summary>The energy in J of the whole rod in this shape.</summary>
         public abstract double Value(RodShape shape);
 
+        /// <summary>Of the value, J, what the shape stores.</summary>
+        public virtual double Stored(RodShape shape)
+        {
+            return Value(shape);
+        }
+
         /// <summary>Adds the gradient of what belongs to indices from (inclusive) to to (exclusive).</summary>
         /// <param name="measured">Takes what the term finds in passing.</param>
         public abstract void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,

@@ -247,6 +247,10 @@ namespace Guidewire.Core
             {
                 _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time);
             }
+            if (Terms.Walls()!.Barrier.Lag != null)
+            {
+                _extremes.WallWork = 0.0 - Terms.Walls()!.Barrier.Lag!.Dissipated;
+            }
             if (Terms.Walls()!.Friction != null)
             {
                 _extremes.TakeFriction(Dissipated - dissipated, length);

@@ -271,6 +271,7 @@ namespace Guidewire.Core
             }
             Whole.Contacts?.Take(before.Contacts!, Rod.Rod.ElementCount + 1);
             terms.Walls()?.Friction?.Anchors.Take(former.Walls()!.Friction!.Anchors, change.Node);
+            terms.Walls()?.Barrier.Lag?.Take(former.Walls()!.Barrier.Lag!, change.Node);
             if (_isAlone)
             {
                 TakeHub(former, oldShape, change.Entered);

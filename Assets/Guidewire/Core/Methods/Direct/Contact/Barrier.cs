@@ -4,7 +4,8 @@ namespace Guidewire.Core
 {
     /// <summary>The energy of a gap g between the wire's surface and a wall: b(g) = -k (g - g0)^2 ln(g/g0) for g below
     /// g0, 0 beyond, infinite at 0 (Li et al. 2020, incremental potential contact). A soft wall adds that of a spring,
-    /// s (g0 - g)^2/2 (<see cref="WallLaw"/>).</summary>
+    /// s (g0 - g)^2/2 (<see cref="WallLaw"/>), which a wall that lags behind begins later (<see cref="WallLag"/>).
+    /// </summary>
     internal readonly struct Barrier
     {
         /// <summary>The distance g0, m.</summary>
@@ -16,21 +17,31 @@ namespace Guidewire.Core
         /// <summary>s, N/m; 0 of a rigid wall.</summary>
         public readonly double Spring;
 
+        /// <summary>Displacement at which the spring begins to act, m; 0 but where the wall lags.</summary>
+        public readonly double Onset;
+
         private const double ForceTolerance = 1e-3;    // relative, of where a chord ends
         private const int MaxIterations = 30;
 
         /// <summary>With this distance and stiffness.</summary>
-        public Barrier(double distance, double stiffness, double spring = 0.0)
+        public Barrier(double distance, double stiffness, double spring = 0.0, double onset = 0.0)
         {
             Distance = distance;
             Stiffness = stiffness;
             Spring = spring;
+            Onset = onset;
         }
 
         /// <summary>So many times as stiff.</summary>
         public Barrier Times(double factor)
         {
-            return new Barrier(Distance, factor * Stiffness, factor * Spring);
+            return new Barrier(Distance, factor * Stiffness, factor * Spring, Onset);
+        }
+
+        /// <summary>How far the spring is pressed, m; 0 before it acts.</summary>
+        public double Pressed(double gap)
+        {
+            return Math.Max(0.0, Distance - gap - Onset);
         }
 
         /// <summary>b(g), J, with its first and second derivatives; infinite for a gap that is closed.</summary>
@@ -49,9 +60,9 @@ namespace Guidewire.Core
             double x = gap / Distance;
             double below = x - 1.0;
             double factor = Factor(x, out double log, out double derivative);
-            double sunk = Distance - gap;
+            double sunk = Pressed(gap);
             slope = -Stiffness * Distance * below * factor - Spring * sunk;
-            curvature = -Stiffness * derivative + Spring;
+            curvature = -Stiffness * derivative + (sunk > 0.0 ? Spring : 0.0);
             return -Stiffness * Distance * Distance * below * below * log + 0.5 * Spring * sunk * sunk;
         }
 
@@ -89,9 +100,9 @@ namespace Guidewire.Core
         private double ForceAt(double x, out double slope)
         {
             double factor = Factor(x, out _, out slope);
-            double spring = Spring / Stiffness;
+            double spring = x < 1.0 - Onset / Distance ? Spring / Stiffness : 0.0;
             slope -= spring;
-            return (x - 1.0) * (factor - spring);
+            return (x - 1.0) * (factor - spring) - spring * Onset / Distance;
         }
 
         // |b'|/(k g0) over x - 1, with ln x and the derivative of the former.

@@ -20,7 +20,6 @@ namespace Guidewire.Core
     {
         private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
-        private const double QuickFraction = 0.9;    // of a gap known only approximately
         private const int MaxCuts = 40;             // of a motion out of a sheath
 
         private readonly ContactShape[] _walls;
@@ -36,8 +35,10 @@ namespace Guidewire.Core
         private readonly double _maxGap;         // the least range of all barriers, m
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
+        private readonly GapMotion _motion;
         private readonly ContactSums _sums;       // of the current shape
         private readonly Vector3d[] _resultant;   // of each wall on the wire, N
+        private readonly WallLag? _lag;           // null where all walls give way at once
         private readonly StructList<ContactPoint> _contactPoints = new StructList<ContactPoint>(16);
         private readonly StructList<EdgeContact> _edgeContacts = new StructList<EdgeContact>(16);
         private double _minGap;                 // of all of these
@@ -74,8 +75,10 @@ namespace Guidewire.Core
             _near = new NeighbourList(walls, range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
+            _motion = new GapMotion(_laws, _near, (_x, _to), (_nodeGap, _edgeGap), _units);
             _sums = new ContactSums(n, walls.Length);
             _resultant = new Vector3d[walls.Length];
+            _lag = WallLag.Of(_laws, _nodeGap, _edgeGap);
         }
 
         /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
@@ -92,6 +95,9 @@ namespace Guidewire.Core
 
         /// <summary>The contacts of wall w.</summary>
         public WallLaw LawOf(int w) => _laws[w];
+
+        /// <summary>The delay of walls; null where all give way at once.</summary>
+        public WallLag? Lag => _lag;
 
         /// <summary>The nodes as walls meet them.</summary>
         public SheathedNodes Nodes => _nodes;
@@ -138,6 +144,51 @@ namespace Guidewire.Core
             {
                 _isKnown &= !law.FollowRegions(shape);
             }
+            if (_lag != null)
+            {
+                Update(shape);
+                _lag.BeginStep(shape, dt);
+            }
+        }
+
+        /// <summary>A stage begins, in which each node would stay where it would be without a velocity.</summary>
+        /// <param name="free">Where the nodes would be with the velocities v^, m.</param>
+        /// <param name="velocities">v^, m/s.</param>
+        /// <param name="h">The stage's length, s.</param>
+        public void BeginStage(Vector3d[] free, Vector3d[] velocities, double h)
+        {
+            if (_lag != null)
+            {
+                Evaluate(_lag.BeginStage(free, velocities, h), WallLag.Use.Origin);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override void EndStep(RodShape shape)
+        {
+            if (_lag != null)
+            {
+                Evaluate(_lag.Start, WallLag.Use.Origin);
+                Evaluate(shape, WallLag.Use.Heat);
+                _lag.EndStep();
+                Evaluate(_lag.From, WallLag.Use.Origin);
+            }
+        }
+
+        /// <summary>Without what dashpots add to it in a stage.</summary>
+        public override double Stored(RodShape shape)
+        {
+            return _lag == null ? Value(shape) : Evaluate(shape, WallLag.Use.Spring) + _lag.Stored();
+        }
+
+        private double Evaluate(RodShape shape, WallLag.Use use)
+        {
+            _lag!.Begin(use);
+            _isKnown = false;
+            Update(shape);
+            _lag.Begin(WallLag.Use.Stage);
+            _isKnown = false;
+            return _value;
         }
 
         /// <inheritdoc/>
@@ -174,7 +225,7 @@ namespace Guidewire.Core
             double tried = 1.0;
             for (int k = 0; k < MaxCuts; k++)
             {
-                double fraction = MaxStepTo(_nodes.Move(shape, direction, tried * step, _x, _to));
+                double fraction = _motion.MaxStep(_nodes.Move(shape, direction, tried * step, _x, _to), _minGap);
                 if (!_nodes.LeavesLumen && (fraction == 1.0 || !_nodes.LeavesSheath))
                 {
                     return tried * fraction;
@@ -184,18 +235,6 @@ namespace Guidewire.Core
                 tried *= _nodes.LeavesLumen ? 0.5 : k == 0 ? fraction : Math.Min(fraction, 0.5);
             }
             return 0.0;
-        }
-
-        // Of the motion to _to, the square of whose longest displacement is this, units^2.
-        private double MaxStepTo(double longestSquared)
-        {
-            double sure = QuickFraction * _units * _minGap;
-            double fraction = 1.0;
-            for (int w = 0; w < _walls.Length && !(sure > 0.0 && longestSquared < sure * sure); w++)
-            {
-                fraction = MaxStepAt(w, fraction);
-            }
-            return fraction;
         }
 
         /// <summary>The neighbours of a shape; gaps are those of another.</summary>
@@ -224,87 +263,6 @@ namespace Guidewire.Core
         public double EdgeGap(int w, int j)
         {
             return _edgeGap[w * _elementRadius.Length + j];
-        }
-
-        // Along the wire: the given fraction or a lower one. A node has the larger clearance that its two elements
-        // need, and is tested once.
-        private double MaxStepAt(int w, double fraction)
-        {
-            WallLaw law = _laws[w];
-            double gapBefore = 0.0;       // of the element before, 0 where it is not tested
-            double radiusBefore = 0.0;
-            double leftBefore = 0.0;
-            for (int j = 0; j <= _elementRadius.Length; j++)
-            {
-                double gap = 0.0;
-                double radius = 0.0;
-                double left = 0.0;
-                if (j < _elementRadius.Length && IsTested(w, j, fraction, out gap))
-                {
-                    radius = _units * law.RadiusOf(j);
-                    fraction = MaxStepOf(w, j, fraction, radius, ref gap);
-                    left = law.LeftOf(j, gap);
-                }
-                if (_walls[w].IsSurface && (gap != 0.0 || gapBefore != 0.0))
-                {
-                    bool isBefore = radiusBefore + leftBefore > radius + left;
-                    fraction = isBefore ? MaxStepOfNode(w, j, fraction, radiusBefore, gapBefore, leftBefore)
-                        : MaxStepOfNode(w, j, fraction, radius, gap, left);
-                }
-                gapBefore = gap;
-                radiusBefore = radius;
-                leftBefore = left;
-            }
-            return fraction;
-        }
-
-        // Whether the wall may limit this fraction of the motion of element j, and the least gap between them that is
-        // known, units.
-        private bool IsTested(int w, int j, double fraction, out double gap)
-        {
-            int n = _elementRadius.Length;
-            double motion = fraction * Math.Sqrt(
-                Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
-            gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
-                _edgeGap[w * n + j]) * _units;
-            double most = motion + _laws[w].MaxClearance(j);
-            bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
-            gap = isFar ? 0.0 : gap;
-            return !isFar;
-        }
-
-        private double MaxStepOf(int w, int j, double fraction, double radius, ref double gap)
-        {
-            ref int hint = ref _near.HintOf(w, j);
-            double free = MaxStepOf(w, j, fraction, radius, gap, hint);
-            if (free == 0.0)
-            {
-                _walls[w].Nearest(_x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
-                gap = _walls[w].UnsignedDistance(contact.Distance) - radius;
-                free = MaxStepOf(w, j, fraction, radius, gap, hint);
-            }
-            return free;
-        }
-
-        private double MaxStepOf(int w, int j, double fraction, double radius, double gap, int hint)
-        {
-            double left = _laws[w].LeftOf(j, gap);
-            double resolution = WallLaw.Resolution(radius, gap, left);
-            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1],
-                radius + left, resolution, hint, _near.FeaturesAlong(w, j, _x, _to, fraction), fraction) : 0.0;
-        }
-
-        private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap, double left)
-        {
-            double distance = _units * (_laws[w].RadiusOfNode(i) + _nodeGap[w * _x.Length + i]);
-            double clearance = radius + left;
-            if (fraction * Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
-            {
-                return fraction;
-            }
-            return gap > 0.0 ? _walls[w].ConservativeTimeOfImpact(_x[i], _x[i], _to[i], _to[i], clearance,
-                WallLaw.Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction)
-                : 0.0;
         }
 
         private void Update(RodShape shape)
@@ -376,13 +334,18 @@ namespace Guidewire.Core
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             ref double nearest = ref _nodeGap[w * _x.Length + i];
+            Barrier felt = barrier;
             for (int k = 0; k < _contactPoints.Count; k++)
             {
                 ref ContactPoint point = ref _contactPoints[k];
                 double gap = point.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _minGap = Math.Min(_minGap, gap);
-                double value = barrier.At(gap, out double slope, out double curvature);
+                if (_lag != null)
+                {
+                    felt = _lag.At(w, _lag.OfNode(w, i), point.Weight, barrier, gap, point.Contact.Normal);
+                }
+                double value = felt.At(gap, out double slope, out double curvature);
                 if (value == 0.0)
                 {
                     continue;
@@ -403,8 +366,8 @@ namespace Guidewire.Core
             }
             _resultant[w] -= gradient;
             Symmetric3 positive = second.PositivePart();
-            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest, barrier,
-                _laws[w].DisplacementAt(nearest, barrier.Distance));
+            _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest, felt,
+                Math.Max(felt.Onset, _laws[w].DisplacementAt(nearest, barrier.Distance)));
         }
 
         private void AddElement(int w, int j)
@@ -417,6 +380,7 @@ namespace Guidewire.Core
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
             int first = _sums.Contacts.Count;
             double stiffness = 0.0;
+            Barrier felt = _laws[w].BarrierOf(j);
             for (int k = 0; k < _edgeContacts.Count; k++)
             {
                 ref EdgeContact edge = ref _edgeContacts[k];
@@ -424,6 +388,11 @@ namespace Guidewire.Core
                 nearest = Math.Min(nearest, gap);
                 _minGap = Math.Min(_minGap, gap);
                 Barrier barrier = _laws[w].OfEdge(j, edge);
+                if (_lag != null)
+                {
+                    felt = _lag.At(w, _lag.OfElement(w, j), edge.Weight, barrier, gap, edge.Normal);
+                    barrier = felt;
+                }
                 double value = barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0 || edge.Weight == 0.0)
                 {
@@ -437,9 +406,9 @@ namespace Guidewire.Core
                 _value += edge.Weight * value;
                 stiffness += edge.Weight * curvature;
                 _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature,
-                    _laws[w].DisplacementAt(gap, range));
+                    Math.Max(barrier.Onset, _laws[w].DisplacementAt(gap, range)));
             }
-            _sums.EndElement(w, j, first, stiffness, nearest, _laws[w].BarrierOf(j));
+            _sums.EndElement(w, j, first, stiffness, nearest, felt);
         }
     }
 }

@@ -58,7 +58,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override double StoredEnergy(RodShape shape)
         {
-            return Barrier.Value(shape);
+            return Barrier.Stored(shape);
         }
 
         /// <inheritdoc/>
@@ -67,12 +67,16 @@ namespace Guidewire.Core
             return HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
         }
 
-        /// <summary>A reader between as many walls, of which one has friction, takes over what such a writer
-        /// has.</summary>
+        /// <summary>A reader between as many walls, of which one has friction, takes over what such a writer has; and
+        /// how far walls lag behind, where both have such walls and as many elements.</summary>
         public override void SerializeFriction(Snapshot snapshot)
         {
             snapshot.Section(Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count,
-                snapshot => Friction?.Anchors.Serialize(snapshot));
+                snapshot =>
+                {
+                    Friction?.Anchors.Serialize(snapshot);
+                    WallLag.SerializeOptional(Barrier.Lag, snapshot);
+                });
         }
 
         /// <summary>Adds minus the force of the walls on the wire.</summary>

@@ -124,6 +124,7 @@ namespace Guidewire.Core
         {
             _inertia.StageLength = row[row.Length - 1] * dt;
             Rates.Prepare(_inertia, row, dt, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory);
+            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, _inertia.StageLength);
             Damping?.BeginStage(row, dt);
             Inner?.BeginStage(row, dt);
         }
@@ -133,6 +134,7 @@ namespace Guidewire.Core
         {
             double h = history.Prepare(_inertia, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory,
                 dt);
+            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h);
             Damping?.BeginStage(history.IsComplete, h);
             Inner?.BeginStage(history.IsComplete);
         }
@@ -143,6 +145,7 @@ namespace Guidewire.Core
             _terms.SetTime(_schedule, time);
             BeginDamping(time);
             Damping?.TakeMoment(h);
+            _terms.Walls()?.Barrier.BeginStage(_shape.X, _motion.Velocities, h);
         }
 
         /// <summary>The velocities in the last stage are those at the step's end.</summary>
@@ -223,6 +226,7 @@ namespace Guidewire.Core
                 term.Serialize(snapshot);
             }
             _terms.Walls()?.Friction?.Anchors.Serialize(snapshot);
+            _terms.Walls()?.Barrier.Lag?.Serialize(snapshot);
             SerializePast(snapshot);
             Damping?.Serialize(snapshot);
             Reactions.SerializeStep(snapshot);

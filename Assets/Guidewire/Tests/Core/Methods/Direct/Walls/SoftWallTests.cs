@@ -67,8 +67,7 @@ namespace Guidewire.Core.Tests
                 for (int i = 0; i <= N; i++)
                 {
                     var exact = new Vector3d(gradient[i].X1, gradient[i].X2, gradient[i].X3);
-                    var difference = new Vector3d(Difference(energy, shape, i, Vector3d.UnitX),
-                        Difference(energy, shape, i, Vector3d.UnitY), Difference(energy, shape, i, Vector3d.UnitZ));
+                    Vector3d difference = Difference(energy, shape, i);
                     Assert.That(Vector3d.Distance(exact, difference), Is.LessThan(2e-5 * measured.LargestForce),
                         name + ", seed " + seed + ", node " + i);
                 }
@@ -168,6 +167,13 @@ namespace Guidewire.Core.Tests
             wall.Softness = new WallSoftness("vessel", Stiffness, limit, 0.1);
             MaterialRod rod = MaterialRod.Round(N, 0.2 * N, Radius, 1e6, 1e6, 1e3);
             return new BarrierEnergy(rod, new[] { wall }, 1.0, new Barrier(0.1, 10.0));
+        }
+
+        /// <summary>Gradient of an energy by a node's position, by central differences.</summary>
+        internal static Vector3d Difference(BarrierEnergy energy, RodShape shape, int i)
+        {
+            return new Vector3d(Difference(energy, shape, i, Vector3d.UnitX),
+                Difference(energy, shape, i, Vector3d.UnitY), Difference(energy, shape, i, Vector3d.UnitZ));
         }
 
         private static double Difference(BarrierEnergy energy, RodShape shape, int i, in Vector3d along)
