@@ -15,12 +15,13 @@ namespace Guidewire.Core.Tests
         public void Vessel_AndObstacles_HaveASoftnessEach_AndItCountsInTheHash()
         {
             ParameterHandler soft = Load(Tube + ", 'wallStiffness': 2e5, 'softLimit': 3e-4, 'tipLength': 2e-3},"
-                + " 'obstacles': [{'shape': 'sphere', 'centre': [0, 5, 9], 'radius': 3, 'wallStiffness': 1e4}]");
+                + " 'obstacles': [{'shape': 'sphere', 'centre': [0, 5, 9], 'radius': 3, 'wallStiffness': 1e4,"
+                + " 'relaxationTime': 0.2}]");
             WallSoftness vessel = soft.Values.Simulation.Scene.Walls[0].Softness!;
             Assert.That((vessel.Stiffness, vessel.Limit, vessel.TipLength), Is.EqualTo((2e5, 3e-4, 2e-3)));
             WallSoftness sphere = soft.Values.Simulation.Scene.Walls[1].Softness!;
-            Assert.That((sphere.Stiffness, sphere.Limit, sphere.TipLength),
-                Is.EqualTo((1e4, 0.0, WallSoftness.DefaultTipLength)));
+            Assert.That((sphere.Stiffness, sphere.Limit, sphere.TipLength, sphere.RelaxationTime),
+                Is.EqualTo((1e4, 0.0, WallSoftness.DefaultTipLength, 0.2)));
             ParameterHandler rigid = Load(Tube + "}");
             Assert.That(rigid.Values.Simulation.Scene.Walls[0].Softness, Is.Null);
             Assert.That(rigid.Hash, Is.Not.EqualTo(Load(Tube + ", 'wallStiffness': 2e5}").Hash));
@@ -32,6 +33,12 @@ namespace Guidewire.Core.Tests
         [TestCase("'wallStiffness': 'soft'", "vessel.wallStiffness = \"soft\" is not allowed")]
         [TestCase("'wallStiffness': 1e5, 'softLimit': -1e-4", "vessel.softLimit = -0.0001 is not allowed: needs a")]
         [TestCase("'wallStiffness': 1e5, 'tipLength': 0", "vessel.tipLength = 0 is not allowed: needs a number > 0")]
+        [TestCase("'wallStiffness': 1e5, 'relaxationTime': -1",
+            "vessel.relaxationTime = -1 is not allowed: needs a number >= 0 (s)")]
+        [TestCase("'wallStiffness': 1e5, 'relaxationTime': 1e9",
+            "vessel.relaxationTime = 1000000000.0 is not allowed: needs at most")]
+        [TestCase("'wallStiffness': 1e5, 'relaxationTime': 'slow'", "vessel.relaxationTime = \"slow\" is not allowed")]
+        [TestCase("'relaxationTime': 1", "vessel.relaxationTime = 1 is not allowed: needs a wallStiffness")]
         [TestCase("'softLimit': 1e-4",
             "vessel.softLimit = 0.0001 is not allowed: needs a wallStiffness or a modulus beside it")]
         [TestCase("'wallSoftness': 1e5", "unknown key 'vessel.wallSoftness'")]

@@ -78,7 +78,7 @@ namespace Guidewire.Core
             _motion = new GapMotion(_laws, _near, (_x, _to), (_nodeGap, _edgeGap), _units);
             _sums = new ContactSums(n, walls.Length);
             _resultant = new Vector3d[walls.Length];
-            _lag = WallLag.Of(_laws, _nodeGap, _edgeGap);
+            _lag = WallLag.Of(_laws, n + 1);
         }
 
         /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
@@ -146,12 +146,12 @@ namespace Guidewire.Core
             }
             if (_lag != null)
             {
-                Update(shape);
-                _lag.BeginStep(shape, dt);
+                Evaluate(shape);
+                _lag.BeginStep(dt);
             }
         }
 
-        /// <summary>A stage begins, in which each node would stay where it would be without a velocity.</summary>
+        /// <summary>A stage begins.</summary>
         /// <param name="free">Where the nodes would be with the velocities v^, m.</param>
         /// <param name="velocities">v^, m/s.</param>
         /// <param name="h">The stage's length, s.</param>
@@ -159,7 +159,9 @@ namespace Guidewire.Core
         {
             if (_lag != null)
             {
-                Evaluate(_lag.BeginStage(free, velocities, h), WallLag.Use.Origin);
+                _lag.BeginStage(free, velocities, h);
+                Evaluate(_lag.Reference);
+                _lag.TakeReference();
             }
         }
 
@@ -168,25 +170,24 @@ namespace Guidewire.Core
         {
             if (_lag != null)
             {
-                Evaluate(_lag.Start, WallLag.Use.Origin);
-                Evaluate(shape, WallLag.Use.Heat);
+                Evaluate(shape);
                 _lag.EndStep();
-                Evaluate(_lag.From, WallLag.Use.Origin);
             }
         }
 
         /// <summary>Without what dashpots add to it in a stage.</summary>
         public override double Stored(RodShape shape)
         {
-            return _lag == null ? Value(shape) : Evaluate(shape, WallLag.Use.Spring) + _lag.Stored();
+            return _lag == null ? Value(shape) : Evaluate(shape) + _lag.Stored();
         }
 
-        private double Evaluate(RodShape shape, WallLag.Use use)
+        // As if walls gave way at once.
+        private double Evaluate(RodShape shape)
         {
-            _lag!.Begin(use);
+            _lag!.Begin();
             _isKnown = false;
             Update(shape);
-            _lag.Begin(WallLag.Use.Stage);
+            _lag.End();
             _isKnown = false;
             return _value;
         }
@@ -334,16 +335,19 @@ namespace Guidewire.Core
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
             ref double nearest = ref _nodeGap[w * _x.Length + i];
-            Barrier felt = barrier;
+            // A spring that lags behind counts all points of the node as one.
+            bool lags = _lag != null && _lag.IsOf(w);
+            Barrier felt = lags ? new Barrier(barrier.Distance, barrier.Stiffness) : barrier;
+            var spring = default(WallLag.Spring);
             for (int k = 0; k < _contactPoints.Count; k++)
             {
                 ref ContactPoint point = ref _contactPoints[k];
                 double gap = point.Contact.Distance / _units - radius;
                 nearest = Math.Min(nearest, gap);
                 _minGap = Math.Min(_minGap, gap);
-                if (_lag != null)
+                if (lags)
                 {
-                    felt = _lag.At(w, _lag.OfNode(w, i), point.Weight, barrier, gap, point.Contact.Normal);
+                    spring.Add(point, barrier.Spring, barrier.Distance - gap, _units);
                 }
                 double value = felt.At(gap, out double slope, out double curvature);
                 if (value == 0.0)
@@ -359,6 +363,13 @@ namespace Guidewire.Core
                     _value = double.PositiveInfinity;
                     return;
                 }
+            }
+            if (spring.Energy > 0.0)
+            {
+                felt = _lag!.Delay(w, i, barrier, ref spring);
+                _value += spring.Energy;
+                gradient += spring.Gradient;
+                second += spring.Second;
             }
             if (gradient == Vector3d.Zero)
             {
@@ -380,7 +391,6 @@ namespace Guidewire.Core
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
             int first = _sums.Contacts.Count;
             double stiffness = 0.0;
-            Barrier felt = _laws[w].BarrierOf(j);
             for (int k = 0; k < _edgeContacts.Count; k++)
             {
                 ref EdgeContact edge = ref _edgeContacts[k];
@@ -388,11 +398,6 @@ namespace Guidewire.Core
                 nearest = Math.Min(nearest, gap);
                 _minGap = Math.Min(_minGap, gap);
                 Barrier barrier = _laws[w].OfEdge(j, edge);
-                if (_lag != null)
-                {
-                    felt = _lag.At(w, _lag.OfElement(w, j), edge.Weight, barrier, gap, edge.Normal);
-                    barrier = felt;
-                }
                 double value = barrier.At(gap, out double slope, out double curvature);
                 if (value == 0.0 || edge.Weight == 0.0)
                 {
@@ -406,9 +411,9 @@ namespace Guidewire.Core
                 _value += edge.Weight * value;
                 stiffness += edge.Weight * curvature;
                 _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature,
-                    Math.Max(barrier.Onset, _laws[w].DisplacementAt(gap, range)));
+                    _laws[w].DisplacementAt(gap, range));
             }
-            _sums.EndElement(w, j, first, stiffness, nearest, felt);
+            _sums.EndElement(w, j, first, stiffness, nearest, _laws[w].BarrierOf(j));
         }
     }
 }

@@ -58,25 +58,17 @@ namespace Guidewire.Core
         public void Take(FrictionAnchors other, int[] node)
         {
             Dissipated = other.Dissipated;
-            Carry(other._anchors, _anchors, _walls, node);
-        }
-
-        /// <summary>The same of any values that are kept in this order.</summary>
-        public static void Carry<T>(T[] from, T[] to, int walls, int[] node)
-            where T : struct
-        {
-            int nodes = (to.Length / walls + 1) / 2;
-            int others = (from.Length / walls + 1) / 2;
-            for (int w = 0; w < walls; w++)
+            for (int w = 0; w < _walls; w++)
             {
-                int own = w * (2 * nodes - 1);
-                int other = w * (2 * others - 1);
-                for (int i = 0; i < nodes; i++)
+                int own = w * (2 * _nodes - 1);
+                int others = w * (2 * other._nodes - 1);
+                for (int i = 0; i < _nodes; i++)
                 {
-                    to[own + i] = node[i] >= 0 ? from[other + node[i]] : default;
+                    _anchors[own + i] = node[i] >= 0 ? other._anchors[others + node[i]] : default;
                     if (i > 0)
                     {
-                        to[own + nodes + i - 1] = node[i] > 0 ? from[other + others + node[i] - 1] : default;
+                        _anchors[own + _nodes + i - 1] = node[i] > 0
+                            ? other._anchors[others + other._nodes + node[i] - 1] : default;
                     }
                 }
             }
