@@ -33,10 +33,10 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static void Load(ref double first, int stride, out Vector256<double> a, out Vector256<double> b)
         {
-            Vector256<double> even = Vector256.Create(Vector128.LoadUnsafe(ref first),
-                Vector128.LoadUnsafe(ref first, (nuint)(2 * stride)));
-            Vector256<double> odd = Vector256.Create(Vector128.LoadUnsafe(ref first, (nuint)stride),
-                Vector128.LoadUnsafe(ref first, (nuint)(3 * stride)));
+            Vector256<double> even = Avx.InsertVector128(Vector128.LoadUnsafe(ref first).ToVector256Unsafe(),
+                Vector128.LoadUnsafe(ref first, (nuint)(2 * stride)), 1);
+            Vector256<double> odd = Avx.InsertVector128(Vector128.LoadUnsafe(ref first, (nuint)stride)
+                .ToVector256Unsafe(), Vector128.LoadUnsafe(ref first, (nuint)(3 * stride)), 1);
             a = Avx.UnpackLow(even, odd);
             b = Avx.UnpackHigh(even, odd);
         }
@@ -62,8 +62,8 @@ namespace Guidewire.Core
             Vector256<double> odd = Avx.UnpackHigh(a, b);
             even.GetLower().StoreUnsafe(ref first);
             odd.GetLower().StoreUnsafe(ref first, (nuint)stride);
-            even.GetUpper().StoreUnsafe(ref first, (nuint)(2 * stride));
-            odd.GetUpper().StoreUnsafe(ref first, (nuint)(3 * stride));
+            Avx.ExtractVector128(even, 1).StoreUnsafe(ref first, (nuint)(2 * stride));
+            Avx.ExtractVector128(odd, 1).StoreUnsafe(ref first, (nuint)(3 * stride));
         }
 
         /// <summary>Adds to four numbers of each structure.</summary>
@@ -87,8 +87,8 @@ namespace Guidewire.Core
             Vector256<double> odd = Avx.UnpackHigh(a, b);
             AddAt(ref first, 0, even.GetLower());
             AddAt(ref first, stride, odd.GetLower());
-            AddAt(ref first, 2 * stride, even.GetUpper());
-            AddAt(ref first, 3 * stride, odd.GetUpper());
+            AddAt(ref first, 2 * stride, Avx.ExtractVector128(even, 1));
+            AddAt(ref first, 3 * stride, Avx.ExtractVector128(odd, 1));
         }
 
         /// <summary>sum + a0 + a1 + a2 + a3, one after the other.</summary>
@@ -96,6 +96,13 @@ namespace Guidewire.Core
         public static double Sum(double sum, Vector256<double> a)
         {
             return sum + a.GetElement(0) + a.GetElement(1) + a.GetElement(2) + a.GetElement(3);
+        }
+
+        /// <summary>Whether a comparison holds in every lane.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static bool All(Vector256<double> comparison)
+        {
+            return Avx.MoveMask(comparison) == 15;
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

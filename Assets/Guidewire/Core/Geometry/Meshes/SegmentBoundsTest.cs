@@ -2,6 +2,7 @@
 using System;
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 
 namespace Guidewire.Core
 {
@@ -44,21 +45,21 @@ namespace Guidewire.Core
             Vector256<float> halfX = Vector256.Create(_halfX);
             Vector256<float> halfY = Vector256.Create(_halfY);
             Vector256<float> halfZ = Vector256.Create(_halfZ);
-            Vector256<float> gapX = Vector256.MaxNative(zero, Vector256.Abs(middleX - Bounds(ref bounds, 0))
+            Vector256<float> gapX = Avx.Max(zero, Vector256.Abs(middleX - Bounds(ref bounds, 0))
                 - (Bounds(ref bounds, 3) + Vector256.Abs(halfX)));
-            Vector256<float> gapY = Vector256.MaxNative(zero, Vector256.Abs(middleY - Bounds(ref bounds, 1))
+            Vector256<float> gapY = Avx.Max(zero, Vector256.Abs(middleY - Bounds(ref bounds, 1))
                 - (Bounds(ref bounds, 4) + Vector256.Abs(halfY)));
-            Vector256<float> gapZ = Vector256.MaxNative(zero, Vector256.Abs(middleZ - Bounds(ref bounds, 2))
+            Vector256<float> gapZ = Avx.Max(zero, Vector256.Abs(middleZ - Bounds(ref bounds, 2))
                 - (Bounds(ref bounds, 5) + Vector256.Abs(halfZ)));
             Vector256<float> normalX = Bounds(ref bounds, 6);
             Vector256<float> normalY = Bounds(ref bounds, 7);
             Vector256<float> normalZ = Bounds(ref bounds, 8);
             Vector256<float> middle = normalX * middleX + normalY * middleY + normalZ * middleZ;
             Vector256<float> half = Vector256.Abs(normalX * halfX + normalY * halfY + normalZ * halfZ);
-            Vector256<float> slab = Vector256.MaxNative(zero, Vector256.MaxNative(
+            Vector256<float> slab = Avx.Max(zero, Avx.Max(
                 middle - Bounds(ref bounds, 10), Bounds(ref bounds, 9) - middle) - half);
-            Vector256<float> least = Vector256.MaxNative(gapX * gapX + gapY * gapY + gapZ * gapZ, slab * slab);
-            return Vector256.LessThan(least, Vector256.Create(_squared)).ExtractMostSignificantBits();
+            Vector256<float> least = Avx.Max(gapX * gapX + gapY * gapY + gapZ * gapZ, slab * slab);
+            return (uint)Avx.MoveMask(Vector256.LessThan(least, Vector256.Create(_squared)));
         }
 
         /// <summary>A field of eight children.</summary>

@@ -1,6 +1,7 @@
 #if NET8_0_OR_GREATER
 using System.Runtime.CompilerServices;
 using System.Runtime.Intrinsics;
+using System.Runtime.Intrinsics.X86;
 
 namespace Guidewire.Core
 {
@@ -39,7 +40,7 @@ namespace Guidewire.Core
             Vector256<float> overlaps =
                 Overlaps(ref bounds, 0, _centre.X, _extent.X) & Overlaps(ref bounds, 1, _centre.Y, _extent.Y)
                 & Overlaps(ref bounds, 2, _centre.Z, _extent.Z);
-            uint hits = overlaps.ExtractMostSignificantBits();
+            uint hits = (uint)Avx.MoveMask(overlaps);
             return hits == 0 ? 0 : hits & _start.MayHold(ref bounds) & ~IsInRange(ref bounds);
         }
 
@@ -51,11 +52,10 @@ namespace Guidewire.Core
             Vector256<float> y = Height(ref bounds, _a1);
             Vector256<float> z = Height(ref bounds, _b1);
             Vector256<float> border = Vector256.Create(_border);
-            Vector256<float> least = Vector256.MinNative(Vector256.MinNative(w, x), Vector256.MinNative(y, z));
-            Vector256<float> most = Vector256.MaxNative(Vector256.MaxNative(w, x), Vector256.MaxNative(y, z));
-            return (Vector256.GreaterThan(least, SegmentBoundsTest.Bounds(ref bounds, 10) + border)
-                | Vector256.LessThan(most, SegmentBoundsTest.Bounds(ref bounds, 9) - border))
-                .ExtractMostSignificantBits();
+            Vector256<float> least = Avx.Min(Avx.Min(w, x), Avx.Min(y, z));
+            Vector256<float> most = Avx.Max(Avx.Max(w, x), Avx.Max(y, z));
+            return (uint)Avx.MoveMask(Vector256.GreaterThan(least, SegmentBoundsTest.Bounds(ref bounds, 10) + border)
+                | Vector256.LessThan(most, SegmentBoundsTest.Bounds(ref bounds, 9) - border));
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

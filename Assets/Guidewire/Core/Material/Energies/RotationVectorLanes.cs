@@ -19,7 +19,6 @@ namespace Guidewire.Core
 #endif
 
         /// <summary>Adds the energies to a sum, J.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool AddValue(Joint[] joints, RodShape shape, int j, ref double sum)
         {
 #if NET8_0_OR_GREATER
@@ -35,7 +34,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes the turns of the joints.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool Measure(RodShape shape, Vector3d[] turns, int j)
         {
 #if NET8_0_OR_GREATER
@@ -50,7 +48,6 @@ namespace Guidewire.Core
 
         /// <summary>Adds the gradients of each joint along the element before it and along the element after
         /// it.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool AddGradient(Joint[] joints, RodShape shape, RodVector[] before, RodVector[] after, int j)
         {
 #if NET8_0_OR_GREATER
@@ -68,7 +65,6 @@ namespace Guidewire.Core
 
         /// <summary>Adds gradients and blocks.</summary>
         /// <param name="isStiffened">Whether the blocks are those of joints at rest.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool AddBlocks(Joint[] joints, RodShape shape, RodBlock[] blocks, RodVector[] gradient, int j,
             bool dropsGeometricStiffness)
         {
@@ -165,7 +161,7 @@ namespace Guidewire.Core
             ref Joint joint = ref joints[j + 1];
             Rows4.Load(ref joint.Bend1, JointStride, out Vector256<double> bend1, out Vector256<double> bend2,
                 out Vector256<double> twist, out Vector256<double> restX);
-            if (!RotationVector4.TryLog(Relative(shape, j), out theta) || !Vector256.EqualsAll(bend1, bend2))
+            if (!RotationVector4.TryLog(Relative(shape, j), out theta) || !Rows4.All(Vector256.Equals(bend1, bend2)))
             {
                 return false;
             }

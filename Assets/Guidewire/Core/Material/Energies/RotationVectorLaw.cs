@@ -47,7 +47,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        [MethodImpl(Compiled.AtOnce)]
         public void AddGradient(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b)
         {
             Vector3d theta = RotationVector.Log(relative);
@@ -59,7 +58,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        [MethodImpl(Compiled.AtOnce)]
         public void AddBlocks(in Joint joint, in Quaterniond relative, ref RodVector a, ref RodVector b,
             ref RodBlock blockA, ref RodBlock blockB)
         {

@@ -13,7 +13,6 @@ namespace Guidewire.Core
         private const int Step = 6;      // and of a RodVector
 
         /// <summary>Adds the energies of elements to a sum, J.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static int AddValue(RodShape shape, double[] length, double[] shear, double[] stretch, int from, int end,
             ref double sum)
         {
@@ -32,7 +31,6 @@ namespace Guidewire.Core
 
         /// <summary>Adds the gradients of elements.</summary>
         /// <param name="largest">In and out: largest square of a force, N^2.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static int AddGradient(RodShape shape, double[] length, double[] shear, double[] stretch,
             RodVector[] gradient, int from, int end, ref double largest)
         {
@@ -52,7 +50,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds gradients and blocks of elements.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static int AddBlocks(RodShape shape, double[] length, double[] shears, double[] stretch,
             RodBlock[] blocks, RodVector[] gradient, int from, int end, bool dropsGeometricStiffness)
         {

@@ -20,7 +20,6 @@ namespace Guidewire.Core
         /// B, D, E, F become U, V, G, H; A and C become P^-1 and R^-1 on their diagonals; below stand -l21, -l32 and
         /// l21 l32 - l31 of the inverses of L and L', the first two without their signs.</summary>
         /// <returns>The number of eigenvalues of A and C (as eliminated) that are not positive, 0 to 6.</returns>
-        [MethodImpl(Compiled.AtOnce)]
         public static int Eliminate(ref RodBlock block, ref RodBlock next, ref RodVector y, ref RodVector nextY)
         {
             // Position block: its factors, then what its elimination leaves on theta and on the next position.
@@ -175,7 +174,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>One block of y := D^-1 L^-1 y with a factorisation that is kept.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static void Forward(in RodBlock block, ref RodVector y, ref RodVector nextY)
         {
             double y1 = y.X1;
@@ -203,7 +201,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>One block of z := L^-T z, from the last block to the first.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static void Backward(in RodBlock block, ref RodVector z, in RodVector nextZ)
         {
             double x1 = nextZ.X1, x2 = nextZ.X2, x3 = nextZ.X3;

@@ -19,7 +19,6 @@ namespace Guidewire.Core
         /// <param name="block">The block after the last of them is changed too, and belongs to the array.</param>
         /// <param name="y">So is its vector.</param>
         /// <returns>The number of eigenvalues that are not positive.</returns>
-        [MethodImpl(Compiled.AtOnce)]
         public static int Eliminate(RodBlock[] block, RodVector[] y, int from, int to)
         {
             int negative = 0;

@@ -18,7 +18,6 @@ namespace Guidewire.Core
         /// <summary>Moves elements j to j+3 and the nodes after them so that strains change linearly.</summary>
         /// <param name="old">In and out: the last node before the step, m.</param>
         /// <param name="x">In and out: the last node after it.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool Apply(RodShape shape, RodVector[] direction, double scale, RodShape to, int j,
             ref Vector3d old, ref Vector3d x)
         {
@@ -55,7 +54,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Moves nodes and elements j to j+3 on straight lines.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool ApplyStraight(RodShape shape, RodVector[] direction, double scale, RodShape to, int j)
         {
 #if NET8_0_OR_GREATER

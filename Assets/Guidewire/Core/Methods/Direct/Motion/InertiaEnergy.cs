@@ -1,5 +1,4 @@
 using System;
-using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
 {
@@ -181,7 +180,6 @@ namespace Guidewire.Core
 
         /// <summary>phi of element j in this orientation: of all rotation vectors that lead there, the one nearest to
         /// the last that was requested in this step, so that more than half a turn a step is counted.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         private Vector3d Turn(in Quaterniond orientation, int j)
         {
             Vector3d turn = RotationVector.Log(Start[j].Conjugate * orientation);
@@ -197,7 +195,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>w of element j that has turned by phi.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         private Vector3d Spin(in Vector3d turn, int j)
         {
             return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
@@ -376,7 +373,6 @@ namespace Guidewire.Core
             }
         }
 
-        [MethodImpl(Compiled.AtOnce)]
         private Vector3d FindCouple(in Quaterniond orientation, int j)
         {
             Vector3d w = Spin(Turn(orientation, j), j);

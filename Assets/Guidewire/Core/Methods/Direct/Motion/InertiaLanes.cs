@@ -18,7 +18,6 @@ namespace Guidewire.Core
 
         /// <summary>Sets the couples of elements j to j+3, and their turns since the step's start.</summary>
         /// <param name="surelyFirst">Square of a turn below which the shortest rotation vector is meant.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool FindCouples(InertiaEnergy inertia, Vector3d[] rotary, RodShape shape, Vector3d[] countedTurn,
             double surelyFirst, Vector3d[] couple, int j)
         {
@@ -44,7 +43,6 @@ namespace Guidewire.Core
 
         /// <summary>Sets phi' and w' of elements j to j+3, and their turns since the step's start.</summary>
         /// <param name="surelyFirst">Square of a turn below which the shortest rotation vector is meant.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool SetRates(InertiaEnergy inertia, RodShape shape, Vector3d[] countedTurn, double surelyFirst,
             Vector3d[] turnRate, Vector3d[] spinRate, int j)
         {
@@ -66,7 +64,6 @@ namespace Guidewire.Core
 
         /// <summary>Predicts orientations j to j+3 at the end of a stage from w' of two stages before.</summary>
         /// <param name="largest">In and out: the largest square of a change of a turn, rad^2.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool Predict(InertiaEnergy inertia, Vector3d[] countedTurn, Vector3d[] first, Vector3d[] second,
             double fraction, Quaterniond[] predicted, int j, ref double largest)
         {
@@ -98,7 +95,6 @@ namespace Guidewire.Core
         /// <param name="end">First element that does not belong to them.</param>
         /// <param name="couple">On the elements, N m.</param>
         /// <returns>The first that is left.</returns>
-        [MethodImpl(Compiled.AtOnce)]
         public static int AddGradient(InertiaEnergy inertia, double[] diagonal, double[] coupling, Vector3d[] couple,
             RodShape shape, RodVector[] gradient, int from, int end)
         {
@@ -125,7 +121,6 @@ namespace Guidewire.Core
 
         /// <summary>Adds the work of the couples of elements j to j+3 since their anchor, J.</summary>
         /// <param name="perTurn">Second derivative by a turn over the rotary inertia, 1/s^2.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool AddWork(Quaterniond[] anchor, Vector3d[] couple, Vector3d[] rotary, double perTurn,
             RodShape shape, int j, ref double sum)
         {

@@ -18,7 +18,6 @@ namespace Guidewire.Core
         /// <summary>Places nodes i to i+3 one after the other, in the directions of a curve.</summary>
         /// <param name="slide">What slides out of outer instruments by node, of which a fraction is added to the
         /// lengths.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool PlaceAtLengths(Vector3d[] curve, Vector3d[] x, double[] lengths, double[] slide,
             double fraction, int i)
         {
@@ -49,7 +48,6 @@ namespace Guidewire.Core
         /// <summary>Turns elements j to j+3 with their chords, and about these by their spins.</summary>
         /// <param name="orientations">By the spins.</param>
         /// <param name="predicted">Its nodes are set; receives the orientations.</param>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool Turn(RodShape shape, Quaterniond[] orientations, RodShape predicted, int j)
         {
 #if NET8_0_OR_GREATER
@@ -79,7 +77,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Sets the direction of nodes and elements j to j+3 from one shape to another.</summary>
-        [MethodImpl(Compiled.AtOnce)]
         public static bool SetDirection(RodShape shape, RodShape to, RodVector[] direction, int j)
         {
 #if NET8_0_OR_GREATER
