@@ -8,9 +8,8 @@ from collections.abc import Iterable, Sequence
 from datetime import date
 
 from guidewire.prepare import ROOT
-from tools.testing import FULL_CAMPAIGNS
+from tools.testing import DAY, FULL_CAMPAIGNS
 
-DAY = "GUIDEWIRE_DAY"  # a number that stands for a day: the same one gives the same seeds
 RED = ROOT / "results" / "red"  # one file for each campaign, a seed a line
 
 

@@ -17,6 +17,7 @@ import xml.etree.ElementTree as ElementTree
 from collections.abc import Sequence
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import dataclass
+from datetime import date
 from pathlib import Path
 
 from guidewire.prepare import ROOT, PreparationError
@@ -24,6 +25,7 @@ from guidewire.runs import building
 
 RESULTS = ROOT / "results" / "tests"
 FULL_CAMPAIGNS = "GUIDEWIRE_ALL"
+DAY = "GUIDEWIRE_DAY"  # a number that stands for a day: the same one gives the same seeds of random tests
 READY = "GUIDEWIRE_READY"  # a file that is there once the runner is built that the tests in Python start
 # In this order, so that what needs nothing built runs beside the build, and no long file is left over at the end.
 PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "tools/unitycheck", "guidewire/viewer",
@@ -61,6 +63,8 @@ def test(arguments: argparse.Namespace) -> int:
     os.environ[READY] = str(RESULTS / "ready")
     if arguments.all:
         os.environ[FULL_CAMPAIGNS] = "1"
+        os.environ.setdefault(DAY, str(date.today().toordinal()))    # one day for all workers, also at midnight
+        _say(f"random tests with {DAY}={os.environ[DAY]}")
     seconds = _SECONDS[arguments.all]
     workers = (os.cpu_count() or 1) + 1    # one more than processors: a part of their time tests wait
     not_built = threading.Event()

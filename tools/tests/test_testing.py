@@ -15,7 +15,7 @@ from tools.testing import PYTEST, Count, read_trx, run
 @pytest.fixture(autouse=True)
 def results_in_a_folder_of_their_own(tmp_path, monkeypatch):
     monkeypatch.setattr(testing, "RESULTS", tmp_path / "results")
-    for name in (testing.READY, testing.FULL_CAMPAIGNS):    # `test` sets its own
+    for name in (testing.READY, testing.FULL_CAMPAIGNS, testing.DAY):    # `test` sets its own
         monkeypatch.delenv(name, raising=False)
     testing.RESULTS.mkdir()
 

@@ -10,6 +10,7 @@ from pathlib import Path
 
 import pytest
 
+from guidewire.runs import building
 from tools.unitycheck import checks, metas, sources
 from tools.unitycheck.project import Project
 
@@ -224,8 +225,9 @@ def source(name: str, body: str, folder: str = RUNTIME) -> tuple[str, bytes]:
 @pytest.fixture(scope="module")
 def repository() -> Project:
     """This repository, read once, and compiled as it is before anything is changed."""
+    building.build(building.CHECKER, print)
     project = Project(ROOT)
-    assert sources.answer(project) is not None, "Guidewire.UnityCheck is not built"
+    assert sources.answer(project) is not None
     return project
 
 
