@@ -20,6 +20,7 @@ from dataclasses import dataclass
 from datetime import date
 from pathlib import Path
 
+from guidewire.installed import has_avx2
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
 
@@ -108,7 +109,8 @@ def _dotnet(full: bool, seconds: float, not_built: threading.Event) -> Count:
 def _build_native() -> None:
     """Build the runner of machine code where that is possible: tests start a runner some thousand times."""
     try:
-        building.build_native(_say)
+        if sys.platform == "linux" and has_avx2():
+            building.build_native(_say)
     except PreparationError as error:
         _say(f"the runner compiles while it runs: {error}")
     finally:
