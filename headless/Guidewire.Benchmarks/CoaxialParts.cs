@@ -35,7 +35,7 @@ namespace Guidewire.Benchmarks
             {
                 _stepper.Advance(start.State);
             }
-            RodDynamics dynamics = _stepper is CoaxialStep coaxial ? coaxial.Dynamics : ((DirectStep)_stepper).Dynamics;
+            RodDynamics dynamics = ((DirectStep)_stepper).Dynamics;
             _all = dynamics.Terms;
             _shape = dynamics.Shape;
             var inertia = new InertiaEnergy(_all.Mass) { StageLength = parameters.Method.TimeStep };

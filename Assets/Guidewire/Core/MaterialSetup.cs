@@ -54,10 +54,14 @@ namespace Guidewire.Core
         private static MethodStart BuildCoaxial(SimulationParameters parameters, RodState state)
         {
             state.InverseMasses[0] = 0.0;
-            var stepper = new CoaxialStep(parameters, new SolverReport(), out string? failure);
-            stepper.WriteWire(state);
-            stepper.WriteWire(state);
-            return new MethodStart(state, stepper) { Failure = failure, IsAtRest = stepper.IsAtRest };
+            var instruments = CoaxialInstruments.Create(parameters, new SolverReport(), out string? failure);
+            instruments.Write(state);
+            instruments.Write(state);
+            return new MethodStart(state, new DirectStep(instruments, parameters.Method.TimeStep))
+            {
+                Failure = failure,
+                IsAtRest = instruments.Chain.IsAtRest,
+            };
         }
 
         private static WallTerms? Walls(SimulationParameters parameters, MaterialScene scene)
@@ -85,8 +89,9 @@ namespace Guidewire.Core
         public static TimeStepper Direct(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {
-            return new DirectStep(scene, DirectSetup.DynamicsOf(parameters, scene, terms), parameters.Method, report,
-                Reactions(parameters, scene));
+            var rod = new MonitoredRod(scene, DirectSetup.DynamicsOf(parameters, scene, terms), parameters.Method,
+                report, Reactions(parameters, scene));
+            return new DirectStep(new InstrumentSet(rod), parameters.Method.TimeStep);
         }
 
         /// <summary>Iterations over constraints with compliance.</summary>

@@ -274,7 +274,7 @@ namespace Guidewire.Core
         public string? FindInVessel(int instrument)
         {
             return _catheters.Length == 0 ? "a wire alone cannot be exchanged: the run has to start anew"
-                : ((CoaxialStep)_stepper).FindInVessel(instrument == 0 ? _catheters.Length : instrument - 1);
+                : Instruments.FindInVessel(instrument == 0 ? _catheters.Length : instrument - 1);
         }
 
         /// <summary>All that the next steps depend on besides the parameters, as bytes for <see
@@ -390,6 +390,8 @@ namespace Guidewire.Core
             return continued;
         }
 
+        private WireInCatheters Instruments => (WireInCatheters)((DirectStep)_stepper).Instruments;
+
         // isOther: of the wire and of each catheter.
         private Simulation Exchange(SimulationParameters parameters, bool[] isOther)
         {
@@ -405,10 +407,9 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(next.Reason);
             }
-            var stepper = (CoaxialStep)next._stepper;
-            stepper.GoOnFrom((CoaxialStep)_stepper, isOther.Skip(1).Append(isOther[0]).ToArray());
-            stepper.WriteWire(next.State);
-            stepper.WriteWire(next.State);
+            next.Instruments.GoOnFrom(Instruments, isOther.Skip(1).Append(isOther[0]).ToArray());
+            next.Instruments.Write(next.State);
+            next.Instruments.Write(next.State);
             var snapshot = new Snapshot();
             _clock.Serialize(snapshot);
             _warnings.Serialize(snapshot, State);

@@ -82,13 +82,10 @@ namespace Guidewire.Core
             _lastFrame = shape.DistalFrame;
             _proximalTurn = proximalTurn;
             _distalTurn = distalTurn;
-            if (_terms.Bending is CoaxialBendTwist coaxial)
+            for (int i = 1; i < _lead.Length; i++)
             {
-                for (int i = 1; i < _lead.Length; i++)
-                {
-                    _lead[i] = coaxial.Joints.LeadOf(i);
-                    _hubTwist[i] = coaxial.HubTwist[i];
-                }
+                _lead[i] = _terms.CoaxialBending!.Joints.LeadOf(i);
+                _hubTwist[i] = _terms.CoaxialBending.HubTwist[i];
             }
         }
 
@@ -183,17 +180,15 @@ namespace Guidewire.Core
         {
             move = 0.0;
             turn = 0.0;
-            if (_terms.Bending is CoaxialBendTwist coaxial)
+            for (int i = 1; i < _lead.Length; i++)
             {
-                for (int i = 1; i < _lead.Length; i++)
-                {
-                    double along = Math.Abs(coaxial.Joints.LeadOf(i) - _lead[i]);
-                    double about = Math.Abs(coaxial.HubTwist[i] - _hubTwist[i]);
-                    Work += along > 0.0 ? Math.Abs(_terms.Release!.InnerForce(shape, _terms, i)) * along : 0.0;
-                    Work += about > 0.0 ? Math.Abs(coaxial.InnerTorque(shape, i)) * about : 0.0;
-                    move += along;
-                    turn += about;
-                }
+                CoaxialBendTwist coaxial = _terms.CoaxialBending!;
+                double along = Math.Abs(coaxial.Joints.LeadOf(i) - _lead[i]);
+                double about = Math.Abs(coaxial.HubTwist[i] - _hubTwist[i]);
+                Work += along > 0.0 ? Math.Abs(_terms.Release!.InnerForce(shape, _terms, i)) * along : 0.0;
+                Work += about > 0.0 ? Math.Abs(coaxial.InnerTorque(shape, i)) * about : 0.0;
+                move += along;
+                turn += about;
             }
         }
 

@@ -59,7 +59,7 @@ namespace Guidewire.Core
             Insertion = drive.Insertion;
             Turn = drive.Turn;
             Force = Vector3d.Dot(force, axis);
-            Force += terms.Release?.SheathForce(shape) ?? 0.0;
+            Force += terms.SheathForce(shape);
             Torque = torque;
             TipDirection = shape.Q[shape.ElementCount - 1].Director3;
             terms.Bending.Measure(shape, _turns);

@@ -36,9 +36,10 @@ namespace Guidewire.Core
             Supports = supports;
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
-            Bending = supports.InnerCount > 0 ? new CoaxialBendTwist(supports.Coaxial!)
-                : BendTwistTerm.Create(rod.Joints(supports), supports);
-            Release = supports.Coaxial == null ? null : new Release(supports.Coaxial, Bending, Stretch);
+            CoaxialBending = supports.InnerCount > 0 ? new CoaxialBendTwist(supports.Coaxial!) : null;
+            Bending = CoaxialBending ?? BendTwistTerm.Create(rod.Joints(supports), supports);
+            Release = supports.Coaxial == null ? null
+                : new Release(supports.Coaxial, Bending, CoaxialBending, Stretch);
             Loads = new DeadLoads(Mass, rod.Length);
             Followers = new TipFollowers(rod, scene);
             _elastic = new EnergyTerm[]
@@ -79,6 +80,9 @@ namespace Guidewire.Core
 
         /// <summary>Bending and twist.</summary>
         public BendTwistTerm Bending { get; }
+
+        /// <summary>The same of several instruments; null of one alone.</summary>
+        public CoaxialBendTwist? CoaxialBending { get; }
 
         /// <summary>The loads on coaxial instruments; null where those on the chain are set by hand.</summary>
         public CoaxialLoads? CoaxialLoads { get; set; }
@@ -200,7 +204,14 @@ namespace Guidewire.Core
         public double HubForce(RodShape shape)
         {
             double held = Contact == null ? 0.0 : Vector3d.Dot(Contact.SupportForce(shape), HubAxis(shape));
-            return held + (Release?.SheathForce(shape) ?? 0.0);
+            return held + SheathForce(shape);
+        }
+
+        /// <summary>What of that is not on node 0, N: the force by which a sheath holds back a bent rod; 0 without
+        /// one.</summary>
+        public double SheathForce(RodShape shape)
+        {
+            return Release?.SheathForce(shape) ?? 0.0;
         }
 
         /// <summary>The hub's axis, a unit vector.</summary>

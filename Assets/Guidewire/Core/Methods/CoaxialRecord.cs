@@ -286,7 +286,7 @@ namespace Guidewire.Core
             double overlapEnd = _instrument > 0 ? Math.Min(joints.EndOf(1), joints.EndOf(2))
                 : joints.InnerCount == 1 ? Overlap
                 : Math.Max(Overlap, Math.Min(joints.EndOf(2), joints.Stations[joints.OuterCount]));
-            var bending = (CoaxialBendTwist)terms.Bending;
+            CoaxialBendTwist bending = terms.CoaxialBending!;
             WireTwist = bending.InnermostTwist(shape);
             LargestCurvature = 0.0;
             OverlapAngle = 0.0;

@@ -1,5 +1,6 @@
 using System;
 using System.Buffers.Binary;
+using System.Collections.Generic;
 using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
@@ -11,6 +12,8 @@ namespace Guidewire.Core
     /// differ. Every number takes 64 bits.</remarks>
     internal sealed class Snapshot
     {
+        private readonly List<object> _kept = new List<object>();   // in memory only
+        private int _nextKept;
         private long[] _bits = new long[256];
         private int _count;
         private int _at;
@@ -29,6 +32,7 @@ namespace Guidewire.Core
         public void RewindForWriting()
         {
             _count = 0;
+            _kept.Clear();
             IsWritten = true;
         }
 
@@ -36,6 +40,7 @@ namespace Guidewire.Core
         public void RewindForReading()
         {
             _at = 0;
+            _nextKept = 0;
             IsWritten = false;
         }
 
@@ -59,6 +64,19 @@ namespace Guidewire.Core
                 bits[i] = BinaryPrimitives.ReadInt64LittleEndian(bytes.AsSpan(sizeof(long) * i));
             }
             return new Snapshot { _bits = bits, _count = bits.Length, IsWritten = false };
+        }
+
+        /// <summary>Keeps what a step may replace as a whole, or takes it back. In memory only: it has no bytes.
+        /// </summary>
+        public void Keep<T>(ref T value)
+            where T : class
+        {
+            if (IsWritten)
+            {
+                _kept.Add(value);
+                return;
+            }
+            value = (T)_kept[_nextKept++];
         }
 
         /// <summary>Writes or reads a count.</summary>

@@ -30,12 +30,13 @@ namespace Guidewire.Core
         private readonly double[] _station;       // speeds of nodes
 
         /// <summary>Of these instruments.</summary>
-        public Release(CoaxialRod rod, BendTwistTerm bending, StretchEnergy stretch)
+        /// <param name="angles">The bending of several, with their angles; null of one.</param>
+        public Release(CoaxialRod rod, BendTwistTerm bending, CoaxialBendTwist? angles, StretchEnergy stretch)
         {
             _rod = rod;
             _joints = rod.Joints;
             _bending = bending;
-            _angles = bending as CoaxialBendTwist;
+            _angles = angles;
             _stretch = stretch;
             _speeds = new HubSpeeds(_joints.Count);
             _before = _joints.CreatePieces();

@@ -42,7 +42,7 @@ namespace Guidewire.Core
         {
             RodTerms terms = dynamics.Terms;
             RodShape shape = dynamics.Shape;
-            var bending = (CoaxialBendTwist)terms.Bending;
+            CoaxialBendTwist bending = terms.CoaxialBending!;
             int wire = _records.Length;
             // The outermost hub has the chain's reaction less those of the others.
             _forces[0] = Vector3d.Dot(dynamics.ReactionAt(0), _axis);
@@ -62,7 +62,7 @@ namespace Guidewire.Core
                 }
                 inside += _forces[i];
             }
-            _forces[0] += terms.Release!.SheathForce(shape);
+            _forces[0] += terms.SheathForce(shape);
             _records[0].Take(joints, terms, shape, shape, _drives[0], _drives[wire], torque, wireTorque, inside);
             double around = 0.0;
             double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;

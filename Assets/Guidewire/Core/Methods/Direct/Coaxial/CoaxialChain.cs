@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is simulated of coaxial instruments: one rod with its motion and a <see cref="DirectStep"/>, built
-    /// anew wherever nodes come or go.</summary>
+    /// <summary>What is simulated of coaxial instruments: one <see cref="MonitoredRod"/>, built anew wherever nodes
+    /// come or go.</summary>
     /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. It is also built anew where a tip inside comes
     /// into another element. Of an instrument alone the part in its sheath is left out: it is straight, massless, and
     /// evenly stretched and twisted. What comes in has the strain and the twist of that.</remarks>
@@ -20,9 +20,8 @@ namespace Guidewire.Core
         private readonly int[] _active;           // elements with each angle, when the rod was built
         private double[] _leads = null!;          // between the hubs, when it was built, m
         private double _frameTurn;                // where the frame of an instrument alone is held, radians
-        private (CoaxialRod, RodDynamics, DirectStep, double[]) _kept;   // what there was when a step began
-        private readonly int[] _keptActive;
-        private readonly int[] _keptBeyond;
+        private CoaxialRod _rod;
+        private MonitoredRod _whole = null!;
 
         /// <summary>All at their start.</summary>
         /// <param name="drives">Of the hubs.</param>
@@ -40,12 +39,10 @@ namespace Guidewire.Core
             _nodes = new CoaxialNodes(setup.Instruments, hubs);
             _isAlone = drives.Length == 1;
             _active = new int[drives.Length];
-            _keptActive = new int[drives.Length];
-            _keptBeyond = new int[drives.Length];
             _nodes.Find(0.0, 0.0);
             int first = !_isAlone ? 0
                 : _nodes.FirstOf(setup.Wire.Shape, 0, setup.Sheath!, hubs.SheathedAt(0.0), 0.0);
-            Rod = RodAt(0.0, first);
+            _rod = RodAt(0.0, first);
             var shape = new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount);
             shape.SetStraight(hubs.Outer.PositionAt(0.0), hubs.Outer.Frame, Rod.Joints.Stations);
             CoaxialShape.SetTwists(shape, Rod.Joints, hubs);
@@ -70,13 +67,13 @@ namespace Guidewire.Core
         public bool IsAtRest { get; }
 
         /// <summary>All instruments as one rod.</summary>
-        public CoaxialRod Rod { get; private set; }
+        public CoaxialRod Rod => _rod;
 
         /// <summary>Its motion.</summary>
-        public RodDynamics Dynamics { get; private set; } = null!;
+        public RodDynamics Dynamics => Whole.Dynamics;
 
-        /// <summary>Its steps.</summary>
-        public DirectStep Whole { get; private set; } = null!;
+        /// <summary>The same with its monitors.</summary>
+        public MonitoredRod Whole => _whole;
 
         /// <summary>Sets what is prescribed at the present time.</summary>
         public void TakeTime()
@@ -94,28 +91,19 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One step, whose drives have been prepared, in the parts between which nodes go.</summary>
-        /// <param name="insertion">Of the outermost hub when the step began, m.</param>
-        /// <param name="turn">The same, radians.</param>
-        /// <returns>False where it has no solution or has lost an instrument.</returns>
-        public bool Step(double insertion, double turn)
+        /// <summary>Begins a part of a step: nodes that come or go within it do so now.</summary>
+        /// <param name="left">Of the step, s.</param>
+        /// <returns>How long no other ones come or go, at most what is left, s.</returns>
+        public double BeginPart(double left)
         {
-            double start = Dynamics.Time;
-            bool isDone = true;
-            for (double done = 0.0; isDone && done < _method.TimeStep;)
+            double length = Math.Min(_nodes.TimeToNode(Dynamics.Time), left);
+            length = left - length < CoaxialNodes.SameTime * _method.TimeStep ? left : length;
+            _nodes.Find(Dynamics.Time, length);
+            if (!IsAsBuilt())
             {
-                double length = Math.Min(_nodes.TimeToNode(Dynamics.Time), _method.TimeStep - done);
-                length = _method.TimeStep - done - length < CoaxialNodes.SameTime * _method.TimeStep
-                    ? _method.TimeStep - done : length;
-                _nodes.Find(Dynamics.Time, length);
-                if (!IsAsBuilt())
-                {
-                    Rebuild(this, 0);
-                }
-                isDone = Whole.StepPart(length, insertion, turn);
-                done = length == _method.TimeStep - done ? _method.TimeStep : Dynamics.Time - start;
+                Rebuild(this, 0);
             }
-            return isDone;
+            return length;
         }
 
         /// <summary>Begins a step of an instrument alone: elements that will reach the exit of its sheath come in,
@@ -170,7 +158,7 @@ namespace Guidewire.Core
         {
             if (!snapshot.IsWritten)
             {
-                Rod = _setup.Rod(_nodes.Beyond, _leads, first, _hubs, time);
+                _rod = _setup.Rod(_nodes.Beyond, _leads, first, _hubs, time);
                 MaterialScene scene = SceneOf(new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount));
                 // Placed on the axis until its own state is read.
                 scene.Shape.SetStraight(_hubs.Outer.PositionAt(time), _hubs.Outer.Frame, Rod.Joints.Stations);
@@ -190,15 +178,14 @@ namespace Guidewire.Core
         /// anew.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
-            if (snapshot.IsWritten)
+            snapshot.Keep(ref _rod);
+            snapshot.Keep(ref _whole);
+            snapshot.Keep(ref _leads);
+            for (int i = 0; i < _active.Length; i++)
             {
-                _kept = (Rod, Dynamics, Whole, _leads);
-                _active.CopyTo(_keptActive, 0);
-                _nodes.Beyond.CopyTo(_keptBeyond, 0);
+                snapshot.Serialize(ref _active[i]);
+                snapshot.Serialize(ref _nodes.Beyond[i]);
             }
-            (Rod, Dynamics, Whole, _leads) = _kept;
-            _keptActive.CopyTo(_active, 0);
-            _keptBeyond.CopyTo(_nodes.Beyond, 0);
             snapshot.Serialize(ref _frameTurn);
             HoldFrame(Dynamics.Shape);
             Whole.SerializeStep(snapshot);
@@ -245,8 +232,8 @@ namespace Guidewire.Core
             RodShape oldShape = was.Shape;
             RodTerms former = was.Terms;
             CoaxialRod old = from.Rod;
-            DirectStep before = from.Whole;
-            Rod = RodAt(time, first);
+            MonitoredRod before = from.Whole;
+            _rod = RodAt(time, first);
             var change = new CoaxialChange(old.Joints, Rod.Joints, isOther, shift);
             MaterialScene scene = SceneOf(change.Take(oldShape));
             double[] rates = was.TwistRates;
@@ -300,14 +287,14 @@ namespace Guidewire.Core
             {
                 _active[i] = Rod.Joints.ActiveCountOf(i);
             }
-            Dynamics = _setup.Dynamics(scene, terms);
-            Dynamics.ResumeAt(time, turn);
+            RodDynamics dynamics = _setup.Dynamics(scene, terms);
+            dynamics.ResumeAt(time, turn);
             terms.SetTime(scene.Schedule, time);
             if (terms.Walls() != null)
             {
                 terms.Walls()!.Spring.Axis = _setup.Axis;
             }
-            Whole = new DirectStep(scene, Dynamics, _method, _report,
+            _whole = new MonitoredRod(scene, dynamics, _method, _report,
                 terms.Walls() == null ? null : new ContactRecord(scene.Shape.X.Length));
         }
     }

@@ -22,8 +22,9 @@ namespace Guidewire.Core
                     + "it could be withdrawn";
             }
             double beyond = TipOf(setup, hubs, instrument, time) - most;
-            return beyond <= Rounding * first ? null : Text(setup, "{0} needs to be withdrawn by {1:G4} mm more, into {2}",
-                instrument, beyond, setup.Sheath != null ? "the sheath" : "the first element of " + NameOf(setup, 0));
+            return beyond <= Rounding * first ? null : Text(setup,
+                "{0} needs to be withdrawn by {1:G4} mm more, into {2}", instrument, beyond,
+                setup.Sheath != null ? "the sheath" : "the first element of " + NameOf(setup, 0));
         }
 
         /// <summary>Why instruments do not fit one another where their hubs are at a time, in one phrase, or
@@ -37,8 +38,8 @@ namespace Guidewire.Core
                 double behind = hubs.LeadAt(i - 1, time) - hubs.LeadAt(i, time);
                 if (behind > rounding)
                 {
-                    return Text(setup, "{0} is {1:G4} mm too short for this exchange: the hub of {2} would be behind its "
-                        + "own", i, behind, NameOf(setup, i - 1));
+                    return Text(setup, "{0} is {1:G4} mm too short for this exchange: the hub of {2} would be behind "
+                        + "its own", i, behind, NameOf(setup, i - 1));
                 }
                 double missing = first - TipOf(setup, hubs, i, time);
                 if (missing > rounding)

@@ -139,7 +139,7 @@ namespace Guidewire.Core
             if (at <= 0.0)
             {
                 // Between the hubs it twists evenly, on to the middle of the outermost instrument's first element.
-                var bending = (CoaxialBendTwist)dynamics.Terms.Bending;
+                CoaxialBendTwist bending = dynamics.Terms.CoaxialBending!;
                 double turn = bending.HubTwist[_instrument]
                     + (joints.LeadOf(_instrument) + at) * bending.LeadTwist(shape, _instrument).Z;
                 Shape.Q[element] = shape.ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -8,42 +7,36 @@ namespace Guidewire.Core
     /// <remarks>In each trial of one hub those of the instruments inside it are found anew.</remarks>
     internal sealed class SlippingHubs
     {
+        private readonly InstrumentSet _instruments;
         private readonly MaterialDrive[] _drives;
         private readonly HubSlip[] _slips;
         private readonly StepStart _start;
-        private readonly WorkLimit _work;
         private readonly Func<bool> _step;
-        private readonly Func<int, double> _force;
         private readonly double[] _insertions;   // when the step began, m
         private bool _isFirst;                   // of its trials
 
-        /// <summary>Those of these instruments, the outermost one first.</summary>
+        /// <summary>Those of these instruments.</summary>
         /// <param name="start">Saves and restores a step's start.</param>
-        /// <param name="work">Bounds the trials.</param>
         /// <param name="step">Takes the step with the displacements that drives are given; false where it has no
         /// solution.</param>
-        /// <param name="force">Of a hub on its instrument after a step, N.</param>
-        public SlippingHubs(MaterialDrive[] drives, HubSlip[] slips, StepStart start, WorkLimit work, Func<bool> step,
-            Func<int, double> force)
+        public SlippingHubs(InstrumentSet instruments, StepStart start, Func<bool> step)
         {
-            _drives = drives;
-            _slips = slips;
+            _instruments = instruments;
+            _drives = instruments.Drives;
+            _slips = instruments.Slips;
             _start = start;
-            _work = work;
             _step = step;
-            _force = force;
-            _insertions = new double[drives.Length];
-            AreLimited = Array.Exists(slips, slip => slip.IsLimited);
+            _insertions = new double[_drives.Length];
+            AreLimited = Array.Exists(_slips, slip => slip.IsLimited);
         }
 
         /// <summary>Whether one of them has a limit.</summary>
         public bool AreLimited { get; }
 
-        /// <summary>One step, whose start is saved first.</summary>
+        /// <summary>One step, whose start has been saved.</summary>
         /// <returns>False where it has no solution.</returns>
         public bool Step()
         {
-            _start.Save();
             _isFirst = true;
             for (int i = 0; i < _drives.Length; i++)
             {
@@ -53,44 +46,9 @@ namespace Guidewire.Core
             for (int i = 0; i < _drives.Length; i++)
             {
                 _drives[i].OverrideDisplacement(null);
-                _slips[i].EndStep(isDone && _slips[i].IsLimited ? _force(i) : 0.0);
+                _slips[i].EndStep(isDone && _slips[i].IsLimited ? _instruments.ForceOf(i) : 0.0);
             }
             return isDone;
-        }
-
-        /// <summary>Adds what is not as asked of the hubs.</summary>
-        /// <param name="isSheathed">Whether the catheter's hub ends at the exit of a sheath.</param>
-        public void AddWarnings(bool isSheathed, List<RunWarning> warnings)
-        {
-            int last = _slips.Length - 1;
-            for (int k = last; k >= 0; k--)
-            {
-                string name = k == last ? "the wire's hub" : last == 1 ? "the catheter's hub"
-                    : k == 0 ? "the outer catheter's hub" : "the inner catheter's hub";
-                string stops = k == last
-                    ? "it met the catheter's hub, or the wire's tip came to the first element of the catheter"
-                    : last == 1 ? "it met the wire's hub, or its first element came to the wire's tip"
-                    : "it met the next hub, or its first element came to a tip inside";
-                stops += k < last && isSheathed ? ", or its hub to the exit of the sheath" : "";
-                if (_slips[k].Drive.FallsShort)
-                {
-                    warnings.Add(WarningTable.HubShortfall.With(name, _slips[k].Drive.Slip,
-                        (_slips[k].IsLimited ? "it slipped at its hubForceLimit, or " : "") + stops));
-                }
-                if (_slips[k].FindExcess(name) is RunWarning excess)
-                {
-                    warnings.Add(excess);
-                }
-            }
-        }
-
-        /// <summary>Writes or restores what the steps had beyond the limits.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            foreach (HubSlip slip in _slips)
-            {
-                slip.Serialize(snapshot);
-            }
         }
 
         private bool Step(int hub)
@@ -108,7 +66,7 @@ namespace Guidewire.Core
                 isDone = Step(hub + 1);
             }
             while (slip.NeedsAnother(_drives[hub].Insertion - _insertions[hub],
-                isDone && slip.IsLimited ? _force(hub) : double.NaN, _work.IsScarce));
+                isDone && slip.IsLimited ? _instruments.ForceOf(hub) : double.NaN, _instruments.Work.IsScarce));
             return isDone;
         }
 
@@ -117,7 +75,7 @@ namespace Guidewire.Core
             if (!_isFirst)
             {
                 _start.Restore();
-                _work.Count();
+                _instruments.Work.Count();
             }
             _isFirst = false;
             return _step();

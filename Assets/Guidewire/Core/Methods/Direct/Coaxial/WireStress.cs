@@ -34,7 +34,7 @@ namespace Guidewire.Core
         /// <param name="thrust">Of the wire's hub, N.</param>
         public StressRecord Take(RodDynamics dynamics, CoaxialJoints joints, in Vector3d energies, double thrust)
         {
-            var bending = (CoaxialBendTwist)dynamics.Terms.Bending;
+            CoaxialBendTwist bending = dynamics.Terms.CoaxialBending!;
             int wire = joints.InnerCount;
             double lead = joints.LeadOf(wire);
             int n = _own.Rod.ElementCount;

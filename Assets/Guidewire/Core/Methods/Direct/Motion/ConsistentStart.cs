@@ -13,7 +13,7 @@ namespace Guidewire.Core
     {
         private readonly RodTerms _terms;
         private readonly RodDamping? _damping;
-        private readonly InnerSpin? _inner;
+        private readonly InnerSpin _inner;
         private readonly bool _holdsFirst;
         private readonly DistalEnd _distal;
         private readonly Vector3d _axis;
@@ -23,8 +23,8 @@ namespace Guidewire.Core
 
         /// <summary>For a rod under these terms.</summary>
         /// <param name="damping">Of its nodes and strains, or null.</param>
-        /// <param name="inner">The spin of an instrument inside, or null.</param>
-        public ConsistentStart(RodTerms terms, RodDamping? damping, InnerSpin? inner)
+        /// <param name="inner">The spin of instruments inside.</param>
+        public ConsistentStart(RodTerms terms, RodDamping? damping, InnerSpin inner)
         {
             _damping = damping;
             _inner = inner;
@@ -85,7 +85,7 @@ namespace Guidewire.Core
                 spinRate[j] = new Vector3d(-(1.0 / i.X) * g.T1, -(1.0 / i.Y) * g.T2, -(1.0 / i.Z) * g.T3)
                     - _terms.Mass.Precession(j, w) - damping * w;
             }
-            double twist = _inner == null ? 0.0 : _inner.SetFirst(_gradient, spins, _terms.Mass.Rotary, spinRate);
+            double twist = _inner.SetFirst(_gradient, spins, _terms.Mass.Rotary, spinRate);
             for (int j = 0; j < spinRate.Length; j++)
             {
                 turn = Math.Max(turn, spinRate[j].LengthSquared);

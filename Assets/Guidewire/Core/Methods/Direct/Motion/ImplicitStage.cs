@@ -62,9 +62,9 @@ namespace Guidewire.Core
             }
             EnergyTerm[] moving = Damping == null
                 ? new EnergyTerm[] { _inertia } : new EnergyTerm[] { _inertia, Damping };
+            Inner = new InnerSpin(_supports.Coaxial, _inertia, motion, stageCount);
             if (_supports.InnerCount > 0)
             {
-                Inner = new InnerSpin(_supports.Coaxial!, _inertia, motion, stageCount);
                 Array.Resize(ref moving, moving.Length + 1);
                 moving[moving.Length - 1] = Inner;
             }
@@ -80,8 +80,8 @@ namespace Guidewire.Core
         /// <summary>What resists velocities and rates of strain, or null.</summary>
         public RodDamping? Damping { get; }
 
-        /// <summary>The spin of an instrument inside, or null.</summary>
-        public InnerSpin? Inner { get; }
+        /// <summary>The spin of instruments inside.</summary>
+        public InnerSpin Inner { get; }
 
         /// <summary>Solves the stages, and counts.</summary>
         public Newton Newton { get; }
@@ -114,7 +114,7 @@ namespace Guidewire.Core
             {
                 term.BeginStep(_shape, dt);
             }
-            Inner?.BeginStep(_shape, dt);
+            Inner.BeginStep(_shape, dt);
         }
 
         /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
@@ -126,7 +126,7 @@ namespace Guidewire.Core
             Rates.Prepare(_inertia, row, dt, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory);
             _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, _inertia.StageLength);
             Damping?.BeginStage(row, dt);
-            Inner?.BeginStage(row, dt);
+            Inner.BeginStage(row, dt);
         }
 
         /// <summary>The one stage of a step by BDF2 begins.</summary>
@@ -136,7 +136,7 @@ namespace Guidewire.Core
                 dt);
             _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h);
             Damping?.BeginStage(history.IsComplete, h);
-            Inner?.BeginStage(history.IsComplete);
+            Inner.BeginStage(history.IsComplete);
         }
 
         /// <summary>Rates from the forces of this time are asked for, at the start of a step of length h, s.</summary>
@@ -152,7 +152,7 @@ namespace Guidewire.Core
         public void Accept()
         {
             Rates.Accept(_inertia, _motion.Velocities, _motion.Spins);
-            Inner?.Accept();
+            Inner.Accept();
         }
 
         /// <summary>The step is kept.</summary>
@@ -169,7 +169,7 @@ namespace Guidewire.Core
         {
             _hasPast = false;
             Rates.Clear();
-            Inner?.Clear();
+            Inner.Clear();
         }
 
         /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
@@ -210,7 +210,7 @@ namespace Guidewire.Core
             }
             Rates.Take(stage, _shape, _inertia, _velocityHistory, _hasPast);
             Damping?.EndStage(stage, _shape);
-            Inner?.EndStage(stage, _shape);
+            Inner.EndStage(stage, _shape);
             Reactions.TakeStage();
             return null;
         }
@@ -244,7 +244,7 @@ namespace Guidewire.Core
         {
             Rates.Serialize(snapshot);
             _inertia.Serialize(snapshot);
-            Inner?.Serialize(snapshot);
+            Inner.Serialize(snapshot);
             Newton.SerializeShift(snapshot);
             snapshot.Serialize(ref _hasPast);
         }

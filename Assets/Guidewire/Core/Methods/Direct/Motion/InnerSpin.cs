@@ -15,7 +15,8 @@ namespace Guidewire.Core
     /// length h, z' = (z - z^)/h and z'' = (z' - r^)/h, where ^ is what earlier stages contribute.</remarks>
     internal sealed class InnerSpin : EnergyTerm
     {
-        private readonly CoaxialRod _rod;
+        private readonly CoaxialRod _rod = null!;    // of none nothing is asked
+        private readonly int _count;                 // of instruments inside
         private readonly InertiaEnergy _inertia;
         private readonly double _damping;            // a, 1/s
         private readonly double[] _twistRates;       // z' of the motion, rad/s, n for each instrument inside
@@ -31,16 +32,21 @@ namespace Guidewire.Core
         private readonly double[] _anchorCouple;     // on z there, N m
         private readonly double[] _anchorTurn;       // about d3
 
-        /// <summary>For a rod of two instruments.</summary>
+        /// <summary>For a rod of several instruments, or of one: then there is nothing to do.</summary>
+        /// <param name="rod">Null: one alone.</param>
         /// <param name="inertia">Of the rod; its gradient is evaluated, and it is anchored, before this term.</param>
         /// <param name="motion">Whose angles move.</param>
         /// <param name="stageCount">Of the scheme, an explicit one counted.</param>
-        public InnerSpin(CoaxialRod rod, InertiaEnergy inertia, RodMotion motion, int stageCount)
+        public InnerSpin(CoaxialRod? rod, InertiaEnergy inertia, RodMotion motion, int stageCount)
         {
             int n = motion.TwistRates.Length;
-            _rod = rod;
+            if (rod != null)
+            {
+                _rod = rod;
+                _count = rod.Joints.InnerCount;
+                _damping = rod.Rod.MassDamping;
+            }
             _inertia = inertia;
-            _damping = rod.Rod.MassDamping;
             _twistRates = motion.TwistRates;
             _start = new double[n];
             _history = new double[n];
@@ -113,7 +119,7 @@ namespace Guidewire.Core
         {
             Array.Clear(_rate[stage], 0, _history.Length);
             Array.Clear(_acceleration[stage], 0, _history.Length);
-            for (int i = 1; i < _rod.Joints.Count; i++)
+            for (int i = 1; i <= _count; i++)
             {
                 for (int j = 0; j < CountOf(i); j++)
                 {
@@ -150,12 +156,12 @@ namespace Guidewire.Core
             double largest = 0.0;
             int twist = spins.Length + 2;
             Array.Clear(_acceleration[0], 0, _history.Length);
-            for (int j = 0; j < _rod.Joints.ActiveCount; j++)
+            for (int j = 0; j < ActiveCount; j++)
             {
                 double outer = rotary[j].Z;
                 double couple = -gradient[j].T3;
                 double spin = spins[j].Z;
-                for (int i = 1; i < _rod.Joints.Count; i++)
+                for (int i = 1; i <= _count; i++)
                 {
                     if (j < CountOf(i))
                     {
@@ -168,7 +174,7 @@ namespace Guidewire.Core
                 }
                 double rate = couple / outer - _damping * spin;
                 spinRate[j] = new Vector3d(spinRate[j].X, spinRate[j].Y, rate);
-                for (int i = 1; i < _rod.Joints.Count; i++)
+                for (int i = 1; i <= _count; i++)
                 {
                     if (j < CountOf(i))
                     {
@@ -203,7 +209,7 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double sum = 0.0;
-            for (int i = 1; i < _rod.Joints.Count; i++)
+            for (int i = 1; i <= _count; i++)
             {
                 for (int j = 0; j < CountOf(i); j++)
                 {
@@ -231,11 +237,11 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            for (int j = 0; j < _rod.Joints.ActiveCount; j++)
+            for (int j = 0; j < ActiveCount; j++)
             {
                 _anchorFrame[j] = shape.Q[j];
             }
-            for (int i = 1; i < _rod.Joints.Count; i++)
+            for (int i = 1; i <= _count; i++)
             {
                 for (int j = 0; j < CountOf(i); j++)
                 {
@@ -251,7 +257,7 @@ namespace Guidewire.Core
             ref GradientMeasures measured)
         {
             int twist = shape.ElementCount + 2;
-            for (int i = 1; i < _rod.Joints.Count; i++)
+            for (int i = 1; i <= _count; i++)
             {
                 for (int j = from; j < Math.Min(to, CountOf(i)); j++)
                 {
@@ -274,7 +280,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddTwistRows(RodShape shape, TwistRow[] rows, int from, int to)
         {
-            for (int i = 1; i < _rod.Joints.Count; i++)
+            for (int i = 1; i <= _count; i++)
             {
                 int first = (i - 1) * (shape.ElementCount + 1);
                 for (int j = from; j < Math.Min(to, CountOf(i)); j++)
@@ -300,6 +306,8 @@ namespace Guidewire.Core
             }
         }
 
+        private int ActiveCount => _count == 0 ? 0 : _rod.Joints.ActiveCount;
+
         private int CountOf(int instrument)
         {
             return _rod.Joints.ActiveCountOf(instrument);
@@ -313,7 +321,7 @@ namespace Guidewire.Core
         // Drag of the innermost instrument in one that has an angle of its own there.
         private double Between(int element)
         {
-            return _rod.Joints.InnerCount > 1 && element < CountOf(1) && element < CountOf(2)
+            return _count > 1 && element < CountOf(1) && element < CountOf(2)
                 ? _rod.LumenDrag[At(2, element)] : 0.0;
         }
 

@@ -143,16 +143,25 @@ namespace Guidewire.Core
             for (Interval interval = Clock.Next(); interval.Length > 0.0; interval = Clock.Next())
             {
                 _start.Save();
-                string? failure = Step(interval);
-                while (!Clock.Accepts(interval, failure))
+                while (true)
                 {
+                    long factor = _terms.Walls() == null ? 1 : Clock.IterationFactor;
+                    Newton.MaxIterations = (int)Math.Min(factor * MaxIterations, int.MaxValue);
+                    Cancellation.ThrowIfCancellationRequested();
+                    long before = Newton.Iterations;
+                    string? failure = _stepper.Step(interval);
+                    _work.Take(Newton.Iterations - before);
+                    Time = interval.End;
+                    if (Clock.Accepts(interval, failure))
+                    {
+                        break;
+                    }
                     if (Clock.Failure != null)
                     {
                         return Clock.Failure;
                     }
                     _start.Restore();
                     interval = Clock.Shorter;
-                    failure = Step(interval);
                 }
                 IntervalDone?.Invoke();
             }
@@ -210,18 +219,6 @@ namespace Guidewire.Core
         {
             Newton.SerializeCounts(snapshot);
             Control.SerializeCounts(snapshot);
-        }
-
-        private string? Step(in Interval interval)
-        {
-            long factor = _terms.Walls() == null ? 1 : Clock.IterationFactor;
-            Newton.MaxIterations = (int)Math.Min(factor * MaxIterations, int.MaxValue);
-            Cancellation.ThrowIfCancellationRequested();
-            long before = Newton.Iterations;
-            string? failure = _stepper.Step(interval);
-            _work.Take(Newton.Iterations - before);
-            Time = interval.End;
-            return failure;
         }
 
         private void SerializeInterval(Snapshot snapshot)

@@ -69,16 +69,35 @@ namespace Guidewire.Core
             }
             MayRestart = _scheme.IsFirstExplicit && !isStart;
             RungeKuttaScheme used = isStart ? _starter : _scheme;
-            string? failure = StepStages(used, interval);
-            if (failure == null)
+            double time = interval.Start;
+            double dt = interval.Length;
+            Stage.BeginStep(time, dt);
+            double[] final = used.Rows[used.StageCount - 1];
+            int first = used.IsFirstExplicit ? 1 : 0;
+            if (first > 0)
             {
-                Error = used.ErrorWeights == null ? 0.0
-                    : Stage.Rates.Error(used.ErrorWeights, interval.Length, _length);
-                _hasRates = true;
-                Stage.HasPast = !isStart;
-                Stage.EndStep();
+                Stage.Reactions.AddStage(interval.Fraction * final[0]);
             }
-            return failure;
+            for (int s = first; s < used.StageCount; s++)
+            {
+                Stage.BeginStage(used.Rows[s], dt);
+                StagePredictor predictor = Stage.HasPast ? used.Predictors[s] : StagePredictor.Of(Math.Max(s - 1, 0));
+                // That of a start ends the step as the scheme's own last one does.
+                int stage = s == used.StageCount - 1 ? _scheme.StageCount - 1 : s;
+                string? failure = Stage.Solve(time + used.Times[s] * dt, interval.Jump, stage, predictor);
+                if (failure != null)
+                {
+                    return failure;
+                }
+                Stage.Reactions.AddStage(interval.Fraction * final[s]);
+            }
+            Stage.Accept();
+            Error = used.ErrorWeights == null ? 0.0
+                : Stage.Rates.Error(used.ErrorWeights, dt, _length);
+            _hasRates = true;
+            Stage.HasPast = !isStart;
+            Stage.EndStep();
+            return null;
         }
 
         /// <inheritdoc/>
@@ -122,7 +141,7 @@ namespace Guidewire.Core
             if (_hasRates && isInPlace && !jumps && _schedule.NextJump(time - interval.Nearly) > after)
             {
                 rates.SetFirst(_motion.Velocities, _motion.Spins, true);
-                Stage.Inner?.SetFirst(true);
+                Stage.Inner.SetFirst(true);
                 return true;
             }
             if (jumps || !_hasRates)
@@ -138,41 +157,13 @@ namespace Guidewire.Core
             if (!isInPlace || !(h * h * move <= LargestStart))
             {
                 rates.Clear();
-                Stage.Inner?.Clear();
+                Stage.Inner.Clear();
                 return false;
             }
             rates.SetFirst(_motion.Velocities, _motion.Spins, false);
-            Stage.Inner?.SetFirst(false);
+            Stage.Inner.SetFirst(false);
             Stage.Reactions.Take(_start.Forces);
             return true;
-        }
-
-        private string? StepStages(RungeKuttaScheme scheme, in Interval interval)
-        {
-            double time = interval.Start;
-            double dt = interval.Length;
-            Stage.BeginStep(time, dt);
-            double[] final = scheme.Rows[scheme.StageCount - 1];
-            int first = scheme.IsFirstExplicit ? 1 : 0;
-            if (first > 0)
-            {
-                Stage.Reactions.AddStage(interval.Fraction * final[0]);
-            }
-            for (int s = first; s < scheme.StageCount; s++)
-            {
-                Stage.BeginStage(scheme.Rows[s], dt);
-                StagePredictor predictor = Stage.HasPast ? scheme.Predictors[s] : StagePredictor.Of(Math.Max(s - 1, 0));
-                // That of a start ends the step as the scheme's own last one does.
-                int stage = s == scheme.StageCount - 1 ? _scheme.StageCount - 1 : s;
-                string? failure = Stage.Solve(time + scheme.Times[s] * dt, interval.Jump, stage, predictor);
-                if (failure != null)
-                {
-                    return failure;
-                }
-                Stage.Reactions.AddStage(interval.Fraction * final[s]);
-            }
-            Stage.Accept();
-            return null;
         }
     }
 }

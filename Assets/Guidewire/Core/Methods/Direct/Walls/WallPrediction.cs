@@ -47,7 +47,7 @@ namespace Guidewire.Core
             _length = new double[_past.Length];
             _at = new double[_past.Length];
             _shortest = double.PositiveInfinity;
-            _coaxial = terms.Bending as CoaxialBendTwist;
+            _coaxial = terms.CoaxialBending;
             _slide = new double[_past.Length];
             _slideBefore = new double[_past.Length];
             for (int j = 0; j < terms.Rod.ElementCount; j++)

@@ -54,7 +54,7 @@ namespace Guidewire.Core.Tests
         public void HubForceAndTorque_AreTheSlopesOfTheEnergy([Values(0.17, 1.7)] double perStep)
         {
             // At steps of a run that feeds, turns and swings: a little on and back with all coordinates held.
-            CoaxialStep run = Turning(perStep, Integrator.ImplicitEuler, out SimulationParameters parameters,
+            DirectStep run = Turning(perStep, Integrator.ImplicitEuler, out SimulationParameters parameters,
                 out RodState state);
             var forces = new LargestError();
             var torques = new LargestError();
@@ -75,14 +75,14 @@ namespace Guidewire.Core.Tests
         {
             // With z = (x, q, hub): work of the hub, E'(z1) dz of the hub; change of T + E; drag, a h w.M w; and the
             // scheme's own, 1/2 |dv|^2_M + E(z0) - E(z1) - E'(z1)(z0 - z1), each by its own formula.
-            CoaxialStep run = Turning(perStep, Integrator.ImplicitEuler, out SimulationParameters parameters,
+            DirectStep run = Turning(perStep, Integrator.ImplicitEuler, out SimulationParameters parameters,
                 out RodState state);
             double h = parameters.Method.TimeStep;
             double worst = 0.0;
             double peak = 0.0;
             for (int k = 0; k < (int)(20.0 / perStep); k++)
             {
-                run.MoveWindow();
+                ((SheathedWire)run.Instruments).Chain.MoveWindow();
                 RodDynamics motion = run.Dynamics;
                 RodShape before = Rods.Copy(motion.Shape);
                 var v = (Vector3d[])motion.Velocities.Clone();
@@ -183,7 +183,7 @@ namespace Guidewire.Core.Tests
             [Values(Integrator.ImplicitEuler, Integrator.Esdirk3)] Integrator integrator,
             [Values(0.3, 1.13, 2.9)] double perStep)
         {
-            CoaxialStep run = Turning(perStep, integrator, out _, out RodState state);
+            DirectStep run = Turning(perStep, integrator, out _, out RodState state);
             double start = run.Dynamics.Energy;
             double peak = start;
             double most = 0.0;
@@ -201,7 +201,7 @@ namespace Guidewire.Core.Tests
         private static double Bend => SoftModulus * 0.25 * Math.PI * Math.Pow(Radius, 4.0);
 
         // Elastic energy, with the hub a little on or turned and every coordinate held.
-        private static double EnergyAt(CoaxialStep run, double on, double turn)
+        private static double EnergyAt(DirectStep run, double on, double turn)
         {
             double ahead = run.Hub()!.Turn - run.Dynamics.ProximalTurn;
             RodTerms terms = run.Dynamics.Terms;
@@ -210,7 +210,7 @@ namespace Guidewire.Core.Tests
             spring.Position = place + on * spring.Axis;
             SheathEnergy sheath = Array.Find(terms.All, term => term is SheathEnergy) as SheathEnergy
                 ?? throw new InvalidOperationException("no sheath");
-            double exit = run.Rod.Joints.Sheathed;
+            double exit = run.Dynamics.Terms.Supports.Coaxial!.Joints.Sheathed;
             sheath.SetExit(exit - on);
             terms.Bending.TurnProximal(ahead + turn);
             double energy = terms.Potential(run.Dynamics.Shape);
@@ -262,7 +262,7 @@ namespace Guidewire.Core.Tests
         }
 
         // A tip of uneven bend that is fed while the hub turns, in steps in which it swings.
-        private static CoaxialStep Turning(double perStep, Integrator integrator, out SimulationParameters parameters,
+        private static DirectStep Turning(double perStep, Integrator integrator, out SimulationParameters parameters,
             out RodState state)
         {
             parameters = Bent(23, -333.0, 0.3e-3);
@@ -283,7 +283,7 @@ namespace Guidewire.Core.Tests
             parameters.Drive.RotationSpeed = 5.0;
             MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
             state = start.State;
-            return (CoaxialStep)start.Stepper;
+            return (DirectStep)start.Stepper;
         }
 
         // 120 mm of wire whose tip is soft and bent, this much (m) of the tip out of a sheath in a wide tube.

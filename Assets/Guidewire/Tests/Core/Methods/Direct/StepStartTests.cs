@@ -184,10 +184,6 @@ namespace Guidewire.Core.Tests
 
         private static (Action<Snapshot> Exchange, Action Take) StepOf(MethodStart start)
         {
-            if (start.Stepper is CoaxialStep coaxial)
-            {
-                return (coaxial.SerializeStep, () => coaxial.Step());
-            }
             var step = (DirectStep)start.Stepper;
             return (step.SerializeStep, () => step.Step());
         }

@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
         [Test]
         public void HubForcesAndTorques_AreTheDifferencesOfTheEnergy([Values(2, 3)] int instruments)
         {
-            CoaxialStep run = Swinging(instruments, 0.31, out _, out RodState state);
+            DirectStep run = Swinging(instruments, 0.31, out _, out RodState state);
             var forces = new LargestError();
             var torques = new LargestError();
             for (int step = 0; step < 60; step++)
@@ -45,7 +45,7 @@ namespace Guidewire.Core.Tests
             // the scheme's own, 1/2 |dv|^2_M + E(z0) - E(z1) - E'(z1)(z0 - z1), each by its own formula. The
             // spin of what is inside is a part of v and T, and has the drag of the lumen around it. A hub that slips
             // does work over what it went: over what it was asked it would be F times the slip more.
-            CoaxialStep run = Swinging(instruments, perStep, out SimulationParameters parameters,
+            DirectStep run = Swinging(instruments, perStep, out SimulationParameters parameters,
                 out RodState state, limit);
             double h = parameters.Method.TimeStep;
             double worst = 0.0;
@@ -93,7 +93,7 @@ namespace Guidewire.Core.Tests
                 }
                 double slope = EnergySlopes.Along(motion, before) - OnHubsByEnergy(now, old)
                     - (limit > 0.0 ? OnSupport(now, old) : 0.0);
-                double scheme = mass.KineticEnergy(v, w) + InnerSpin.KineticEnergy(run.Rod, w, rates) + energy
+                double scheme = mass.KineticEnergy(v, w) + InnerSpin.KineticEnergy(RodOf(run), w, rates) + energy
                     - energyNow - slope;
                 double left = onHubs - (energyNow - energy) - (kineticNow - kinetic) - drag - scheme;
                 worst = Math.Max(worst, Math.Abs(left));
@@ -123,7 +123,7 @@ namespace Guidewire.Core.Tests
 
         private static void AssertNothingIsGained(int instruments, double perStep)
         {
-            CoaxialStep run = Swinging(instruments, perStep, out _, out RodState state);
+            DirectStep run = Swinging(instruments, perStep, out _, out RodState state);
             double start = EnergyAt(run, 1, 0.0, 0.0) + run.Dynamics.KineticEnergy;
             double work = 0.0;
             double gained = 0.0;
@@ -161,7 +161,7 @@ namespace Guidewire.Core.Tests
         }
 
         // All energy with an inner hub this much on, m, and turned on, radians.
-        private static double EnergyAt(CoaxialStep run, int instrument, double on, double turn)
+        private static double EnergyAt(DirectStep run, int instrument, double on, double turn)
         {
             var bending = (CoaxialBendTwist)run.Dynamics.Terms.Bending;
             var leads = new double[bending.Joints.Count];
@@ -172,29 +172,29 @@ namespace Guidewire.Core.Tests
             double twist = bending.HubTwist[instrument];
             double lead = leads[instrument];
             leads[instrument] = lead - on;
-            run.Rod.SetHubs(leads, 0.0);
+            RodOf(run).SetHubs(leads, 0.0);
             bending.HubTwist[instrument] = twist + turn;
             RodTerms terms = run.Dynamics.Terms;
             double energy = EnergySlopes.OfInstruments(terms, run.Dynamics.Shape)
                 + (terms.Walls()?.Spring.Value(run.Dynamics.Shape) ?? 0.0);
             leads[instrument] = lead;
-            run.Rod.SetHubs(leads, 0.0);
+            RodOf(run).SetHubs(leads, 0.0);
             terms.CoaxialLoads!.Place(terms.Loads.Force);
             bending.HubTwist[instrument] = twist;
             return energy;
         }
 
         // N m rad/s, of the fluid between each two.
-        private static double DragPower(CoaxialStep run)
+        private static double DragPower(DirectStep run)
         {
-            CoaxialJoints joints = run.Rod.Joints;
+            CoaxialJoints joints = RodOf(run).Joints;
             double[] rate = run.Dynamics.TwistRates;
-            double[] drag = run.Rod.LumenDrag;
+            double[] drag = RodOf(run).LumenDrag;
             int n = rate.Length / joints.InnerCount;
             double power = 0.0;
             for (int j = 0; j < drag.Length; j++)
             {
-                bool isInCatheterInside = j >= n && run.Rod.AroundOf(2, j - n) == 1 && joints.CarrierOf(j - n) == 0;
+                bool isInCatheterInside = j >= n && RodOf(run).AroundOf(2, j - n) == 1 && joints.CarrierOf(j - n) == 0;
                 double between = isInCatheterInside ? rate[j] - rate[j - n] : rate[j];
                 power += drag[j] * between * between;
             }
@@ -202,7 +202,7 @@ namespace Guidewire.Core.Tests
         }
 
         // The outermost one first.
-        private static Hub[] Hubs(CoaxialStep run)
+        private static Hub[] Hubs(DirectStep run)
         {
             var hubs = new List<Hub>();
             for (CoaxialRecord? record = run.Coaxial(); record != null; record = record.Inside)
@@ -217,7 +217,7 @@ namespace Guidewire.Core.Tests
         }
 
         // Of the wire's hub, m.
-        private static double Asked(CoaxialStep run)
+        private static double Asked(DirectStep run)
         {
             return run.Coaxial()!.WireCommandedDisplacement;
         }
@@ -267,8 +267,13 @@ namespace Guidewire.Core.Tests
             return CoaxialScenes.CycleWork(parameters, perStep, out peak);
         }
 
+        private static CoaxialRod RodOf(DirectStep run)
+        {
+            return run.Dynamics.Terms.Supports.Coaxial!;
+        }
+
         // All hubs move and turn in steps in which the instruments swing.
-        private static CoaxialStep Swinging(int instruments, double perStep, out SimulationParameters parameters,
+        private static DirectStep Swinging(int instruments, double perStep, out SimulationParameters parameters,
             out RodState state, double limit = 0.0)
         {
             parameters = instruments == 2 ? CoaxialScenes.Pair(Integrator.ImplicitEuler)
@@ -294,7 +299,7 @@ namespace Guidewire.Core.Tests
             }
             MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
             state = start.State;
-            return (CoaxialStep)start.Stepper;
+            return (DirectStep)start.Stepper;
         }
 
         private struct Hub

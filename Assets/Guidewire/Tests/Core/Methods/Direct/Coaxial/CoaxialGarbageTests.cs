@@ -74,7 +74,7 @@ namespace Guidewire.Core.Tests
             // Twice the same steps: what the runtime leaves as it compiles comes once.
             MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
             MethodStart other = MethodBuilder.Build(parameters, new Scene(parameters));
-            var run = (CoaxialStep)start.Stepper;
+            var run = (DirectStep)start.Stepper;
             var left = new List<string>();
             int built = 0;
             long most = 0;

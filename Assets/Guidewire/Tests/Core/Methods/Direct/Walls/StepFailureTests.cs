@@ -6,7 +6,7 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What is said of a wire between walls whose step has no solution.</summary>
-    internal sealed class JamReportTests
+    internal sealed class StepFailureTests
     {
         /// <summary>A hub that goes on where the walls block it: its force and the contact that bears most of it,
         /// on the wire and in the vessel, are named, and what lets it give way.</summary>

@@ -1,0 +1,217 @@
+using System;
+using System.Collections.Generic;
+
+namespace Guidewire.Core
+{
+    /// <summary>A wire in one or two catheters, with a sheath around them or without.</summary>
+    internal sealed class WireInCatheters : CoaxialInstruments
+    {
+        private readonly SolverReport _report;
+        private readonly CatheterRecords _records;
+        private readonly InnerInstrument[] _inner;     // the wire last
+        private readonly double[] _insertions;         // before a step, m
+        private readonly HubRecord _hub;
+        private readonly WireStress _stress;
+
+        /// <summary>At their start.</summary>
+        /// <param name="failure">Why there is no rest shape to start from, or null.</param>
+        public WireInCatheters(SimulationParameters parameters, SolverReport report, CoaxialSetup setup,
+            MaterialDrive[] drives, out string? failure)
+            : base(parameters, report, setup, drives, out failure)
+        {
+            _report = report;
+            _records = new CatheterRecords(setup, drives);
+            _inner = new InnerInstrument[drives.Length - 1];
+            for (int i = 0; i < _inner.Length; i++)
+            {
+                _inner[i] = i == _inner.Length - 1 ? Wire : new InnerInstrument(setup, Hubs, i + 1);
+            }
+            _insertions = new double[drives.Length];
+            _hub = new HubRecord(setup.Wire.Rod, setup.Wire.Supports);
+            _stress = new WireStress(setup, Wire);
+        }
+
+        /// <inheritdoc/>
+        public override void BeginStep()
+        {
+            RodDynamics dynamics = Rod.Dynamics;
+            Chain.TakeLoads();
+            Setup.LimitDrives(Drives, Hubs, dynamics.Time);
+            for (int i = 0; i < Drives.Length; i++)
+            {
+                _insertions[i] = Drives[i].Insertion;
+                Drives[i].Prepare(dynamics.Shape, dynamics.Time);
+            }
+            _records.BeginStep(_insertions);
+        }
+
+        /// <inheritdoc/>
+        public override void Take()
+        {
+            base.Take();
+            if (_records.HasFriction)
+            {
+                Coaxial();
+                Setup.TakeStrains(_records.All, _report);
+            }
+        }
+
+        /// <inheritdoc/>
+        public override double ForceOf(int hub)
+        {
+            return Coaxial()!.ForceOf(hub);
+        }
+
+        /// <inheritdoc/>
+        public override HubRecord? Hub()
+        {
+            CoaxialRecord record = Coaxial()!;
+            Quaterniond[] q = Wire.Shape.Q;
+            _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
+                record.WireTwist, record.LargestCurvature);
+            if (Setup.Sheath != null)
+            {
+                CoaxialJoints joints = Chain.Rod.Joints;
+                Wire.WriteBody(_hub, Setup.Sheath, joints.LeadOf(Drives.Length - 1) + joints.Sheathed);
+            }
+            return _hub;
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord Stress()
+        {
+            double force = Coaxial()!.WireForce;
+            RodDynamics dynamics = Rod.Dynamics;
+            RodTerms terms = dynamics.Terms;
+            var energies = new Vector3d(dynamics.KineticEnergy,
+                terms.ElasticEnergy(dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
+                terms.LoadPotential(dynamics.Shape));
+            return _stress.Take(dynamics, Chain.Rod.Joints, energies, force);
+        }
+
+        /// <inheritdoc/>
+        public override CoaxialRecord? Coaxial()
+        {
+            Chain.TakeTime();
+            return _records.Take(Rod.Dynamics, Chain.Rod.Joints, _inner);
+        }
+
+        /// <inheritdoc/>
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            int last = Slips.Length - 1;
+            for (int k = last; k >= 0; k--)
+            {
+                string name = k == last ? "the wire's hub" : last == 1 ? "the catheter's hub"
+                    : k == 0 ? "the outer catheter's hub" : "the inner catheter's hub";
+                string stops = k == last
+                    ? "it met the catheter's hub, or the wire's tip came to the first element of the catheter"
+                    : last == 1 ? "it met the wire's hub, or its first element came to the wire's tip"
+                    : "it met the next hub, or its first element came to a tip inside";
+                stops += k < last && Setup.Sheath != null ? ", or its hub to the exit of the sheath" : "";
+                if (Drives[k].FallsShort)
+                {
+                    warnings.Add(WarningTable.HubShortfall.With(name, Drives[k].Slip,
+                        (Slips[k].IsLimited ? "it slipped at its hubForceLimit, or " : "") + stops));
+                }
+                if (Slips[k].FindExcess(name) is RunWarning excess)
+                {
+                    warnings.Add(excess);
+                }
+            }
+        }
+
+        /// <summary>Why an instrument cannot be exchanged where it is, in one phrase, or null.</summary>
+        /// <param name="instrument">0 the outermost one.</param>
+        public string? FindInVessel(int instrument)
+        {
+            return CoaxialExchange.FindInVessel(Setup, Hubs, instrument, Rod.Dynamics.Time);
+        }
+
+        /// <summary>Goes on from where other instruments were: hubs with the insertion that they had, the rest where it
+        /// was.</summary>
+        /// <param name="isOther">Which instruments were others, the outermost one first.</param>
+        /// <exception cref="ArgumentException">One of them is in the vessel, or one does not fit the others.
+        /// </exception>
+        public void GoOnFrom(WireInCatheters former, bool[] isOther)
+        {
+            double time = former.Rod.Dynamics.Time;
+            Vector3d[] starts = Array.ConvertAll(Drives, drive => drive.Hub.PositionAt(0.0));
+            var kept = new Snapshot();
+            former.SerializeHubs(kept, time);
+            SerializeHubs(kept.ToRead(), time);
+            double shift = 0.0;
+            string? problem = null;
+            for (int i = 0; i < isOther.Length; i++)
+            {
+                if (isOther[i])
+                {
+                    Vector3d place = starts[i] + Drives[i].Insertion * Setup.Axis;
+                    double move = Vector3d.Dot(place - Drives[i].Hub.PositionAt(time), Setup.Axis);
+                    Drives[i].Hub.Shift(move * Setup.Axis);
+                    shift -= i == 0 ? move : 0.0;
+                    problem ??= former.FindInVessel(i);
+                }
+            }
+            for (int i = 0; i < isOther.Length; i++)
+            {
+                problem ??= isOther[i] ? CoaxialExchange.FindInVessel(Setup, Hubs, i, time) : null;
+            }
+            problem ??= CoaxialExchange.FindMisfit(Setup, Hubs, time);
+            if (problem != null)
+            {
+                throw new ArgumentException(problem);
+            }
+            Chain.GoOnFrom(former.Chain, isOther, shift);
+            TakeShapes();
+        }
+
+        // How far they have come, and what the run has counted.
+        private void SerializeHubs(Snapshot snapshot, double time)
+        {
+            foreach (MaterialDrive drive in Drives)
+            {
+                drive.Hub.Serialize(snapshot, time);
+                drive.Serialize(snapshot);
+            }
+            foreach (HubSlip slip in Slips)
+            {
+                slip.Serialize(snapshot);
+            }
+            _records.Serialize(snapshot);
+            _report.Serialize(snapshot);
+        }
+
+        /// <inheritdoc/>
+        protected override void TakeMoment()
+        {
+            RodShape shape = Rod.Dynamics.Shape;
+            Rod.Dynamics.Terms.CoaxialBending!.SetIdleTwists(shape);
+            _records.TakePlay(Chain.Rod.Joints, shape);
+            base.TakeMoment();
+        }
+
+        /// <inheritdoc/>
+        protected override void TakeShapes()
+        {
+            base.TakeShapes();
+            for (int i = 0; i < _records.All.Length; i++)
+            {
+                if (i < _inner.Length - 1)
+                {
+                    _inner[i].Take(Rod.Dynamics, Chain.Rod.Joints);
+                }
+                if (Contacts != null)
+                {
+                    TakeForces(i, _records.All[i].ContactForces);
+                }
+            }
+        }
+
+        /// <inheritdoc/>
+        protected override void SerializeRecords(Snapshot snapshot)
+        {
+            _records.Serialize(snapshot);
+        }
+    }
+}

@@ -1,0 +1,420 @@
+using System;
+using System.Collections.Generic;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>A rod that the direct solver moves, with the monitors of its steps and what is read off it. One of
+    /// several instruments, or in a sheath, is built anew where nodes come or go.</summary>
+    internal sealed class MonitoredRod
+    {
+        private const int MaxSlips = 60;
+        private const double MaxSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
+
+        private readonly RodDynamics _dynamics;
+        private HubRecord? _hub;
+        private readonly SpinLoss? _spinLoss;  // of a wire that nothing holds
+        private long _startFactorisations;  // of the rest shape
+        private readonly MaterialScene _scene;
+        private readonly SolverReport _results;
+        private readonly double _timeStep;  // s
+        private readonly HeldEnds _ends;
+        private readonly EnergyMonitor _energy;
+        private readonly RestMonitor _rest;
+        private StressRecord? _stress;
+        private readonly WallMonitor? _monitor;
+        private readonly ElementContactForces? _elementForces;
+        private readonly StepFailure _texts;
+        private readonly RunExtremes _extremes;
+        private double _hubWork;            // J
+        private readonly Joint[] _joints;
+        private readonly double[] _jointLengths;
+
+        /// <summary>The rod of a scene.</summary>
+        /// <param name="dynamics">Its motion, at its start.</param>
+        /// <param name="record">Takes the support's force after each step, or null.</param>
+        public MonitoredRod(MaterialScene scene, RodDynamics dynamics, MethodParameters method,
+            SolverReport report, ContactRecord? record)
+        {
+            _dynamics = dynamics;
+            _scene = scene;
+            _results = report;
+            _timeStep = method.TimeStep;
+            _ends = new HeldEnds(Terms, scene.Schedule);
+            _energy = new EnergyMonitor(Terms, new FreeInertia(Terms.Mass, scene.Supports), scene.Shape,
+                dynamics.Velocities, dynamics.Spins, _ends);
+            _rest = new RestMonitor(scene, Terms, dynamics.Velocities, dynamics.Spins, method);
+            _startFactorisations = report.Factorisations;
+            Contacts = record;
+            dynamics.Reactions.AreKept = record != null;
+            _texts = new StepFailure(scene, dynamics);
+            WallTerms? walls = dynamics.Terms.Walls();
+            if (walls != null)
+            {
+                walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
+                _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
+                dynamics.IntervalDone = EndInterval;
+                _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
+                if (record != null)
+                {
+                    record.WallForces = walls.Barrier.Resultants;
+                    record.SetElements(scene.Rod.ElementCount, scene.Walls);
+                }
+            }
+            report.Extremes ??= new RunExtremes();
+            _extremes = report.Extremes;
+            _joints = scene.Rod.Joints(scene.Supports);
+            _jointLengths = scene.Rod.JointLengths(scene.Supports);
+            _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape);
+            FollowEnds();
+            _energy.Start();  // the hub's spring is in place only now
+            if (scene.Supports.Proximal == ProximalEnd.Free && scene.Supports.Distal == DistalEnd.Free)
+            {
+                _spinLoss = new SpinLoss(method.Integrator);
+            }
+        }
+
+        /// <summary>The motion.</summary>
+        public RodDynamics Dynamics => _dynamics;
+
+        /// <summary>What moves it.</summary>
+        public MaterialDrive Drive => _scene.Drive;
+
+        /// <summary>What is prescribed of it.</summary>
+        public RodSchedule Schedule => _scene.Schedule;
+
+        /// <summary>The forces that act on it from outside; null where nobody asked for them.</summary>
+        public ContactRecord? Contacts { get; }
+
+        /// <summary>Why the last step has no solution, in one line, or null.</summary>
+        public string? Failure { get; private set; }
+
+        /// <summary>How the last step lost the wire, in one line, or null.</summary>
+        public string? Divergence { get; private set; }
+
+        /// <summary>Why it is in a steady state, in one line, or null.</summary>
+        public string? SteadyState { get; private set; }
+
+        /// <summary>Distance of the last node from where it would be without forces, units.</summary>
+        public double PredictionError { get; private set; }
+
+        /// <summary>A step, or a part of one, whose drives have been prepared.</summary>
+        /// <param name="length">s.</param>
+        /// <param name="insertion">Of the drive when the step began, m.</param>
+        /// <param name="turn">The same, radians.</param>
+        /// <returns>False where it has no solution or has lost the wire.</returns>
+        public bool Step(double length, double insertion, double turn)
+        {
+            int last = Shape.ElementCount;
+            SupportSpring? spring = Terms.Walls()?.Spring;
+            if (spring != null && Drive.Axis != Vector3d.Zero)
+            {
+                spring.Axis = Drive.Axis;
+            }
+            double exit = _scene.Supports.Winds ? _scene.Supports.Coaxial!.Joints.Sheathed : 0.0;
+            _hubWork += 0.5 * SheathWork(exit);
+            Vector3d free = Shape.X[last] + length * Velocities[last]
+                + (length * length) * Schedule.Loads.Gravity;
+            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(Shape);
+            double dissipated = Dissipated;
+            long innerSteps = _dynamics.Control.Steps;
+            _monitor?.BeginStep(Shape);
+            string? failure = _dynamics.Step(length);
+            if (failure != null)
+            {
+                double end = Time;
+                if (_monitor != null)
+                {
+                    _dynamics.GoBack();    // what Newton's method left is no shape of the wire
+                }
+                Failure = _texts.NoSolution(failure, end);
+                return false;
+            }
+            _ends.Count(Shape, HubTurn, _dynamics.DistalTurn, length);
+            Failure ??= _monitor?.FindTouchFromBeside(Time);
+            if (Failure != null || HasBlownUp())
+            {
+                return false;
+            }
+            Failure = _scene.Joints.FindLost(Shape, Time);
+            SteadyState = _rest.FindRest(Time);
+            PredictionError = Vector3d.Distance(free, Shape.X[last]) / _scene.Metres;
+            Failure = Failure == null ? null : Failure + _texts.Advice;
+            if (Contacts != null)
+            {
+                StageForces mean = _dynamics.Reactions.Mean;
+                Contacts.Reaction = mean.Proximal;
+                Contacts.ReactionAtEnd = _dynamics.Reactions.End.Proximal;
+                Contacts.MeanTotal = mean.Walls;
+                _hubWork += Vector3d.Dot(mean.Proximal, Terms.HubAxis(Shape))
+                    * (Drive.Insertion - insertion) + mean.HubTorque * (Drive.Turn - turn) + 0.5 * SheathWork(exit);
+                _monitor?.EndStep(Shape, Contacts);
+                if (spring != null && Terms.Walls()!.HoldsStart)
+                {
+                    SlipHub(spring);
+                    CountDrive(length / _timeStep * Drive.CommandedDisplacement, held, spring.HeldPosition(Shape));
+                    Failure ??= _texts.FindOverdriven(Contacts) ?? _texts.FindDrivenOut();
+                }
+            }
+            TakeExtremes(length, dissipated, innerSteps);
+            return true;
+        }
+
+        private bool HasBlownUp()
+        {
+            string? divergence = _energy.Blowup();
+            Divergence = divergence == null ? null : divergence + "; lower timeStep, or take another integrator";
+            return Divergence != null;
+        }
+
+        private void EndInterval()
+        {
+            _monitor!.AddPart(Shape);
+            Terms.Walls()!.Barrier.Nodes.HasBuckled = false;
+        }
+
+        // The force that drives the wire out of a sheath depends on the hub's position, steeply where the exit passes a
+        // node: so the hub slips until its force is within the limit, by half as much once it has slipped too far.
+        private void SlipHub(SupportSpring spring)
+        {
+            if (!spring.HasLimit)
+            {
+                return;
+            }
+            Terms.SetTime(Schedule, Time);
+            double asked = Drive.Insertion;
+            double slip = 0.0;
+            bool isTooFar = false;
+            for (int left = Terms.Release == null ? 1 : MaxSlips; left > 0; left--)
+            {
+                spring.ReleaseForce = Terms.SheathForce(Shape);
+                double needed = spring.SlipOf(Shape);
+                if (needed == 0.0)
+                {
+                    break;
+                }
+                isTooFar |= needed * slip < 0.0;
+                slip = isTooFar ? Math.Sign(needed) * Math.Abs(0.5 * slip) : needed;
+                spring.Position -= slip * spring.Axis;
+                Drive.SlipHub(slip);
+                Terms.SetTime(Schedule, Time);
+            }
+            if (Drive.Insertion != asked)
+            {
+                _hubWork += Terms.HubForce(Shape) * (Drive.Insertion - asked);
+            }
+        }
+
+        // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
+        private double SheathWork(double exit)
+        {
+            return !_scene.Supports.Winds ? 0.0
+                : Terms.Release!.SheathWork(Shape, exit, _scene.Supports.Coaxial!.Hubs!.SheathedAt(Drive.StepEnd));
+        }
+
+        private RodTerms Terms => _dynamics.Terms;
+
+        private RodShape Shape => _dynamics.Shape;
+
+        private Vector3d[] Velocities => _dynamics.Velocities;
+
+        private Vector3d[] Spins => _dynamics.Spins;
+
+        private double Time => _dynamics.Time;
+
+        private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
+
+        // Since friction had turned so much into heat, J, and so many inner steps were done.
+        private void TakeExtremes(double length, double dissipated, long innerSteps)
+        {
+            _spinLoss?.Take(Terms.Rod, Shape, Spins, length,
+                Math.Max(1, _dynamics.Control.Steps - innerSteps));
+            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
+            if (_elementForces == null)
+            {
+                return;
+            }
+            _elementForces.Take(Shape, Contacts!, _extremes, Time);
+            if (Terms.Walls()!.HoldsStart)
+            {
+                _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time);
+            }
+            if (Terms.Walls()!.Barrier.Lag != null)
+            {
+                _extremes.WallWork = 0.0 - Terms.Walls()!.Barrier.Lag!.Dissipated;
+            }
+            if (Terms.Walls()!.Friction != null)
+            {
+                _extremes.TakeFriction(Dissipated - dissipated, length);
+            }
+        }
+
+        // A frame in a sheath is held where the wire is; a spring beyond it turns with the hub.
+        private double HubTurn => _dynamics.ProximalTurn + Schedule.Hub.AheadAt(Time);
+
+        /// <summary>What is read off at the hub and the tip; null without a hub.</summary>
+        public HubRecord? Hub()
+        {
+            if (Terms.Supports.Proximal == ProximalEnd.Free)
+            {
+                return null;
+            }
+            _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
+            // A hub that may slip has the force of where it has slipped to, not that of the step.
+            Vector3d force = Terms.Walls()?.Spring.HasLimit == true ? Terms.Walls()!.SupportForce(Shape)
+                : _dynamics.ReactionAt(0);
+            _hub.Take(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
+                Schedule.Hub.AheadAt(Time));
+            _hub.Work = _monitor == null ? double.NaN : _hubWork;
+            return _hub;
+        }
+
+        /// <summary>A hub that slips moves less than asked; a free wire that spins fast loses angular
+        /// momentum.</summary>
+        public void AddWarnings(List<RunWarning> warnings)
+        {
+            if (Drive.FallsShort)
+            {
+                warnings.Add(WarningTable.HubShortfall.With("the hub", Drive.Slip,
+                    "it slipped at hubForceLimit, or the wire reached an end of its sheath"));
+            }
+            if (_dynamics.Newton.BalanceRounding.OfSupports > 0.0)
+            {
+                warnings.Add(WarningTable.Rounding.With(_dynamics.Newton.BalanceRounding.OfSupports));
+            }
+            if (_spinLoss != null && _spinLoss.Expected > MaxSpinLoss)
+            {
+                warnings.Add(WarningTable.SpinLost.With(_spinLoss.LargestTurn, 100.0 * _spinLoss.Expected));
+            }
+        }
+
+        /// <summary>Strains, forces, couples and energies as it is.</summary>
+        public StressRecord Stress()
+        {
+            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            Terms.SetTime(Schedule, Time);
+            _stress.Take(Terms, Shape, Terms.Mass.KineticEnergy(Velocities, Spins));
+            return _stress;
+        }
+
+        /// <summary>The solver's report on its own work.</summary>
+        public SolverReport Report()
+        {
+            _results.Factorisations = _startFactorisations + _dynamics.Newton.Factorisations;
+            _results.KeptSolutions = _dynamics.Newton.KeptSolutions;
+            _results.Searches = _dynamics.Newton.Searches;
+            if (_dynamics.HasErrorEstimate)
+            {
+                _results.TimeStepError = _dynamics.Control.LargestError;
+                _results.StepsNotConverged = _dynamics.Control.StepsAbove;
+            }
+            if (_monitor != null)
+            {
+                Barrier barrier = Terms.Walls()!.Barrier.Barrier;
+                _results.WallIterations = _dynamics.Newton.Iterations;
+                _results.ContactDistance = barrier.Distance;
+                _results.ContactStiffness = barrier.Stiffness;
+            }
+            _results.HalvedSteps = _dynamics.Clock.Halvings;
+            _results.InnerSteps = _dynamics.Control.Steps;
+            _results.Energy = _dynamics.Energy;
+            _results.ProximalForce = _dynamics.ReactionAt(0);
+            _results.DistalForce = _scene.Supports.Distal != DistalEnd.Free ? _dynamics.ReactionAt(Shape.ElementCount)
+                : Vector3d.Zero;
+            _results.ProximalMoment = _dynamics.Reactions.ProximalCouple;
+            _results.DistalMoment = _dynamics.Reactions.DistalCouple;
+            return _results;
+        }
+
+        /// <summary>Writes it as it is into a state.</summary>
+        public void Write(RodState state)
+        {
+            _scene.Write(state, Shape, Velocities, Spins);
+        }
+
+        /// <summary>Writes or restores all that the next step depends on.</summary>
+        public void Serialize(Snapshot snapshot)
+        {
+            _dynamics.Serialize(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                FollowEnds();
+            }
+            if (!snapshot.Section(SectionKey, SerializeOwn))
+            {
+                _energy.Start();
+            }
+        }
+
+        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// </summary>
+        public void SerializeStep(Snapshot snapshot)
+        {
+            Drive.SerializeStep(snapshot);
+            _dynamics.SerializeStep(snapshot);
+            _ends.SerializeStep(snapshot);
+            _energy.SerializeStep(snapshot);
+            _rest.Serialize(snapshot);
+            _extremes.Serialize(snapshot);
+            _extremes.SerializeDisplacements(snapshot);
+            _spinLoss?.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            snapshot.Serialize(ref _hubWork);
+            Contacts?.Serialize(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                (Failure, Divergence) = (null, null);
+            }
+        }
+
+        /// <summary>Writes or restores what was counted, whatever the number of elements.</summary>
+        public void SerializeCounts(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _startFactorisations);
+            snapshot.Serialize(ref _hubWork);
+            _dynamics.Clock.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            _ends.SerializeWork(snapshot);
+            _dynamics.SerializeCounts(snapshot);
+        }
+
+        // Between walls more is kept than without.
+        private string SectionKey
+        {
+            get
+            {
+                WallTerms? walls = Terms.Walls();
+                return walls == null ? "direct" : walls.HoldsStart ? "direct, walls" : "direct, walls, free";
+            }
+        }
+
+        private void SerializeOwn(Snapshot snapshot)
+        {
+            snapshot.Serialize(ref _startFactorisations);
+            snapshot.Serialize(ref _hubWork);
+            _results.Serialize(snapshot);
+            snapshot.OptionalSection("spin", _spinLoss == null ? (Action<Snapshot>?)null : _spinLoss.Serialize);
+            _energy.Serialize(snapshot);
+            Drive.Serialize(snapshot);
+            _dynamics.Clock.Serialize(snapshot);
+            _dynamics.Work.Serialize(snapshot);
+            _monitor?.Serialize(snapshot);
+            (_monitor == null ? null : Contacts)?.Serialize(snapshot);
+            _ends.SerializeWork(snapshot);
+            _rest.Serialize(snapshot);
+            _dynamics.SerializeHistory(snapshot, _timeStep);
+        }
+
+        // What the drive asked in the last step, m, and what of it was not gone.
+        private void CountDrive(double asked, in Vector3d before, in Vector3d after)
+        {
+            Contacts!.DriveAsked += asked / _scene.Metres;
+            Contacts.DriveShortfall += (asked - Drive.AxialProgress(before, after)) / _scene.Metres;
+        }
+
+        private void FollowEnds()
+        {
+            _ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);
+        }
+    }
+}

@@ -1,0 +1,134 @@
+using System;
+using System.Globalization;
+
+namespace Guidewire.Core
+{
+    /// <summary>Says in one line why a step of the direct solver has no solution, or leaves a hub where it cannot be,
+    /// and what may help. Between walls it names the force of the hub and the largest contact force.</summary>
+    /// <remarks>A hub that does not slip jams a wire when its thrust exceeds the buckling load of a clamped length of
+    /// 90 diameters, 4 pi^2 EI/(180 r)^2: under a larger thrust it bends until walls hold it on both sides at every
+    /// such length, and its shape is one of many. Then a hub with a limit ends the jam; below that thrust a shorter
+    /// step may follow the wire.</remarks>
+    internal sealed class StepFailure
+    {
+        // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
+        private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may help";
+        private const string Limit = "; a hubForceLimit lets the hub slip";
+        private const string FewIterations = "; maxNewtonIterations is below its default, which may suffice";
+
+        private const double OfElement = 0.01;     // by which a hub may be past its end
+        private const double FreeLength = 180.0;   // radii
+        private const double ClampedEuler = 4.0 * Math.PI * Math.PI;
+
+        private readonly MaterialScene _scene;
+        private readonly RodDynamics _dynamics;
+        private readonly WallTerms? _walls;
+        private readonly double _thrust;      // that no wire bears without a jam, N
+
+        /// <summary>Of the motion of a scene's rod.</summary>
+        public StepFailure(MaterialScene scene, RodDynamics dynamics)
+        {
+            _scene = scene;
+            _dynamics = dynamics;
+            _walls = dynamics.Terms.Walls();
+            MaterialRod rod = scene.Rod;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                double free = FreeLength * rod.Radius[j];
+                double bend = Math.Max(rod.BendStiffness1[j], rod.BendStiffness2[j]);
+                _thrust = Math.Max(_thrust, ClampedEuler * bend / (free * free));
+            }
+        }
+
+        /// <summary>What may help.</summary>
+        public string Advice
+        {
+            get
+            {
+                if (_dynamics.MaxIterations < new MethodParameters().MaxNewtonIterations)
+                {
+                    return FewIterations;
+                }
+                string? advice = _walls?.Advice;
+                if (advice != null || _walls == null || !(Math.Abs(HubForce) > _thrust))
+                {
+                    return advice == null ? Shorter : "; " + advice;
+                }
+                return _walls.Spring.HasLimit ? "" : Limit;
+            }
+        }
+
+        /// <summary>That a step has no solution; between walls the wire is where it was last.</summary>
+        /// <param name="failure">Why.</param>
+        /// <param name="end">Of the step, s.</param>
+        public string NoSolution(string failure, double end)
+        {
+            string why = _walls != null && _walls.Barrier.Nodes.HasBuckled
+                ? "the wire buckles at the exit of its sheath and would come out through a wall" : failure;
+            return "the step to t = " + end.ToString("G6", CultureInfo.InvariantCulture) + " s has no solution: "
+                + (_scene.Joints.FindTurned(_dynamics.Shape, _dynamics.Time) ?? why)
+                + (_walls == null ? "" : "; " + Forces(_walls)) + Advice;
+        }
+
+        /// <summary>That the drive asks what walls do not allow, or null.</summary>
+        /// <remarks>A hub that misses its position by a tenth of an element pulls at node 0 with EA, the force under
+        /// which a wire would have no length left.</remarks>
+        public string? FindOverdriven(ContactRecord contacts)
+        {
+            if (_walls == null || !_walls.HoldsStart || !(contacts.DriveAsked > 0.0))
+            {
+                return null;
+            }
+            double force = _walls.SupportForce(_dynamics.Shape).Length;
+            double most = _scene.Rod.StretchStiffness[0];
+            return force <= most ? null : string.Format(CultureInfo.InvariantCulture,
+                "the walls keep sphere 0 from the position of the drive at t = {0:G6} s, {1:G3} units away: the "
+                + "hub would need {2:G3} N, more than the EA of {5}, {3:G3} N; {4}; a smaller motion "
+                + "(displacementPerStep, insertionSpeed, maxSimulationSteps) may help, or a hubForceLimit",
+                _dynamics.Time, contacts.DriveShortfall, force, most, Forces(_walls),
+                _scene.Supports.InnerCount == 0 ? "the wire" : "all instruments at the hub together");
+        }
+
+        /// <summary>That the wire has drawn the hub past the end of its sheath, or null.</summary>
+        public string? FindDrivenOut()
+        {
+            return _scene.Drive.BeyondLimit <= OfElement * _scene.Rod.Length[0] ? null
+                : "the wire drives itself out of its sheath: hubForceLimit is too small to hold it";
+        }
+
+        // On the wire along the hub's axis, N.
+        private double HubForce => Vector3d.Dot(_walls!.SupportForce(_dynamics.Shape),
+            _dynamics.Terms.HubAxis(_dynamics.Shape));
+
+        // That, and the largest contact force with its position.
+        private string Forces(WallTerms walls)
+        {
+            RodShape shape = _dynamics.Shape;
+            StructList<WallContact> contacts = walls.Barrier.ContactsOf(shape);
+            string hub = walls.HoldsStart ? string.Format(CultureInfo.InvariantCulture,
+                "the hub {0} with {1:G3} N", HubForce < 0.0 ? "pulls" : "pushes", Math.Abs(HubForce))
+                : "no hub holds the wire";
+            if (contacts.Count == 0)
+            {
+                return hub + ", no wall touches";
+            }
+            int most = 0;
+            for (int k = 1; k < contacts.Count; k++)
+            {
+                most = contacts[k].Force > contacts[most].Force ? k : most;
+            }
+            WallContact contact = contacts[most];
+            int j = contact.Element;
+            double s = contact.Position;
+            Vector3d x = (1.0 / _scene.Metres) * Vector3d.Lerp(shape.X[j], shape.X[j + 1], s);
+            double fromTip = (1.0 - s) * _scene.Rod.Length[j];
+            for (int k = shape.ElementCount - 1; k > j; k--)
+            {
+                fromTip += _scene.Rod.Length[k];
+            }
+            return string.Format(CultureInfo.InvariantCulture, "{0}; the largest of {1} contact forces is {2:G3} N,"
+                + " {3:G4} units of wire before its tip, at ({4:G4}, {5:G4}, {6:G4})", hub, contacts.Count,
+                contact.Force, fromTip / _scene.Metres, x.X, x.Y, x.Z);
+        }
+    }
+}
