@@ -9,6 +9,9 @@ const unpack = async (name, type = "application/octet-stream") => {
   return new Response(answer.body.pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": type } });
 };
 
+/** Of the interpreter: what was run 500 times is compiled, not what was run 5000 times. */
+const OPTIONS = ["--jiterpreter-minimum-trace-hit-count=500"];
+
 /** What the last steps left. */
 let numbers = new Float64Array(0);
 
@@ -17,7 +20,7 @@ let numbers = new Float64Array(0);
 const start = async () => {
   const { dotnet } = await import(/** @type {any} */ (new URL("framework/dotnet.js", location.href).href));
   const [runtime, texts] = await Promise.all([
-    dotnet.withResourceLoader((/** @type {string} */ type, /** @type {string} */ name) =>
+    dotnet.withConfig({ runtimeOptions: OPTIONS }).withResourceLoader((/** @type {string} */ type, /** @type {string} */ name) =>
       (type === "dotnetjs" ? null : unpack(`framework/${name}`, type === "dotnetwasm" ? "application/wasm" : undefined)))
       .create(),
     unpack("texts.json").then((answer) => answer.json()),

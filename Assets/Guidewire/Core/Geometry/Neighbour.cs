@@ -53,6 +53,7 @@ namespace Guidewire.Core
 
         /// <summary>Lower bound of the distance between the wall and segment a b; minus infinity where no query was
         /// made.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly double Clearance(in Vector3d a, in Vector3d b)
         {
             return _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;

@@ -34,21 +34,41 @@ namespace Guidewire.Core
         public static Quaterniond Identity => new Quaterniond(0.0, 0.0, 0.0, 1.0);
 
         /// <summary>q* = (-x, -y, -z, w), the inverse of a unit quaternion.</summary>
-        public Quaterniond Conjugate => new Quaterniond(-X, -Y, -Z, W);
+        public Quaterniond Conjugate
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Quaterniond(-X, -Y, -Z, W);
+        }
 
         /// <summary>Gives |q|^2.</summary>
-        public double LengthSquared => X * X + Y * Y + Z * Z + W * W;
+        public double LengthSquared
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => X * X + Y * Y + Z * Z + W * W;
+        }
 
         /// <summary>(x, y, z), the imaginary part.</summary>
-        public Vector3d Imaginary => new Vector3d(X, Y, Z);
+        public Vector3d Imaginary
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Vector3d(X, Y, Z);
+        }
 
         /// <summary>First director d1 = q e1 q*, the body's x axis in the world; q must be of unit length.</summary>
-        public Vector3d Director1 => new Vector3d(
-            1.0 - 2.0 * (Y * Y + Z * Z), 2.0 * (X * Y + W * Z), 2.0 * (X * Z - W * Y));
+        public Vector3d Director1
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Vector3d(
+                1.0 - 2.0 * (Y * Y + Z * Z), 2.0 * (X * Y + W * Z), 2.0 * (X * Z - W * Y));
+        }
 
         /// <summary>Second director d2 = q e2 q*, the body's y axis in the world; q must be of unit length.</summary>
-        public Vector3d Director2 => new Vector3d(
-            2.0 * (X * Y - W * Z), 1.0 - 2.0 * (X * X + Z * Z), 2.0 * (Y * Z + W * X));
+        public Vector3d Director2
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Vector3d(
+                2.0 * (X * Y - W * Z), 1.0 - 2.0 * (X * X + Z * Z), 2.0 * (Y * Z + W * X));
+        }
 
         /// <summary>Third director d3 = q e3 q*, along the rod element; q must be of unit length.</summary>
         public Vector3d Director3

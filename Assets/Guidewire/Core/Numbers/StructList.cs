@@ -1,5 +1,6 @@
-using System;
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
+using System;
 
 namespace Guidewire.Core
 {
@@ -59,6 +60,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Puts an item at the end.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public void Add(in T item)
         {
             if (Count == _items.Length)

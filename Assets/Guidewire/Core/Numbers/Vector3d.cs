@@ -30,19 +30,39 @@ namespace Guidewire.Core
         public static Vector3d Zero => default;
 
         /// <summary>(1, 0, 0).</summary>
-        public static Vector3d UnitX => new Vector3d(1.0, 0.0, 0.0);
+        public static Vector3d UnitX
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Vector3d(1.0, 0.0, 0.0);
+        }
 
         /// <summary>(0, 1, 0).</summary>
-        public static Vector3d UnitY => new Vector3d(0.0, 1.0, 0.0);
+        public static Vector3d UnitY
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Vector3d(0.0, 1.0, 0.0);
+        }
 
         /// <summary>(0, 0, 1).</summary>
-        public static Vector3d UnitZ => new Vector3d(0.0, 0.0, 1.0);
+        public static Vector3d UnitZ
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => new Vector3d(0.0, 0.0, 1.0);
+        }
 
         /// <summary>Gives |v|^2.</summary>
-        public double LengthSquared => X * X + Y * Y + Z * Z;
+        public double LengthSquared
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => X * X + Y * Y + Z * Z;
+        }
 
         /// <summary>Gives the length |v|.</summary>
-        public double Length => Math.Sqrt(X * X + Y * Y + Z * Z);
+        public double Length
+        {
+            [MethodImpl(MethodImplOptions.AggressiveInlining)]
+            get => Math.Sqrt(X * X + Y * Y + Z * Z);
+        }
 
         /// <summary>True when no component is infinite or not a number.</summary>
         public bool IsFinite => IsFiniteNumber(X) && IsFiniteNumber(Y) && IsFiniteNumber(Z);
@@ -83,6 +103,7 @@ namespace Guidewire.Core
             return new Vector3d(a.X / s, a.Y / s, a.Z / s);
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static bool operator ==(in Vector3d a, in Vector3d b)
         {
             return a.X == b.X && a.Y == b.Y && a.Z == b.Z;
@@ -121,6 +142,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>v / |v|; the zero vector stays zero, because it has no direction.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d Normalize(in Vector3d a)
         {
             double length = a.Length;

@@ -42,9 +42,9 @@ namespace Guidewire.Core
         /// <summary>Takes over another shape of the same n.</summary>
         public void CopyFrom(RodShape other)
         {
-            Array.Copy(other.X, X, X.Length);
-            Array.Copy(other.Q, Q, Q.Length);
-            Array.Copy(other.Twist, Twist, Twist.Length);
+            other.X.AsSpan().CopyTo(X);
+            other.Q.AsSpan().CopyTo(Q);
+            other.Twist.AsSpan().CopyTo(Twist);
             ProximalFrame = other.ProximalFrame;
             DistalFrame = other.DistalFrame;
         }

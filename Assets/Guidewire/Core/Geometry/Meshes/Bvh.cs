@@ -240,6 +240,7 @@ namespace Guidewire.Core
             }
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private void Push(int current, in BvhNode node, Span<int> stack, ref int depth)
         {
             if (node.Count > 0)

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System;
 
 namespace Guidewire.Core
@@ -77,6 +78,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>True where two boxes share a point.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool Overlaps(in BvhNode other)
         {
             return Math.Abs(Centre.X - other.Centre.X) <= Extent.X + other.Extent.X

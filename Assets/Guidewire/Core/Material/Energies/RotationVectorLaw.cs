@@ -39,6 +39,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public double Value(in Joint joint, in Quaterniond relative)
         {
             Vector3d strain = RotationVector.Log(relative) - joint.Rest;

@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System;
 
 namespace Guidewire.Core
@@ -64,6 +65,7 @@ namespace Guidewire.Core
             old = nextOld;
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static Vector3d Move(in RodVector d, double scale)
         {
             return new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);

@@ -165,6 +165,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether wall w may be within a range, units, of element j.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool MayBeInRange(int w, int j, Vector3d[] x, double range)
         {
             int n = _range.Length;
@@ -189,6 +190,7 @@ namespace Guidewire.Core
 
         /// <summary>Whether wall w may be within a range, units, of a position of node i, by where it was last asked
         /// for there.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool NodeMayBeInRange(int w, int i, in Vector3d x, double range)
         {
             return _node[w * (_range.Length + 1) + i].FirstMayBeInRange(x, range);

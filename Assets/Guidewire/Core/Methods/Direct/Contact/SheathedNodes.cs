@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System;
 
 namespace Guidewire.Core
@@ -43,6 +44,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>A node as walls meet it, units.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d Place(in Vector3d x, bool isInside)
         {
             return _units * (isInside ? _sheath!.Exit : x);

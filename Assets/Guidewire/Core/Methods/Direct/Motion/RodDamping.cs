@@ -1,3 +1,4 @@
+using System.Runtime.CompilerServices;
 using System;
 
 namespace Guidewire.Core
@@ -274,11 +275,13 @@ namespace Guidewire.Core
             }
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static Vector3d ForceOf(in RodVector of)
         {
             return new Vector3d(of.X1, of.X2, of.X3);
         }
 
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static void SetForce(ref RodVector to, in Vector3d force)
         {
             to.X1 = force.X;
