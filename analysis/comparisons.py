@@ -32,7 +32,7 @@ class WireRun:
         return float(self.motion.time[-1])
 
     def scaled_to(self, displacement: float) -> WireRun:
-        """The run as it would be with another displacement if every sphere moved in proportion to it."""
+        """Return the run as it would be with another displacement if every sphere moved in proportion to it."""
         factor = displacement / self.run.number("displacement")
         rest = self.run.rest_positions
         return replace(self, motion=replace(self.motion, positions=rest + factor * (self.motion.positions - rest)))
@@ -89,12 +89,12 @@ class ComparisonTable:
     missing: tuple[str, ...]
 
     def column(self, name: str) -> np.ndarray:
-        """A number of all rows, shape (rows,)."""
+        """Return a number of all rows, shape (rows,)."""
         return np.array([getattr(row, name) for row in self.rows], dtype=float)
 
 
 def read_reference(folder: Path) -> tuple[WireRun, ...]:
-    """The runs of a reference's study, the reference first.
+    """Return the runs of a reference's study, the reference first.
 
     Raises
     ------
@@ -107,7 +107,7 @@ def read_reference(folder: Path) -> tuple[WireRun, ...]:
 
 
 def read_wire(run: Run) -> WireRun:
-    """A run with its log of all spheres."""
+    """Return a run with its log of all spheres."""
     return WireRun(run, trajectory(run, read_log(run.folder, spheres="all")))
 
 

@@ -68,13 +68,13 @@ class Distances:
 
 
 def trajectory(run: Run, log: PositionLog) -> Trajectory:
-    """A run's log with the arc length of its spheres."""
+    """Return a run's log with the arc length of its spheres."""
     spacing = run.number("guidewireLength") / run.number("numberRodElements")
     return Trajectory(log.steps, log.time, log.spheres * spacing, log.positions)
 
 
 def at_arc_length(positions: np.ndarray, arc_length: np.ndarray, wanted: np.ndarray) -> np.ndarray:
-    """Points of a wire at given arc lengths, linear along its elements.
+    """Return points of a wire at given arc lengths, linear along its elements.
 
     Parameters
     ----------

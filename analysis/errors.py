@@ -33,7 +33,7 @@ def mean_error(errors: np.ndarray) -> np.ndarray:
 
 
 def steady_state_entry(prediction_error: np.ndarray, threshold: float, hold: int) -> int | None:
-    """The first of ``hold`` successive entries below the threshold, after one that was not below it.
+    """Return the first of ``hold`` successive entries below the threshold, after one that was not below it.
 
     The error oscillates and is small before the motion reaches the last sphere, so neither the first entry below the
     threshold nor one before the first entry above it counts.

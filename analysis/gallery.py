@@ -185,7 +185,7 @@ class _Drawing:
     catalogue: Catalogue
 
     def draw(self, name: str) -> _Drawn:
-        """One figure and what stands beside it: why it cannot be drawn, and lines beyond their gates."""
+        """Return one figure and what stands beside it: why it cannot be drawn, and lines beyond their gates."""
         spec = self.catalogue.specs[name]
         own = {study: self.folders[study] for study in spec.studies}
         try:
@@ -205,7 +205,7 @@ _copied: list[_Drawing] = []  # what copies of this process draw: figures themse
 
 
 def _draw_all(ids: Sequence[str], drawing: _Drawing, jobs: int) -> list[_Drawn]:
-    """All figures, in the order of their names; those with most beside them are begun first."""
+    """Return all figures, in the order of their names; those with most beside them are begun first."""
     if jobs == 1 or len(ids) == 1 or "fork" not in multiprocessing.get_all_start_methods():
         return [drawing.draw(name) for name in ids]
     first = sorted(ids, key=lambda name: -len(drawing.catalogue.specs[name].beside))
@@ -223,13 +223,13 @@ def _draw_copied(name: str) -> _Drawn:
 
 
 def failed_gates(results: Sequence[tuple[Check, Result]]) -> list[str]:
-    """One line for each result that is beyond its gate."""
+    """Return one line for each result that is beyond its gate."""
     return [f"{check.title}: {r.solver}, {r.what}: error {number(r.error, 2)} is above its limit {number(r.gate, 2)}"
             for check, r in results if r.passed is False]
 
 
 def describe_default_run(study: Path) -> list[str]:
-    """What the default study's run measured, one line each: relaxation time and period with the fit's error."""
+    """Return what the default study's run measured, one line each: relaxation time and period with the fit's error."""
     run = read_runs(study)["default"]
     log = read_log(run.folder)
     relaxation = measure_relaxation(run, log.time, log.positions[:, 0])
@@ -255,7 +255,7 @@ def _save(figure: Figure, path: Path) -> None:
 
 
 def _index(out: Path, catalogue: Catalogue) -> str:
-    """Every picture with its caption, and links to what stands beside it and to the tables of its runs."""
+    """Return every picture with its caption, and links to what stands beside it and to the tables of its runs."""
     parts = ["# Figures\n"]
     for name, spec in catalogue.specs.items():
         caption = out / f"figure-{name}.txt"

@@ -35,7 +35,7 @@ class Wall:
 
     @classmethod
     def of(cls, vertices: np.ndarray, faces: np.ndarray) -> Wall:
-        """A wall from vertices (v, 3) in units and triangles (t, 3) of their indices.
+        """Return a wall from vertices (v, 3) in units and triangles (t, 3) of their indices.
 
         Raises
         ------
@@ -67,7 +67,8 @@ class Wall:
 
 
 def sample_wire(positions: np.ndarray) -> np.ndarray:
-    """Points at s = 0, 0.1, ... 0.9 of each element and the last sphere: (..., n + 1, 3) to (..., 10 n + 1, 3)."""
+    """Return points at s = 0, 0.1, ... 0.9 of each element and the last sphere: (..., n + 1, 3) to (..., 10 n + 1,
+    3)."""
     fraction = np.arange(SAMPLES)[:, None] / SAMPLES
     first, second = positions[..., :-1, None, :], positions[..., 1:, None, :]
     points = (1.0 - fraction) * first + fraction * second
@@ -76,7 +77,7 @@ def sample_wire(positions: np.ndarray) -> np.ndarray:
 
 
 def inside(wall: Wall, positions: np.ndarray) -> np.ndarray:
-    """Whether each sample of a wire is in the lumen: positions (k, n + 1, 3) in units to bool (k, 10 n + 1)."""
+    """Return whether each sample of a wire is in the lumen: positions (k, n + 1, 3) in units to bool (k, 10 n + 1)."""
     points = sample_wire(positions)
     return wall.closed.inside(points.reshape(-1, 3)).reshape(points.shape[:-1])
 

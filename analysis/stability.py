@@ -57,7 +57,7 @@ class Frontier:
 
 
 def read_frontiers(folder: Path) -> list[Frontier]:
-    """What a bisection found.
+    """Return what a bisection found.
 
     Raises
     ------
@@ -75,7 +75,7 @@ def read_frontiers(folder: Path) -> list[Frontier]:
 
 
 def read_results(folder: Path) -> list[dict[str, str]]:
-    """The lines of a study's runs.csv."""
+    """Return the lines of a study's runs.csv."""
     return _read(folder / RESULTS)
 
 
@@ -107,7 +107,7 @@ def limit_across(elements: int, sweeps: int, bisected: str) -> float:
 def _largest(
     sweep: Callable[[float], np.ndarray], sweeps: int, low: float, high: float, damping: float = 0.0
 ) -> float:
-    """The gain at which steps begin to grow, between one that is small enough and one that is too large."""
+    """Return the gain at which steps begin to grow, between one that is small enough and one that is too large."""
     for _ in range(_HALVINGS):
         middle = 0.5 * (low + high)
         holds = _growth(sweep(middle), sweeps, damping) < 1.0 + _GROWTH
@@ -126,7 +126,8 @@ def _growth(sweep: np.ndarray, sweeps: int, damping: float) -> float:
 
 
 def lost_turns(elements: int, sweeps: int, part: float, turns: np.ndarray, steps: int) -> np.ndarray:
-    """Whether a straight wire with gains loses a turn whose element 0 is turned about itself by so much in each step.
+    """Return whether a straight wire with gains loses a turn whose element 0 is turned about itself by so much in each
+    step.
 
     All turns are about one axis, so an element is its half angle h. Within a step h goes on by atan(sin(its last way)):
     the speed is read off a sine. A joint of half angle e gives its two elements each the half angle

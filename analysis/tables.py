@@ -82,7 +82,7 @@ class StudyTable:
     missing: tuple[str, ...]  # names of the runs that left nothing to read
 
     def column(self, name: str) -> np.ndarray:
-        """A quantity of all rows as float64, shape (rows,); not a number where a row has none.
+        """Return a quantity of all rows as float64, shape (rows,); not a number where a row has none.
 
         ``name`` is an attribute of StudyRow, or of its relaxation as "relaxation.time".
         """
@@ -144,7 +144,8 @@ def _measure(run: Run, repeats: Sequence[Run], value: float) -> StudyRow:
 
 
 def steady_state_step(run: Run, log: PositionLog) -> int | None:
-    """The first step of the steady state, as the run found it; of a killed run from its log, if that has every step."""
+    """Return the first step of the steady state, as the run found it; of a killed run from its log, if that has every
+    step."""
     if run.summary is not None:
         step = int(run.measured("steadyStateStep"))
         return None if step == NO_STEADY_STATE else step

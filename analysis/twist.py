@@ -51,7 +51,7 @@ def joint_angles(orientations: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
 
 
 def read_twist(run: Run) -> Twist:
-    """The angles of a run that logged its orientations.
+    """Return the angles of a run that logged its orientations.
 
     Raises
     ------

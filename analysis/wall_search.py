@@ -79,7 +79,7 @@ class MeshSearch:
         return np.divmod(np.unique(first * len(self._triangles) + triangle), len(self._triangles))
 
     def crosses(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Whether each segment a b, shapes (p, 3), goes through a triangle, shape (p,)."""
+        """Return whether each segment a b, shapes (p, 3), goes through a triangle, shape (p,)."""
         result = np.zeros(len(a), bool)
         for block in _blocks(len(a), 4000):
             segment, triangle = self._near_segments(a[block], b[block], 0.0)
@@ -112,7 +112,7 @@ class MeshSearch:
         return bound
 
     def inside(self, points: np.ndarray) -> np.ndarray:
-        """Whether a ray from each point along x meets an odd number of triangles, shapes (p, 3) and (p,)."""
+        """Return whether a ray from each point along x meets an odd number of triangles, shapes (p, 3) and (p,)."""
         turned, turn = _turned(self)
         points = points @ turn.T
         far = turned._high[:, 0].max() + 1.0
@@ -131,7 +131,8 @@ class MeshSearch:
 
 
 def crosses_itself(vertices: np.ndarray, faces: np.ndarray) -> bool:
-    """Whether an edge of a mesh, vertices (v, 3) and faces (t, 3), goes through a face that has neither of its ends."""
+    """Return whether an edge of a mesh, vertices (v, 3) and faces (t, 3), goes through a face that has neither of its
+    ends."""
     edges = np.unique(np.sort(np.concatenate([faces[:, [0, 1]], faces[:, [1, 2]], faces[:, [2, 0]]]), axis=1), axis=0)
     search = MeshSearch(vertices[faces])
     for block in _blocks(len(edges), 4000):
@@ -145,7 +146,8 @@ def crosses_itself(vertices: np.ndarray, faces: np.ndarray) -> bool:
 
 
 def _turned(search: MeshSearch) -> tuple[MeshSearch, np.ndarray]:
-    """The same triangles turned by an odd rotation, so that no ray meets an edge of a regular mesh; and the turn."""
+    """Return the same triangles turned by an odd rotation, so that no ray meets an edge of a regular mesh; and the
+    turn."""
     if not hasattr(search, "turned"):
         turn = np.linalg.qr(np.array([[0.7, 0.31, 0.11], [-0.29, 0.83, 0.23], [0.13, -0.17, 0.91]]))[0]
         search.turned = (MeshSearch(search._triangles @ turn.T), turn)
@@ -261,7 +263,7 @@ class ClosedForm:
 
 
 def rotation_of(degrees: np.ndarray) -> np.ndarray:
-    """The matrix of Euler angles in degrees, about z first, then x, then y, all about fixed axes."""
+    """Return the matrix of Euler angles in degrees, about z first, then x, then y, all about fixed axes."""
     x, y, z = np.radians(degrees)
     about_x = np.array([[1, 0, 0], [0, np.cos(x), -np.sin(x)], [0, np.sin(x), np.cos(x)]])
     about_y = np.array([[np.cos(y), 0, np.sin(y)], [0, 1, 0], [-np.sin(y), 0, np.cos(y)]])
@@ -296,7 +298,7 @@ class Walls:
         return cls(MeshSearch(triangles) if is_mesh else None, [closed_form(wall) for wall in others])
 
     def beyond(self, points: np.ndarray) -> np.ndarray:
-        """Whether points (..., 3) are beyond each wall, shape (walls, ...); a mesh must be closed for it."""
+        """Return whether points (..., 3) are beyond each wall, shape (walls, ...); a mesh must be closed for it."""
         flat = points.reshape(-1, 3)
         answers = [wall.distance(flat) <= 0.0 for wall in self.others]
         if self.mesh:
@@ -312,7 +314,7 @@ class Walls:
         return np.array(answers).reshape(-1, *points.shape[:-1])
 
     def crosses(self, a: np.ndarray, b: np.ndarray) -> np.ndarray:
-        """Whether each segment a b, shapes (p, 3), goes through a wall, shape (p,)."""
+        """Return whether each segment a b, shapes (p, 3), goes through a wall, shape (p,)."""
         through = self.mesh.crosses(a, b) if self.mesh else np.zeros(len(a), bool)
         for wall in self.others:
             near = np.flatnonzero(wall.distance(a) + wall.distance(b) <= np.linalg.norm(b - a, axis=1))
@@ -322,7 +324,7 @@ class Walls:
 
 
 def closed_form(wall: dict[str, Any]) -> ClosedForm:
-    """A wall in closed form: a vessel that is a plane or a tube with corners, or any obstacle."""
+    """Return a wall in closed form: a vessel that is a plane or a tube with corners, or any obstacle."""
     shape = wall["shape"]
     if shape == "plane":
         normal = np.array(wall["normal"], float)

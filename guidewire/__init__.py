@@ -47,7 +47,7 @@ def __dir__():
 
 
 def __getattr__(name):
-    """What scripts import from here."""
+    """Return what scripts import from here."""
     if name == "__version__":
         return importlib.import_module("guidewire.installed").version()
     if name in _MODULES:

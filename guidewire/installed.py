@@ -29,7 +29,8 @@ def version() -> str:
 
 
 def has_avx2() -> bool:
-    """Whether this processor is of x86-64-v3; a library that was compiled for it would end the process elsewhere."""
+    """Return whether this processor is of x86-64-v3; a library that was compiled for it would end the process
+    elsewhere."""
     try:
         text = Path("/proc/cpuinfo").read_text(encoding="utf-8", errors="replace")
     except OSError:
@@ -39,12 +40,12 @@ def has_avx2() -> bool:
 
 
 def runner() -> list[str]:
-    """The command that starts the package's runner, which takes the library for this processor."""
+    """Return the command that starts the package's runner, which takes the library for this processor."""
     return [str(NATIVE / RUNNER)]
 
 
 def library() -> Path:
-    """The package's library for this processor."""
+    """Return the package's library for this processor."""
     return NATIVE / LIBRARY[has_avx2()]
 
 

@@ -22,7 +22,7 @@ def problem_of(text: str, error: json.JSONDecodeError) -> str:
 
 
 def without_notes(value: Any) -> Any:
-    """The value of a JSON text without the notes in its objects."""
+    """Return the value of a JSON text without the notes in its objects."""
     if isinstance(value, dict):
         return {key: without_notes(one) for key, one in value.items() if key != NOTE or not isinstance(one, str)}
     return [without_notes(one) for one in value] if isinstance(value, list) else value

@@ -100,7 +100,7 @@ def advise(file: str | Path, error: float | None = None, budget: float | None = 
 
 
 def find_study(name: str | Path, most_runs: int | None) -> Study:
-    """The study with this name, or in this file. Raises PreparationError, one line, where there is none."""
+    """Return the study with this name, or in this file. Raises PreparationError, one line, where there is none."""
     if str(name) in STUDIES:
         return STUDIES[str(name)]
     path = Path(name)

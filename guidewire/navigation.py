@@ -120,7 +120,7 @@ class Route:
 
 
 def with_tip(asked: dict[str, Any], tip: Tip | None) -> dict[str, Any]:
-    """A scene's parameters with the end of its last section bent so, and the rest of that section straight."""
+    """Return a scene's parameters with the end of its last section bent so, and the rest of that section straight."""
     if tip is None:
         return asked
     *others, last = asked["wireSections"]
@@ -159,7 +159,7 @@ class _Start:
     before: _Start | None
 
     def calls(self) -> list[_Call]:
-        """The drive from the inlet, in time's order."""
+        """Return the drive from the inlet, in time's order."""
         found: list[_Call] = []
         start: _Start | None = self
         while start is not None:
@@ -191,7 +191,7 @@ class _Search:
         self._began, self._shown = time.monotonic(), time.monotonic()
 
     def find(self, most_attempts: int) -> _Start | None:
-        """A start at the target whose calls lead there from the inlet; None where the search gave up."""
+        """Return a start at the target whose calls lead there from the inlet; None where the search gave up."""
         starts, at = [self._first], self._first
         stalled, spin = _STALLED[0], 0.0
         reached, in_vain = 0.0, 0
@@ -243,7 +243,7 @@ class _Search:
             "no farther" if at.moved >= self._longest or at.moved - since > stalled else ""))
 
     def _gap(self) -> float:
-        """How far a catheter's tip is behind the wire's, mm; nothing where there is none."""
+        """Return how far a catheter's tip is behind the wire's, mm; nothing where there is none."""
         catheters = self._session.state.catheters
         return 1e3 * catheters[0].extension if catheters else 0.0
 
@@ -253,13 +253,14 @@ class _Search:
         return _Start(b"", at.along, at.best, at.since, moved, call, at)
 
     def _turned(self, at: _Start, angle: float) -> _Start:
-        """The same place with the hub turned; the attempt's progress is counted anew."""
+        """Return the same place with the hub turned; the attempt's progress is counted anew."""
         steps = max(1, round(abs(angle) / _TURN))
         at = self._made(at, _Call(0, 0.0, exact_turn(angle / steps), steps))
         return replace(at, best=at.along, since=at.moved)
 
     def _again(self, calls: list[_Call]) -> list[_Start | None]:
-        """A drive made from the start: what it came to after each call, and None behind it where that is the target."""
+        """Return a drive made from the start: what it came to after each call, and None behind it where that is the
+        target."""
         self._session.reset()
         made: list[_Start | None] = [self._first]
         for call in calls:
@@ -328,7 +329,7 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
 
 
 def write(scene: Path, found: Found) -> Path:
-    """The drives and a scene that follows them, beside the scene given; returns the new scene's file."""
+    """Return the drives and a scene that follows them, beside the scene given; returns the new scene's file."""
     folder = scene.parent
     for name, steered in zip(DRIVES, found.hubs):
         write_whole(folder / name, steered.to_csv())

@@ -114,7 +114,8 @@ def _venv_python():
 
 
 def _fill_venv(packages):
-    """A .venv with requirements.txt in it, or None. A .venv that was made here and could not be filled is removed."""
+    """Return a .venv with requirements.txt in it, or None. A .venv that was made here and could not be filled is
+    removed."""
     existed = VENV.exists()
     _say("installing {} into .venv with pip".format(", ".join(packages)))
     made = existed or _log_run([sys.executable, "-m", "venv", str(VENV)], seconds=120)

@@ -41,7 +41,7 @@ class GuidewireSolver:
         self._step = _STEP * time_step_scale
 
     def settings(self, scenario: Any, *, n_elements: int, n_frames: int) -> dict[str, Any]:
-        """The numerical settings of a run, as JSON values."""
+        """Return the numerical settings of a run, as JSON values."""
         steps, step = self._steps(scenario, n_frames)
         walls = bool(getattr(scenario, "obstacles", ()))
         return {"integrator": "implicitEuler" if walls else "esdirk3", "timeStep": step, "stepsPerFrame": steps,

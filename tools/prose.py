@@ -75,7 +75,7 @@ def words(text: str) -> int:
 
 
 def shown(text: str) -> str:
-    """A sentence or a cell as it is printed."""
+    """Return a sentence or a cell as it is printed."""
     return text.replace(_CODE, "`...`")
 
 

@@ -68,7 +68,7 @@ def draw_steps(found: Sequence[Charted]) -> tuple[Figure, str]:
 
 @styled
 def draw_summary(found: Sequence[Charted]) -> Figure:
-    """The front of each method and that of all."""
+    """Return the front of each method and that of all."""
     rows = math.ceil(len(found) / _COLUMNS)
     figure = new_figure(10.0, 2.3 * rows)
     panels = figure.subplots(rows, _COLUMNS, squeeze=False).ravel()

@@ -50,7 +50,7 @@ Scene = Callable[[int, float, Mapping[str, Any]], dict[str, Any]]  # of n, time 
 
 
 def _direct(scene: Scene, values: Sequence[tuple[str, int, float]]) -> list[Setting]:
-    """A scene with the direct method, by scheme, n and time step."""
+    """Return a scene with the direct method, by scheme, n and time step."""
     return [Setting("direct", *settings.direct(scheme, n, dt),
                     case(f"{scheme}-{n}-{dt}", "direct", scene(n, dt, {"integrator": scheme})))
             for scheme, n, dt in values]
@@ -58,7 +58,7 @@ def _direct(scene: Scene, values: Sequence[tuple[str, int, float]]) -> list[Sett
 
 def _small_steps(scene: Scene, step: float, stable: Mapping[int, float],
                  sweeps: Sequence[tuple[int, int, int]]) -> list[Setting]:
-    """A scene with the methods of small steps: explicit at each n that
+    """Return a scene with the methods of small steps: explicit at each n that
     `stable` has a substep for, xpbd with each (n, substeps, iterations)."""
     made = []
     for n, limit in stable.items():
@@ -234,7 +234,7 @@ def _linear(n: int) -> np.ndarray:
 
 
 def pbd_twist_error(n: int) -> float:
-    """The same for sweeps with gains at rest: inner joints share the turn, the first and the last have
+    """Return the same for sweeps with gains at rest: inner joints share the turn, the first and the last have
     half of it."""
     found = (np.arange(n) - 0.5) / (n - 2)
     return float(np.max(np.abs(found - _linear(n))[2:-2]))

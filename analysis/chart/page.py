@@ -19,7 +19,7 @@ text{font:11px sans-serif}.title{font-weight:bold}.grid{stroke:#eee}.line{stroke
 
 
 def as_page(found: Sequence[Charted]) -> str:
-    """The page: every problem against cost, then against the wall time of a step."""
+    """Return the page: every problem against cost, then against the wall time of a step."""
     parts = [
         "<!DOCTYPE html>", '<html lang="en"><head><meta charset="utf-8"><title>Error against cost</title>',
         f"<style>{_STYLE}</style></head><body>", "<h1>Error against cost</h1>",
@@ -46,7 +46,7 @@ class _Axis:
         self._first, self._last = first, last
 
     def at(self, value: float) -> float:
-        """The place of a value."""
+        """Return the place of a value."""
         fraction = (math.log10(value) - self._low) / (self._high - self._low)
         return self._first + fraction * (self._last - self._first)
 

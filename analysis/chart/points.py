@@ -145,13 +145,13 @@ class Charted:
         return pareto([p for p in self.points if p.held and method in (None, p.setting.method)], cost)
 
     def cheapest(self, error: float) -> Point | None:
-        """The cheapest point with at most this error."""
+        """Return the cheapest point with at most this error."""
         good = [point for point in self.points if point.held and point.error <= error]
         return min(good, key=lambda point: point.cost, default=None)
 
 
 def pareto(points: Sequence[Point], cost: Cost = seconds) -> list[Point]:
-    """Points that no other one beats in both error and cost, from the cheapest on."""
+    """Return points that no other one beats in both error and cost, from the cheapest on."""
     front: list[Point] = []
     for point in sorted(points, key=lambda point: (cost(point), point.drawn)):
         if not front or point.drawn < front[-1].drawn:
@@ -160,12 +160,13 @@ def pareto(points: Sequence[Point], cost: Cost = seconds) -> list[Point]:
 
 
 def case(key: str, method: str, overrides: Mapping[str, object], start: Mapping[str, object] | None = None) -> Case:
-    """A run of a method with as many timed repeats as the method is worth."""
+    """Return a run of a method with as many timed repeats as the method is worth."""
     return Case(key, {"solver": method, **overrides}, _REPEATS.get(method, 1), start)
 
 
 def in_short(problem: Problem) -> Problem:
-    """The problem with the first two settings of the methods that are timed often, and one of the others; once."""
+    """Return the problem with the first two settings of the methods that are timed often, and one of the others;
+    once."""
     def ask() -> Asking[Asked]:
         asked = yield from problem.ask()
         own = [[setting for setting in asked.settings if setting.method == method] for method in METHODS]
@@ -177,7 +178,7 @@ def in_short(problem: Problem) -> Problem:
 
 
 def check_of(problem: Problem) -> Check[Charted]:
-    """What makes the runs of a problem and reads its points."""
+    """Return what makes the runs of a problem and reads its points."""
     return Check(problem.name, "Chart", problem.title, partial(_plan, problem))
 
 
@@ -212,7 +213,7 @@ def _cost(run: Run) -> float:
 
 
 def repeats_in_words() -> str:
-    """How often the methods are timed."""
+    """Return how often the methods are timed."""
     others = " and ".join(method for method in METHODS if method not in _REPEATS)
     return "; ".join(f"{method}: {count}" for method, count in _REPEATS.items()) + f"; {others}: 1"
 

@@ -31,7 +31,7 @@ _TUNING_PARTS = 4
 
 
 def time_text(step: float) -> str:
-    """A time step with its unit, as "4 ms" or "20 µs"."""
+    """Return a time step with its unit, as "4 ms" or "20 µs"."""
     return f"{1e3 * step:.4g} ms" if step >= 1e-3 else f"{1e6 * step:.3g} µs"
 
 
@@ -56,8 +56,8 @@ def pbd(changed: Mapping[str, Any]) -> tuple[str, str]:
 
 def changed_pbd(gain: float, changes: Iterable[Mapping[str, Any]], keys: Callable[[dict[str, Any]], dict[str, Any]],
                 start: Callable[[int], dict[str, Any]] = lambda _: {}) -> list[Setting]:
-    """The settings of a tuned gain with each of these changes: what makes a scene's keys from the method's, and where
-    the wire starts, by n."""
+    """Return the settings of a tuned gain with each of these changes: what makes a scene's keys from the method's, and
+    where the wire starts, by n."""
     made = []
     for k, changed in enumerate(changes):
         method = {**PBD, **changed, "bendStiffness": gain}
@@ -67,7 +67,7 @@ def changed_pbd(gain: float, changes: Iterable[Mapping[str, Any]], keys: Callabl
 
 
 def settled(method: Mapping[str, Any], step: float, rate: float, duration: float) -> dict[str, Any]:
-    """A motion under own weight and a drag of `rate` (1/s) for so long (s), of which only the end is logged."""
+    """Return a motion under own weight and a drag of `rate` (1/s) for so long (s), of which only the end is logged."""
     solver = method.get("solver", "direct")
     scale = scenes.UNIT if solver == "pbd" else 1.0
     return {

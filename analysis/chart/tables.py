@@ -15,7 +15,7 @@ COLUMNS = ("problem", "method", "settings", "outcome", "error", "error is", "cos
 
 
 def as_csv(found: Sequence[Charted]) -> str:
-    """One line for each setting, numbers to full precision; an error is empty where there is none."""
+    """Return one line for each setting, numbers to full precision; an error is empty where there is none."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
@@ -32,7 +32,7 @@ def as_csv(found: Sequence[Charted]) -> str:
 
 
 def as_markdown(found: Sequence[Charted]) -> str:
-    """Every setting, a table for each problem, from the cheapest on."""
+    """Return every setting, a table for each problem, from the cheapest on."""
     lines = ["# Error against cost: every setting", "",
              "Cost is wall time in s per simulated second, one thread; bold: on the Pareto front.", ""]
     for charted in found:

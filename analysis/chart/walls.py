@@ -84,7 +84,7 @@ def _contact(gap: float | None) -> dict[str, float]:
 
 def _direct(keys: Callable[[str, int, float, float | None], dict[str, Any]],
             values: Iterable[tuple[str, int, float, float | None]]) -> list[Setting]:
-    """The settings of direct by scheme, n, dt and contactDistance, from what makes the keys of each."""
+    """Return the settings of direct by scheme, n, dt and contactDistance, from what makes the keys of each."""
     made = []
     for scheme, n, step, gap in values:
         words, label = settings.direct(scheme, n, step)

@@ -19,7 +19,7 @@ _NEARLY = 0.12  # relative spread up to which a measured product is called const
 
 
 def sweep_caption(figure: str, table: StudyTable) -> str:
-    """The caption of one of Figures 4.5 to 4.9."""
+    """Return the caption of one of Figures 4.5 to 4.9."""
     if not np.any(np.isfinite(table.column("relaxation.time"))):
         return f"Figure {figure}. No run of this study relaxed." + _left_out(table)
     sentences = _CAPTIONS[figure](table) + [_end_of_run(table), _closed_form(table), _repeats(table)]
@@ -170,7 +170,7 @@ _CAPTIONS: dict[str, Callable[[StudyTable], list[str]]] = {
 
 
 def _values(x: np.ndarray) -> str:
-    """The range of the parameter, as it was set."""
+    """Return the range of the parameter, as it was set."""
     return f"{x.min():g} to {x.max():g}"
 
 
@@ -190,14 +190,14 @@ def _steady(table: StudyTable, name: str) -> str:
 
 
 def _rises(x: np.ndarray, y: np.ndarray) -> bool:
-    """Whether y, a measured quantity, grows from the smallest x to the largest and on most of the way."""
+    """Return whether y, a measured quantity, grows from the smallest x to the largest and on most of the way."""
     order = np.argsort(x)
     change = np.diff(y[order])
     return bool(y[order[-1]] > y[order[0]] and np.count_nonzero(change > 0) >= 0.75 * change.size)
 
 
 def _straight(table: StudyTable, subject: str, per: str) -> str:
-    """The median step time as a straight line in the parameter, with what it misses."""
+    """Return the median step time as a straight line in the parameter, with what it misses."""
     x, y = table.column("value"), table.column("step_time.median")
     known = np.isfinite(y)
     if np.count_nonzero(known) < 3:
@@ -218,7 +218,7 @@ def _constant(table: StudyTable, subject: str, name: str = "step_time", unit: st
 
 
 def _follows(table: StudyTable, x: np.ndarray, name: str) -> str:
-    """How the in-game time to the steady state goes with tau, and what the computation time makes of it."""
+    """Return how the in-game time to the steady state goes with tau, and what the computation time makes of it."""
     tau, steady = table.column("relaxation.time"), table.column("steady_state_time")
     wall = table.column("computation_time.median")
     sentence = f"(c) The in-game time to the steady state is {span(steady / tau, 2)} times τ."
@@ -228,7 +228,7 @@ def _follows(table: StudyTable, x: np.ndarray, name: str) -> str:
 
 
 def _closed_form(table: StudyTable) -> str:
-    """How far the measured values are from the slowest mode's closed form, the grey lines."""
+    """Return how far the measured values are from the slowest mode's closed form, the grey lines."""
     modes = [SlowestMode.of(row.run) for row in table.rows]
     tau = np.array([mode.relaxation_time for mode in modes]) / table.column("relaxation.time") - 1.0
     steady = np.array([mode.steady_state_time for mode in modes]) / table.column("steady_state_time") - 1.0
@@ -239,7 +239,7 @@ def _closed_form(table: StudyTable) -> str:
 
 
 def _end_of_run(table: StudyTable) -> str:
-    """The total error at the end, which depends on where a run stops."""
+    """Return the total error at the end, which depends on where a run stops."""
     errors = table.column("total_error")
     if not np.any(errors > 0.0):
         return ""
@@ -273,7 +273,7 @@ def _repeats(table: StudyTable) -> str:
 
 
 def _left_out(table: StudyTable) -> str:
-    """What the figure could not show."""
+    """Return what the figure could not show."""
     notes = [f"{row.run.key}: {row.no_relaxation}" for row in table.rows if row.no_relaxation]
     notes += [
         f"{row.run.key}: no steady state ({row.run.outcome} at step {row.steps})"

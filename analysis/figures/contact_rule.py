@@ -40,7 +40,7 @@ class Rest:
 
 
 def read_rests(folder: Path) -> list[Rest]:
-    """The rests of a study, by rule and position.
+    """Return the rests of a study, by rule and position.
 
     Raises
     ------
@@ -98,7 +98,7 @@ _NAMES = {"barycentric": "lever rule", "thesis": RULES["thesis"]}
 
 
 def contact_rule_caption(rests: list[Rest]) -> str:
-    """What the rests show, in numbers."""
+    """Return what the rests show, in numbers."""
     lever, seed = ([rest for rest in rests if rest.rule == rule] for rule in ("barycentric", "thesis"))
     return " ".join((
         "Figure contact-rule. One rod element that reaches 1 unit too deep onto a small fixed sphere at position s; no "
@@ -113,7 +113,7 @@ def contact_rule_caption(rests: list[Rest]) -> str:
 
 
 def _which(rests: list[Rest]) -> str:
-    """Whether the end nearer to the contact is pushed more, over all positions off the middle."""
+    """Return whether the end nearer to the contact is pushed more, over all positions off the middle."""
     off = [rest for rest in rests if abs(rest.position - 0.5) > 1e-9]
     near = [rest.pushed[int(rest.position > 0.5)] for rest in off]
     far = [rest.pushed[int(rest.position < 0.5)] for rest in off]
@@ -129,6 +129,6 @@ def _sign(rests: list[Rest]) -> str:
 
 
 def _depths(rests: list[Rest]) -> str:
-    """How deep the element rests; what is below rounding is none."""
+    """Return how deep the element rests; what is below rounding is none."""
     depths = np.array([rest.depth for rest in rests])
     return "at its surface" if np.all(np.abs(depths) < _ROUNDING) else f"{span(depths, 2)} units deep"

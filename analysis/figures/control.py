@@ -44,7 +44,7 @@ class DriveRow:
 
 
 def read_drives(folder: Path) -> list[DriveRow]:
-    """The runs of the study of drives, all in one lumen.
+    """Return the runs of the study of drives, all in one lumen.
 
     Raises
     ------
@@ -77,7 +77,7 @@ def along_line(points: np.ndarray, knots: np.ndarray) -> tuple[np.ndarray, np.nd
 
 @styled
 def draw_drives(rows: list[DriveRow]) -> tuple[Figure, str]:
-    """The wires at the end, the first sphere's distance from the middle line and the tip's position along it."""
+    """Return the wires at the end, the first sphere's distance from the middle line and the tip's position along it."""
     figure = new_figure(10.0, 6.2)
     panels = figure.subplot_mosaic([["a", "b", "c", "d"], ["e", "e", "f", "f"]])
     by_key = {row.key: row for row in rows}
@@ -116,7 +116,7 @@ def _draw_wire(axes: Axes, wire: WireRun, colour: str) -> None:
 
 
 def drives_caption(rows: dict[str, DriveRow]) -> str:
-    """What each drive came to, in numbers."""
+    """Return what each drive came to, in numbers."""
     push = rows["push"]
     radius = push.wire.run.value("vessel")["radius"]
     asked = push.wire.run.measured("driveAsked")
@@ -158,7 +158,7 @@ class TwistRow:
 
 
 def read_twists(folder: Path) -> list[TwistRow]:
-    """The runs of the study of twist, ascending in solver steps.
+    """Return the runs of the study of twist, ascending in solver steps.
 
     Raises
     ------
@@ -196,7 +196,7 @@ def draw_twist(rows: list[TwistRow]) -> tuple[Figure, str]:
 
 
 def twist_caption(rows: list[TwistRow]) -> str:
-    """What arrives at the tip, in numbers."""
+    """Return what arrives at the tip, in numbers."""
     parts = [
         "Figure twist. A wire that is pushed and turned at its base, in a straight and in a bent lumen; the bend-twist "
         "constraint carries the rotation to the tip."

@@ -32,7 +32,7 @@ class RunTable:
 
 
 def read_default_run(folder: Path, spheres: str = "last", most_entries: int | None = None) -> RunTable:
-    """The untimed run of a study of one run.
+    """Return the untimed run of a study of one run.
 
     Parameters
     ----------

@@ -19,7 +19,7 @@ _MARKERS = {"none": "s", "barycentric": "o", "thesis": "^"}
 
 @styled
 def draw_gain(name: str, scene: str, table: ElementTable) -> tuple[Figure, str]:
-    """Two pictures of the coarsest wire, then distance to the finest run, step time and passages against n."""
+    """Return two pictures of the coarsest wire, then distance to the finest run, step time and passages against n."""
     figure = new_figure(10.0, 6.4)
     panels = figure.subplot_mosaic([["a", "a", "a", "b", "b", "b"], ["c", "c", "d", "d", "e", "e"]])
     for panel, rule in (("a", "none"), ("b", "barycentric")):
@@ -88,12 +88,12 @@ def draw_wire(axes: Axes, row: ElementRow, entry: int, colour: str) -> None:
 
 
 def _worst_entry(row: ElementRow) -> int:
-    """The last entry of a run: what it came to."""
+    """Return the last entry of a run: what it came to."""
     return len(row.wire.motion.steps) - 1
 
 
 def gain_caption(name: str, scene: str, table: ElementTable) -> str:
-    """What the rows show, in numbers."""
+    """Return what the rows show, in numbers."""
     spheres, elements, seed = (table.of(rule) for rule in ("none", "barycentric", "thesis"))
     radius = table.reference.wire.run.number("sphereRadius")
     sentences = [
@@ -153,7 +153,7 @@ def _passed(subject: str, rows: list[ElementRow], radius: float) -> str:
 
 
 def _again(table: ElementTable) -> str:
-    """Whether the count from the logs agrees."""
+    """Return whether the count from the logs agrees."""
     rows = [row for row in table.rows if row.counted_again is not None]
     if not rows:
         return ""
@@ -178,7 +178,8 @@ def _flat(table: ElementTable) -> str:
 
 
 def _length(table: ElementTable) -> str:
-    """How much of its length the finest wire has lost: few solver steps leave a wire of many elements compressed."""
+    """Return how much of its length the finest wire has lost: few solver steps leave a wire of many elements
+    compressed."""
     run, end = table.reference.wire.run, table.reference.wire.motion.positions[-1]
     length = np.linalg.norm(np.diff(end, axis=0), axis=1).sum()
     lost = 1.0 - length / run.number("guidewireLength")

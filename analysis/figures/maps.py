@@ -128,7 +128,7 @@ VIEWS = (
 
 
 def read_map(view: View, folder: Path) -> list[Cell]:
-    """The runs of one map.
+    """Return the runs of one map.
 
     Raises
     ------
@@ -168,14 +168,14 @@ def kind_of(run: Run, error: float) -> str:
 
 
 def _tip(run: Run) -> tuple[np.ndarray, np.ndarray]:
-    """The last sphere at the start and at the end, units."""
+    """Return the last sphere at the start and at the end, units."""
     log = read_log(run.folder)
     return log.positions[0, 0], log.final_positions[-1]
 
 
 @styled
 def draw_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
-    """One panel a map."""
+    """Return one panel a map."""
     found = {view.study: read_map(view, folders[view.study]) for view in VIEWS}
     figure = new_figure(15.0, 6.6)
     panels = figure.subplots(2, 4).ravel()
@@ -220,13 +220,13 @@ def draw_map(axes: Axes, view: View, cells: Sequence[Cell]) -> None:
 
 
 def kinds_of(cells: Sequence[Cell], y: float | str | None = None) -> str:
-    """How many of each class, in words."""
+    """Return how many of each class, in words."""
     own = [cell.kind for cell in cells if y is None or cell.y == y]
     return ", ".join(f"{own.count(kind)} {kind}" for kind in dict.fromkeys(own))
 
 
 def _held(cells: Sequence[Cell], y: str) -> str:
-    """The largest x that holds and the smallest that does not, of one line."""
+    """Return the largest x that holds and the smallest that does not, of one line."""
     held = [cell.x for cell in cells if cell.y == y and cell.kind in ("converged", "finished")]
     lost = [cell.x for cell in cells if cell.y == y and cell.kind in ("diverged", "failed")]
     return f"{max(held):g} holds, {min(lost):g} does not" if lost else f"{max(held):g} holds"

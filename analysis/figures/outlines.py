@@ -75,7 +75,7 @@ def section(surface: Surface) -> np.ndarray:
 
 
 def tube_sides(knots: np.ndarray, radius: float) -> np.ndarray:
-    """Both sides of a tube in the y-z plane, shape (2, k, 3), in units: its knots moved across by the radius."""
+    """Return both sides of a tube in the y-z plane, shape (2, k, 3), in units: its knots moved across by the radius."""
     directions = np.diff(knots, axis=0)
     directions /= np.linalg.norm(directions, axis=1)[:, None]
     # Where two pieces meet, along the bisector, so far that both sides keep their distance.

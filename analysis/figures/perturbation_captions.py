@@ -50,7 +50,7 @@ def reference_caption(runs: tuple[WireRun, ...]) -> str:
 
 
 def _rotation(reference: WireRun) -> str:
-    """What is left of the motion in the second half of the run, where the wave has died out."""
+    """Return what is left of the motion in the second half of the run, where the wave has died out."""
     late = reference.motion.time >= 0.5 * reference.end
     y, steps = reference.motion.positions[late, -1, 1], reference.motion.steps[late]
     rates = np.diff(y) / np.diff(steps)
@@ -83,7 +83,8 @@ def perturbation_caption(figure: str, table: ComparisonTable) -> str:
 
 
 def _other_references(table: ComparisonTable) -> str:
-    """How far the reference is from the runs that differ from it in one parameter: what its own choice is worth."""
+    """Return how far the reference is from the runs that differ from it in one parameter: what its own choice is
+    worth."""
     if not table.others:
         return ""
     described = " and ".join(
@@ -124,7 +125,8 @@ def _listed(values: np.ndarray) -> str:
 
 
 def _resonance(table: ComparisonTable, low: float, high: float, claim: str) -> list[str]:
-    """Whether a maximum of the mean distance stands where the thesis saw one, and whether it can be a resonance."""
+    """Return whether a maximum of the mean distance stands where the thesis saw one, and whether it can be a
+    resonance."""
     symbol, x = _SYMBOLS[table.key], table.column("value")
     found = maxima(x, table.column("mean_distance"))
     there = found[(found >= low) & (found <= high)]
@@ -177,12 +179,13 @@ def _equal_steps(table: ComparisonTable) -> str:
 
 
 def _rises(y: np.ndarray) -> bool:
-    """Whether values grow from the first to the last, and never fall back by more than _RIPPLE of their range."""
+    """Return whether values grow from the first to the last, and never fall back by more than _RIPPLE of their
+    range."""
     return y.size > 2 and y[-1] > y[0] and float(np.max(np.maximum.accumulate(y) - y)) <= _RIPPLE * float(np.ptp(y))
 
 
 def _falls(table: ComparisonTable) -> bool:
-    """Whether the mean distance falls with the parameter, but for ripples."""
+    """Return whether the mean distance falls with the parameter, but for ripples."""
     return _rises(-table.column("mean_distance"))
 
 
@@ -327,7 +330,7 @@ def _collision_mass(table: ComparisonTable) -> list[str]:
 
 
 def _sunk(table: ComparisonTable) -> str:
-    """How far the wire sinks into the wall, which the gain of the contact and the number of sweeps decide."""
+    """Return how far the wire sinks into the wall, which the gain of the contact and the number of sweeps decide."""
     deepest = max(row.run.measured("maxPenetration") for row in table.rows)
     passed = sum(row.run.measured("passages") for row in table.rows)
     radius = table.reference.run.number("sphereRadius")

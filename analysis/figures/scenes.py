@@ -20,7 +20,7 @@ _LAST_IN_VESSEL = 300  # steps: before the wire buckles
 
 @styled
 def draw_scenes(wall: ElementTable, vessel: ElementTable) -> tuple[Figure, str]:
-    """The push against the wall and the insertion into the vessel, with element contact."""
+    """Return the push against the wall and the insertion into the vessel, with element contact."""
     figure = new_figure(10.0, 5.4)
     panels = figure.subplots(2, 1)
     wires = [_wire(table) for table in (wall, vessel)]
@@ -40,7 +40,7 @@ def draw_scenes(wall: ElementTable, vessel: ElementTable) -> tuple[Figure, str]:
 
 
 def _wire(table: ElementTable) -> WireRun:
-    """The run with element contact whose n is nearest to the thesis's default."""
+    """Return the run with element contact whose n is nearest to the thesis's default."""
     return min(table.of("barycentric"), key=lambda row: abs(row.elements - _ELEMENTS)).wire
 
 

@@ -51,13 +51,14 @@ class Map:
         return [abs(one.middle / self.chain(one) - 1.0) for one in self.points]
 
     def from_closed_form(self, elements: int, line: float) -> float:
-        """The largest distance from the closed form of frontiers with at least so many elements and this `line`."""
+        """Return the largest distance from the closed form of frontiers with at least so many elements and this
+        `line`."""
         return max(abs(one.middle / self.closed_form(one) - 1.0) for one in self.points
                    if _elements(one) >= elements and one.values[self.line] == line)
 
 
 def read_maps(folders: Mapping[str, Path]) -> tuple[list[Map], list[dict[str, str]]]:
-    """The four maps of frontiers, and the runs with long steps.
+    """Return the four maps of frontiers, and the runs with long steps.
 
     Raises
     ------
@@ -87,10 +88,10 @@ def _sweeps(one: Frontier) -> int:
 
 
 def failed_gates(folders: Mapping[str, Path]) -> list[str]:
-    """One line for each frontier that is not where theory has it: stretch stiffness 2.00 within 0.03 across, its closed
-    form within 1 % along, bend stiffness l within 2 %, explicit steps within 5 % of 2/omega_max. Stiffness with many
-    iterations only, and not for wires of few elements, where the chain's limit is elsewhere; and for each long step
-    that direct loses."""
+    """Return one line for each frontier that is not where theory has it: stretch stiffness 2.00 within 0.03 across, its
+    closed form within 1 % along, bend stiffness l within 2 %, explicit steps within 5 % of 2/omega_max. Stiffness with
+    many iterations only, and not for wires of few elements, where the chain's limit is elsewhere; and for each long
+    step that direct loses."""
     (across, along, bend, explicit), rows = read_maps(folders)
     most = max(_sweeps(one) for one in along.points)
     gated = [

@@ -50,13 +50,14 @@ def _is_bent(run: Run, error: float) -> str:
 
 
 def _lag(run: Run) -> float:
-    """How far the tip is behind at the end, of the turn that was asked for."""
+    """Return how far the tip is behind at the end, of the turn that was asked for."""
     twist = read_twist(run)
     return float(abs(twist.base[-1] - twist.tip[-1]) / twist.base[-1])
 
 
 def lost_turn(twist: Twist) -> bool:
-    """Whether a joint has gone over half a turn: its angle jumps by a whole one, and that of the wire with it."""
+    """Return whether a joint has gone over half a turn: its angle jumps by a whole one, and that of the wire with
+    it."""
     return bool(np.max(np.abs(np.diff(twist.base - twist.tip)), initial=0.0) > math.pi)
 
 
@@ -123,7 +124,7 @@ def turn_limits() -> dict[int, float]:
 
 @styled
 def draw_wire_maps(folders: Mapping[str, Path]) -> tuple[Figure, str]:
-    """One panel a map."""
+    """Return one panel a map."""
     found = {view.study: read_map(view, folders[view.study]) for view in VIEWS}
     damped = read_frontiers(folders[STUDIES[-1]])
     figure = new_figure(15.0, 6.6)
@@ -165,7 +166,7 @@ def _draw_damped(axes: Axes, found: Sequence[Frontier]) -> None:
 
 
 def _bounds(cells: Sequence[Cell], y: float | str, held: Sequence[str], gone: Sequence[str]) -> str:
-    """The largest x of some classes and the smallest of others, of one line."""
+    """Return the largest x of some classes and the smallest of others, of one line."""
     low = [cell.x for cell in cells if cell.y == y and cell.kind in held]
     high = [cell.x for cell in cells if cell.y == y and cell.kind in gone]
     return f"{number(max(low), 3) if low else '-'} to {number(min(high), 3) if high else '-'}"

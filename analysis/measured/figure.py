@@ -38,7 +38,7 @@ class Found:
     poses: tuple[Pose, ...]
 
     def bending(self, wire: str) -> np.ndarray:
-        """EI of each digitisation, N m2."""
+        """Return EI of each digitisation, N m2."""
         return np.array([fit["bendingStiffness"].value for fit in self.loops[wire]])
 
     def mean_miss(self, wire: str) -> float:
@@ -46,7 +46,7 @@ class Found:
         return float(np.mean([pose.miss for pose in self.poses if pose.wire == wire and pose.number in COUNTED]))
 
     def peers(self, wire: str) -> dict[str, float]:
-        """The authors' two simulations, over the same poses, mm."""
+        """Return the authors' two simulations, over the same poses, mm."""
         return {name: float(np.mean([pose.peers[name] for pose in self.poses
                                      if pose.wire == wire and pose.number in COUNTED])) for name in PEERS}
 
@@ -75,7 +75,7 @@ def _pose(wire: Wire, number: int, bending: float, torsion: float) -> Pose:
 
 @styled
 def draw(found: Found) -> tuple[Figure, str]:
-    """A row of loops and, for each wire of the poses, a row of these; and the caption."""
+    """Return a row of loops and, for each wire of the poses, a row of these; and the caption."""
     figure = new_figure(13.0, 11.5)
     rows = figure.subplots(3, 4)
     rows[0, 3].set_axis_off()
@@ -107,7 +107,7 @@ def draw(found: Found) -> tuple[Figure, str]:
 
 
 def as_markdown(found: Found) -> str:
-    """The tables of docs/measured.md."""
+    """Return the tables of docs/measured.md."""
     lines = ["| wire | EI of five digitisations, 1e-5 N m² | mean | spread | standard error | RMS, mm |",
              "|---|---|---|---|---|---|"]
     for name, fits in found.loops.items():

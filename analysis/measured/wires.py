@@ -51,21 +51,21 @@ WIRES = (Wire("white", 0.087 / 5.0, (970.0, 970.0, 980.0, 975.0, 980.0), 1.2e-4)
 
 
 def fit_loop(wire: Wire, number: int, with_curvature: bool = False) -> Identified:
-    """EI and the two angles of the clamps, and a curvature of the wire's own, from one digitisation."""
+    """Return EI and the two angles of the clamps, and a curvature of the wire's own, from one digitisation."""
     points = _table(f"loop_{wire.name}_{number}.csv")
     keys = ["bendingStiffness", "start.proximalFrame.z", "start.distalFrame.z"]
     return _identify(loop_scene(wire, points[-1]), "x_m,y_m", points, keys + ["restCurvature[0]"] * with_curvature)
 
 
 def fit_twist(wire: Wire, bending: float, angles: tuple[float, float]) -> Identified:
-    """GJ from the five twists, with the EI and the clamps of the loops."""
+    """Return GJ from the five twists, with the EI and the clamps of the loops."""
     scene = loop_scene(wire, np.array([-_SPAN, 0.0]), bending, angles)
     return _identify(scene, "critical distalRotation_deg", np.array(wire.twists)[:, None], ["torsionalStiffness"])
 
 
 def loop_scene(wire: Wire, end: np.ndarray, bending: float | None = None, angles: tuple[float, float] = (0.2, -0.2)
                ) -> dict[str, Any]:
-    """A loop at rest that starts as half of an ellipse.
+    """Return a loop at rest that starts as half of an ellipse.
 
     Parameters
     ----------
@@ -167,13 +167,13 @@ def _table(name: str) -> np.ndarray:
 
 
 def _in_plane(angle: float) -> list[float]:
-    """The frame along a direction of the plane whose first director is the plane's normal."""
+    """Return the frame along a direction of the plane whose first director is the plane's normal."""
     third, first = np.array([math.cos(angle), math.sin(angle), 0.0]), np.array([0.0, 0.0, 1.0])
     return Rotation.from_matrix(np.stack([first, np.cross(third, first), third], axis=1)).as_quat().tolist()
 
 
 def _turn(a: np.ndarray, b: np.ndarray) -> Rotation:
-    """The shortest turn of one direction into another."""
+    """Return the shortest turn of one direction into another."""
     return Rotation.from_quat(np.append(np.cross(a, b), 1.0 + a @ b))
 
 

@@ -35,8 +35,8 @@ class BarChain:
         return self.displacement + np.cos(np.multiply.outer(time, np.sqrt(squared))) @ amplitudes
 
     def first_mode(self) -> tuple[float, np.ndarray]:
-        """The slowest motion: its angular frequency, rad/s, and displacements of all masses, shape (n+1,), the largest
-        of them 1, where the last mass is half as heavy as the others, as lumping makes it."""
+        """Return the slowest motion: its angular frequency, rad/s, and displacements of all masses, shape (n+1,), the
+        largest of them 1, where the last mass is half as heavy as the others, as lumping makes it."""
         n = self.elements
         # u_j = sin(j a): k (2 - 2 cos a) = m w^2 in the middle, and at half the mass its own image about it, so that
         # the chain's end is the middle of one of 2 n springs: n a = pi/2.

@@ -12,7 +12,7 @@ from analysis.validation.wire import Wire
 
 
 def mode_numbers(count: int) -> np.ndarray:
-    """The first roots b = beta L of cos b cosh b = -1, shape (count,)."""
+    """Return the first roots b = beta L of cos b cosh b = -1, shape (count,)."""
 
     def condition(b: float) -> float:
         return math.cos(b) + 1.0 / math.cosh(b)
@@ -75,7 +75,7 @@ def mode_shape(number: float, arc: np.ndarray, derivative: int = 0) -> np.ndarra
 
 
 def _at_tip(b: float, c: float, growing: float, falling: float) -> float:
-    """The mode's value at the tip, before it is scaled."""
+    """Return the mode's value at the tip, before it is scaled."""
     return growing * math.exp(b) + falling * math.exp(-b) - math.cos(b) + c * math.sin(b)
 
 

@@ -61,7 +61,7 @@ class Pair:
     catheter: dict[str, Any] = field(default_factory=dict)
 
     def case(self, key: str) -> Case:
-        """Its rest shape, or what `more` makes of it."""
+        """Return its rest shape, or what `more` makes of it."""
         tube = 0.25 * math.pi * (_OUTER**4 - _LUMEN**4)
         solid = 0.25 * math.pi * _RADIUS**4
         return Case(key, {
@@ -95,7 +95,7 @@ def _sections(pieces: _Sections, turn: float) -> list[dict[str, Any]]:
 
 
 def even(n: int, ratio: float, nu: float, curvature: float, turn: float, lead: float = 0.0, **more: Any) -> Pair:
-    """Two tubes of one length and curvature, the inner one with a straight length before."""
+    """Return two tubes of one length and curvature, the inner one with a straight length before."""
     before = [(lead, 0.0)] if lead else []
     return Pair(n, n, [(1.0, curvature)], [*before, (1.0, curvature)], ratio, nu, lead, turn, more=more)
 
@@ -314,7 +314,7 @@ _TURNED = 1.2  # rad
 
 
 def _hooked(n: int, extension: float, key: str) -> Case:
-    """A wire with a hook through a catheter with a bent tip, a load on the outermost tip."""
+    """Return a wire with a hook through a catheter with a bent tip, a load on the outermost tip."""
     load = {"tipForce": (np.array([0.1, 0.2, -0.1]) * _BENDING / _LENGTH**2).tolist()}
     is_wire = extension > 1e-9
     return Pair(n, 3 * n // 2, [(0.6, 0.0), (0.4, 1.5)], [(1.27, 0.0), (0.23, 3.0)], 0.5, 0.3, 0.5 - extension,

@@ -35,7 +35,7 @@ _GATE = 2e-2
 
 
 def _knots(pitch: float) -> np.ndarray:
-    """A straight piece along z, then two turns of a helix that begins along it; units."""
+    """Return a straight piece along z, then two turns of a helix that begins along it; units."""
     angle = np.linspace(0.0, 4.0 * math.pi, 2 * _KNOTS + 1)
     helix = np.stack([_RADIUS * (np.cos(angle) - 1.0), _RADIUS * np.sin(angle), pitch * _RADIUS * angle], axis=1)
     # The helix's first tangent, (0, 1, pitch), is turned to z about x.

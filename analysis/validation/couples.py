@@ -26,7 +26,7 @@ _POINTS = np.linspace(0.0, 1.0, 301)
 
 
 def _methods(runs: Sequence[Run]) -> str:
-    """What the direct solver says, in each of these runs, of how it treated the couple."""
+    """Return what the direct solver says, in each of these runs, of how it treated the couple."""
     said = dict.fromkeys(solver_method(run) for run in runs if run.value("solver") == "direct")
     return (f"How the direct solver treated the couple, in its own words: {'; '.join(said)}. explicit: a damped motion "
             "under the couple as it turns, which needs no potential.")
@@ -36,7 +36,7 @@ _ANGLES = {"π/2": 0.5 * math.pi, "π": math.pi, "2π": 2.0 * math.pi}
 
 
 def _couple(wire: Wire, angle: float) -> list[float]:
-    """A couple that bends the wire by an angle towards -y: about +x along the tip's own axes."""
+    """Return a couple that bends the wire by an angle towards -y: about +x along the tip's own axes."""
     return [angle * wire.bending / wire.length, 0.0, 0.0]
 
 

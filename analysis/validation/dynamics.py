@@ -35,7 +35,8 @@ _TIMED_STEPS = 5000
 
 @lru_cache(maxsize=None)
 def release_reference() -> tuple[Release, float]:
-    """The reference motion, and how far it is from one with fewer modes (RMS, relative): its own error or more."""
+    """Return the reference motion, and how far it is from one with fewer modes (RMS, relative): its own error or
+    more."""
     fine = tip_motion(BASE, RELEASE_LOAD, RELEASE_TIME, _SAMPLES, modes=14)
     coarse = tip_motion(BASE, RELEASE_LOAD, RELEASE_TIME, _SAMPLES, modes=10)
     return fine, rms_error(coarse.across, fine.across)
@@ -55,7 +56,7 @@ def release_error(run: Run) -> float:
 
 
 def release(elements: int, time_step: float, method: Mapping[str, Any]) -> dict[str, Any]:
-    """A cantilever released from its rest shape under a tip load."""
+    """Return a cantilever released from its rest shape under a tip load."""
     force = RELEASE_LOAD * BASE.bending / BASE.length**2
     return {
         "numberRodElements": elements, "timeStep": time_step, "initialState": "equilibrium",
@@ -65,7 +66,7 @@ def release(elements: int, time_step: float, method: Mapping[str, Any]) -> dict[
 
 
 def timed_release(key: str, elements: int, time_step: float, method: Mapping[str, Any]) -> Case:
-    """The same motion for so many steps that the runner's first ones, still being compiled, do not count."""
+    """Return the same motion for so many steps that the runner's first ones, still being compiled, do not count."""
     steps = max(_TIMED_STEPS, round(RELEASE_TIME / time_step))
     parameters = {**release(elements, time_step, method), "maxSimulationSteps": steps, "logEvery": 1_000_000_000}
     return Case(f"{key}-timed", parameters, repeats=_REPEATS)

@@ -124,7 +124,7 @@ def column_load() -> float:
 
 
 def _solve(carried: Callable[[np.ndarray], np.ndarray], load: float, points: np.ndarray) -> PlaneShape:
-    """The shape under `load` times `carried`, from an unloaded rod through growing loads."""
+    """Return the shape under `load` times `carried`, from an unloaded rod through growing loads."""
     mesh = np.linspace(0.0, 1.0, 41)
     guess = np.zeros((4, mesh.size))
     guess[2] = mesh

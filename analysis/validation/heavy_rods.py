@@ -81,7 +81,7 @@ def _leaves_plane(sought: _Sought) -> Search:
 
 
 def _turned(distance: float) -> float:
-    """A distance on the other side of `LEFT`, by the same factor."""
+    """Return a distance on the other side of `LEFT`, by the same factor."""
     return LEFT**2 / max(distance, 1e-12)
 
 

@@ -39,7 +39,7 @@ class _Static:
 
 
 def _in_plane(tip: tuple[float, float]) -> np.ndarray:
-    """A tip along z and against y, over L, as a place in m."""
+    """Return a tip along z and against y, over L, as a place in m."""
     return BASE.length * np.array([0.0, -tip[1], tip[0]])
 
 

@@ -36,7 +36,7 @@ _BASE: dict[str, Any] = {
 
 
 def _twisted_start(elements: int, length: float) -> dict[str, Any]:
-    """A straight wire at rest whose elements are turned about it, evenly from 0 to a quarter turn."""
+    """Return a straight wire at rest whose elements are turned about it, evenly from 0 to a quarter turn."""
     angles = _TURN * np.arange(elements) / (elements - 1)
     return {
         "positions": [[0.0, 0.0, float(z)] for z in np.linspace(0.0, length, elements + 1)],

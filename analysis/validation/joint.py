@@ -34,14 +34,15 @@ _TURN = np.array([0.5, -0.9, 0.8])  # rad, about an axis that is none of the joi
 
 
 def _chain(turns: Sequence[Rotation], length: float, shifts: np.ndarray | None = None) -> dict[str, Any]:
-    """A start file: elements with these frames end to end from the origin, nodes shifted by shape (n+1, 3), m."""
+    """Return a start file: elements with these frames end to end from the origin, nodes shifted by shape (n+1, 3),
+    m."""
     sides = np.stack([turn.apply([0.0, 0.0, length]) for turn in turns])
     nodes = np.concatenate([np.zeros((1, 3)), np.cumsum(sides, axis=0)])
     return _start(nodes if shifts is None else nodes + shifts, turns)
 
 
 def _start(nodes: np.ndarray, turns: Sequence[Rotation]) -> dict[str, Any]:
-    """A start file of these places, m, shape (n+1, 3), and frames."""
+    """Return a start file of these places, m, shape (n+1, 3), and frames."""
     return {"positions": (nodes / scenes.UNIT).tolist(), "orientations": [turn.as_quat().tolist() for turn in turns],
             **scenes.CLAMPS_ALONG_Z}
 
@@ -103,7 +104,8 @@ _SIDES = tuple((axis, sign) for axis in range(3) for sign in (-1, 1))
 
 
 def _bent() -> tuple[list[Rotation], np.ndarray]:
-    """A bent, twisted and strained chain of three elements: frames, and shifts of the nodes from end to end, m."""
+    """Return a bent, twisted and strained chain of three elements: frames, and shifts of the nodes from end to end,
+    m."""
     turns = [Rotation.from_rotvec([0.3, -0.2, 0.4]), Rotation.from_rotvec([-0.4, 0.5, 0.9]),
              Rotation.from_rotvec([0.2, 0.7, -0.3])]
     wave = np.sin(1.0 + np.arange(3 * _NODES)).reshape(_NODES, 3)

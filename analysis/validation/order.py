@@ -45,7 +45,7 @@ def _order() -> Plan:
         }, start=start)
 
     def swing(run: Run) -> np.ndarray:
-        """The motion in the first mode."""
+        """Return the motion in the first mode."""
         return np.array([state.positions[:, 1] @ shape for state in read_states(run)])
 
     finest = case("finest", _FINEST, {"integrator": "esdirk4"})

@@ -91,7 +91,7 @@ class PlaneRod:
         raise ArithmeticError(f"no rest shape under the load {load}")
 
     def tip(self, a: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-        """The tip over L for coordinates of shape (modes, k)."""
+        """Return the tip over L for coordinates of shape (modes, k)."""
         angle = self._slopes @ a
         return self._weights @ np.cos(angle), self._weights @ np.sin(angle)
 

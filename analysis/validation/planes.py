@@ -51,7 +51,7 @@ def push(thrust: float) -> float:
 
 
 def _shape(thrust: float, arc: np.ndarray) -> np.ndarray:
-    """Its deflection over the clearance at s/L."""
+    """Return its deflection over the clearance at s/L."""
     k, free, a, b = column(thrust)
     s = k * np.minimum(free, np.minimum(arc, 1.0 - arc))
     return a * (1.0 - np.cos(s)) + b * (s - np.sin(s))

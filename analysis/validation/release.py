@@ -53,7 +53,7 @@ def tip_motion(wire: Wire, load: float, duration: float, samples: int, modes: in
 
 
 def cantilever(modes: int, rotary_inertia: float) -> PlaneRod:
-    """A rod that is clamped at its first end, in the slopes of so many linear modes."""
+    """Return a rod that is clamped at its first end, in the slopes of so many linear modes."""
     numbers = mode_numbers(modes)
 
     def series(arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

@@ -76,7 +76,7 @@ def read_report(folder: Path, checks: Sequence[Check] = ROWS) -> Report:
 
 
 def as_csv(report: Report) -> str:
-    """One line for each result, numbers to full precision."""
+    """Return one line for each result, numbers to full precision."""
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n")
     writer.writerow(COLUMNS)
@@ -90,7 +90,7 @@ def as_csv(report: Report) -> str:
 
 
 def as_markdown(report: Report) -> str:
-    """The same for people, with the pictures between the tables."""
+    """Return the same for people, with the pictures between the tables."""
     lines = [
         "# Validation of the material rod", "",
         f"{_counted(report)}. Errors are relative unless stated; cost is wall time in s, or per simulated second where "
@@ -115,14 +115,14 @@ def as_markdown(report: Report) -> str:
 
 
 def _counted(report: Report) -> str:
-    """How many lines there are of each kind."""
+    """Return how many lines there are of each kind."""
     passed, failed, shown, silent = report.counts
     return (f"{passed} lines passed, {failed} failed, {shown} have no gate and are only shown, {silent} say why a "
             "solver was not run")
 
 
 def _line(r: Result) -> str:
-    """A result as a row of a Markdown table; without unit or figure where it has none."""
+    """Return a result as a row of a Markdown table; without unit or figure where it has none."""
 
     def figure(value: float, digits: int, after: str = "") -> str:
         return f"{number(value, digits)}{after}" if math.isfinite(value) else "-"
@@ -144,7 +144,7 @@ def picture_name(check: Check) -> str:
 
 @styled
 def draw_finding(finding: Finding) -> Figure:
-    """A check's picture with the opening of its caption."""
+    """Return a check's picture with the opening of its caption."""
     figure = new_figure(finding.width, 4.2)
     finding.draw(figure)
     return captioned(figure, finding.caption)[0]

@@ -72,7 +72,7 @@ _GROWN = 1e-3  # of L: a twisted ring that is stable is off its plane by less, a
 
 
 def _wire(wire: Wire, ratio: float) -> Wire:
-    """The wire with this EI/GJ."""
+    """Return the wire with this EI/GJ."""
     return dataclasses.replace(wire, shear_modulus=0.5 * wire.youngs_modulus / ratio)
 
 
@@ -84,12 +84,12 @@ def _keys(wire: Wire, n: int, twist: float) -> dict[str, Any]:
 
 
 def _moving(damped: Mapping[str, Any], start: Mapping[str, Any], key: str, twist: float) -> Case:
-    """A ring with this twist, and the motion after it."""
+    """Return a ring with this twist, and the motion after it."""
     return Case(key, {**damped, "distalRotation": twist, "distalRampTime": _RAMP}, start=start)
 
 
 def _start(n: int) -> dict[str, Any]:
-    """A regular polygon in the y-z plane, pushed a little out of it between its clamps."""
+    """Return a regular polygon in the y-z plane, pushed a little out of it between its clamps."""
     middles = 2.0 * np.pi * (np.arange(n) + 0.5) / n
     sides = np.stack([np.sin(middles), np.cos(middles)], axis=1) * BASE.length / n
     places = np.concatenate([np.zeros((1, 2)), np.cumsum(sides, axis=0)]) / scenes.UNIT

@@ -33,7 +33,7 @@ Asking = Generator[Sequence[Case], Mapping[str, Run], _Found]  # asks for runs b
 
 
 def wire_parameters(wire: Wire) -> dict[str, Any]:
-    """The keys of a wire."""
+    """Return the keys of a wire."""
     return {
         "guidewireLength": wire.length / UNIT,
         "wireRadius": wire.radius,
@@ -45,12 +45,12 @@ def wire_parameters(wire: Wire) -> dict[str, Any]:
 
 
 def damping(solver: str, rate: float, step: float) -> dict[str, float]:
-    """The key that makes a force -rate M v (rate in 1/s) under a solver with this time step (s)."""
+    """Return the key that makes a force -rate M v (rate in 1/s) under a solver with this time step (s)."""
     return {"damping": min(1.0, rate * step)} if solver == "pbd" else {"massDamping": rate}
 
 
 def bend_parameters(bend: Bend) -> dict[str, Any]:
-    """The keys of a curved wire under a force at its tip, with a unit of 1 m."""
+    """Return the keys of a curved wire under a force at its tip, with a unit of 1 m."""
     return {
         **wire_parameters(bend.wire), "metresPerUnit": 1.0, "guidewireLength": bend.wire.length,
         "restCurvature": [bend.rod.curvature, 0.0, 0.0], "tipForce": bend.force.tolist(),
@@ -58,7 +58,7 @@ def bend_parameters(bend: Bend) -> dict[str, Any]:
 
 
 def at_rest(overrides: Mapping[str, Any]) -> dict[str, Any]:
-    """The rest shape, and nothing after it, by the direct solver."""
+    """Return the rest shape, and nothing after it, by the direct solver."""
     return {"initialState": "equilibrium", "maxSimulationSteps": 0, "logOrientations": True, **overrides}
 
 
@@ -136,7 +136,7 @@ def axial_substep(wire: Wire, elements: int) -> float:
 
 
 def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> dict[str, Any]:
-    """A start at rest in a mode of the cantilever.
+    """Return a start at rest in a mode of the cantilever.
 
     Parameters
     ----------
@@ -151,7 +151,7 @@ def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> di
 
 
 def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:
-    """A start at rest on a curve in the y-z plane, frames along the elements, clamps along z.
+    """Return a start at rest on a curve in the y-z plane, frames along the elements, clamps along z.
 
     Parameters
     ----------

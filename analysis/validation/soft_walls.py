@@ -88,13 +88,13 @@ def channel_thrust(foundation: float, points: int = 400) -> float:
 
 
 def _on_plane(stiffness: float, height: float, limit: float = 0.0, tip: float = _TIP) -> dict[str, Any]:
-    """A soft plane below the wire, at this height, m."""
+    """Return a soft plane below the wire, at this height, m."""
     return {"shape": "plane", "point": [0.0, height / scenes.UNIT, 0.0], "normal": [0.0, 1.0, 0.0],
             "wallStiffness": stiffness, "softLimit": limit, "tipLength": tip}
 
 
 def _still(n: int, vessel: Mapping[str, Any], rate: float, steps: int, step: float, **more: Any) -> dict[str, Any]:
-    """A damped motion that comes to rest on a wall."""
+    """Return a damped motion that comes to rest on a wall."""
     return {**scenes.wire_parameters(_WIRE), "numberRodElements": n, "integrator": "implicitEuler", "timeStep": step,
             "maxSimulationSteps": steps, "logEvery": steps, "massDamping": rate, "deltaThreshold": 0.0,
             "vessel": vessel, "logContacts": True, "solverTolerance": 1e-9, **more}
@@ -156,7 +156,7 @@ def _tip(counts: Sequence[int]) -> Plan:
 
 
 def pictures_of(results: Sequence[Result], unit: str) -> Any:
-    """A drawing of values beside their references."""
+    """Return a drawing of values beside their references."""
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         axes.plot([r.reference for r in results], "_", markersize=18, color="0.6", label="reference")
@@ -298,7 +298,7 @@ def column(thrust: float, foundation: float) -> tuple[float, float]:
 
 
 def _column_case(name: str, thrust: float, n: int, **wall: float) -> Case:
-    """A column in a tube, in the plane in which it starts; pi^2 EI/L^2."""
+    """Return a column in a tube, in the plane in which it starts; pi^2 EI/L^2."""
     wire = _THIN
     slow = 22.4 / wire.time_unit
     s = np.linspace(0.0, 1.0, n + 1)

@@ -83,7 +83,8 @@ class Bend:
 
 
 def bathe_bolourchi() -> Bend:
-    """The bend of Bathe and Bolourchi (1979): 45 degrees of radius 100, a unit square section, E = 1e7, nu = 0, under
+    """Return the bend of Bathe and Bolourchi (1979): 45 degrees of radius 100, a unit square section, E = 1e7, nu = 0,
+    under
     600 across its plane. A round wire of r^2 = 1/3 and E = 3e7/pi has the square's EA, GA, EI and GJ."""
     young = 3e7 / math.pi
     wire = Wire(25.0 * math.pi, math.sqrt(1.0 / 3.0), young, 0.5 * young, 1.0, 1.0)

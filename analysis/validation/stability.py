@@ -137,7 +137,7 @@ def pushed(
 
 
 def limit_line(what: str, expected: float, found: Limit, gate: float, unit: str) -> Result:
-    """The direct solver's line of `limit`; it says how many searches for a rest shape gave up."""
+    """Return the direct solver's line of `limit`; it says how many searches for a rest shape gave up."""
     silent = sum(math.isnan(distance) for distance in found.seen.values())
     if silent:
         what += f" ({silent} of {len(found.seen)} searches found no rest shape)"
@@ -145,7 +145,7 @@ def limit_line(what: str, expected: float, found: Limit, gate: float, unit: str)
 
 
 def pushed_line(what: str, solver: str, expected: float, found: Limit, gate: float, unit: str) -> Result:
-    """The line of `pushed`: value in the middle of the interval, error to its farther end."""
+    """Return the line of `pushed`: value in the middle of the interval, error to its farther end."""
     if found.low < found.high:
         ends = f"between {found.low:g} and {found.high:g} of the reference"
     else:
@@ -194,7 +194,7 @@ def _off_axis(wire: Wire, run: Run) -> float:
 
 
 def passed_through_itself(run: Run) -> bool:
-    """Whether the run failed because the rod, out of its first shape, came back to it with fewer turns."""
+    """Return whether the run failed because the rod, out of its first shape, came back to it with fewer turns."""
     return run.outcome == "failed" and "passed through itself" in (run.summary or {}).get("reason", "")
 
 
@@ -284,7 +284,7 @@ _CLAMPED = 22.373  # omega L^2 sqrt(rho A/EI) of a clamped-clamped beam: only se
 
 
 def _hump(wire: Wire, n: int) -> dict[str, Any]:
-    """A start between two clamps, off the axis by `PUSH` in the middle."""
+    """Return a start between two clamps, off the axis by `PUSH` in the middle."""
     arc = np.linspace(0.0, 1.0, n + 1)
     return scenes.plane_start(wire.length * arc, 0.5 * PUSH * wire.length * (1.0 - np.cos(2.0 * np.pi * arc)))
 

@@ -53,13 +53,13 @@ class State:
 
 
 def read_states(run: Run) -> list[State]:
-    """Every logged state of a run; the run must log all spheres."""
+    """Return every logged state of a run; the run must log all spheres."""
     metres = _metres(run)
     return [_state(entry, metres) for _, entry in read_entries(run.folder)]
 
 
 def last_state(run: Run) -> State:
-    """The state at the end of a run."""
+    """Return the state at the end of a run."""
     entry = None
     for _, entry in read_entries(run.folder):
         pass
@@ -86,12 +86,12 @@ def reactions(run: Run) -> np.ndarray:
 
 
 def solver_method(run: Run) -> str:
-    """How the solver says that it found the end of a run, in its own words."""
+    """Return how the solver says that it found the end of a run, in its own words."""
     return str(run.summary["solver"]["method"])
 
 
 def solver_report(run: Run, name: str) -> float | np.ndarray:
-    """What the solver said of itself at the end of a run: a number, or a vector of shape (3,)."""
+    """Return what the solver said of itself at the end of a run: a number, or a vector of shape (3,)."""
     value = run.summary["solver"][name]
     if value is None:
         return float("nan")

@@ -85,7 +85,7 @@ def catenary_sag(wire: Wire, span: float) -> float:
 
 
 def stiff_cable_sag(wire: Wire, span: float) -> float:
-    """The same with its bending stiffness, m: half of it as a boundary value problem.
+    """Return the same with its bending stiffness, m: half of it as a boundary value problem.
 
     EI t'' = -(1 + e) (V cos t - H sin t) with V = -w (L/2 - s) and e = (H cos t + V sin t)/EA; t' = 0 at the pin.
     """
@@ -230,7 +230,8 @@ def holding_overhang() -> float:
 
 
 def _capstan(n: int, overhang: float) -> Case:
-    """The rope starts as it hangs in balance, its tension on the drum by a part m of the friction's coefficient."""
+    """Return the rope starts as it hangs in balance, its tension on the drum by a part m of the friction's
+    coefficient."""
     weight, heavy = _ROPE.line_density * _GRAVITY, overhang * holding_overhang()
     radii = _DRUM + _ROPE.radius
     # The chord of any element, stretched, clears the drum.
@@ -269,7 +270,7 @@ def _capstan(n: int, overhang: float) -> Case:
 
 
 def _slide(run: Run) -> float:
-    """How far the light end rose, m."""
+    """Return how far the light end rose, m."""
     height = scenes.UNIT * read_log(run.folder, spheres=(0,)).positions[:, 0, 1]
     return float(np.max(height) - height[0])
 

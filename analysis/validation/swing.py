@@ -17,7 +17,7 @@ from analysis.validation.wire import Wire
 
 @lru_cache(maxsize=None)
 def tip_motion(wire: Wire, gravity: float, duration: float, samples: int, modes: int = 6) -> Release:
-    """The tip's motion; `across` is positive downwards.
+    """Return the tip's motion; `across` is positive downwards.
 
     Parameters
     ----------
@@ -33,7 +33,7 @@ def tip_motion(wire: Wire, gravity: float, duration: float, samples: int, modes:
 
 
 def pendulum(wire: Wire, gravity: float, modes: int) -> PlaneRod:
-    """The rod in a series of cosines."""
+    """Return the rod in a series of cosines."""
     waves = np.pi * np.arange(modes)
 
     def series(arc: np.ndarray) -> tuple[np.ndarray, np.ndarray]:

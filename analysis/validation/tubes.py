@@ -24,7 +24,7 @@ def in_vessel(wire: Wire, vessel: Mapping[str, Any], step: float, steps: int, **
 
 
 def tube(knots: Sequence[Sequence[float]], radius: float | list[float], friction: float = 0.0) -> dict[str, Any]:
-    """A vessel: an open tube along a line of knots; units."""
+    """Return a vessel: an open tube along a line of knots; units."""
     places = [[float(x) for x in knot] for knot in knots]
     return {"shape": "tube", "knots": places, "radius": radius, "openStart": True, "openEnd": True,
             "frictionCoefficient": friction}

@@ -66,7 +66,7 @@ def _balance(wire: Wire, state: State) -> _Balance:
 
 
 def _pendulum(wire: Wire, step: float, method: Mapping[str, Any]) -> dict[str, Any]:
-    """A wire on a ball joint, let go level, for 2 s."""
+    """Return a wire on a ball joint, let go level, for 2 s."""
     return {
         **scenes.wire_parameters(wire), "proximalEnd": "held", "gravity": [0.0, -_GRAVITY, 0.0], "timeStep": step,
         "maxSimulationSteps": round(2.0 / step), "logEvery": round(2.0 / step), "logOrientations": True, **method,
@@ -74,7 +74,7 @@ def _pendulum(wire: Wire, step: float, method: Mapping[str, Any]) -> dict[str, A
 
 
 def _spin(n: int, step: float, method: Mapping[str, Any]) -> tuple[dict[str, Any], dict[str, Any]]:
-    """A free wire that turns about its middle for 1 s, and its start."""
+    """Return a free wire that turns about its middle for 1 s, and its start."""
     places = np.linspace(0.0, BASE.length, n + 1)
     speeds = _RATE * (0.5 * BASE.length - places) / scenes.UNIT
     start = {
@@ -102,7 +102,7 @@ def _pendulum_energy(wire: Wire, run: Run) -> float:
 
 
 def _errors(names: Sequence[str], errors: Mapping[tuple[str, str], float]) -> Callable[[Figure], None]:
-    """A row for each name with the errors of all schemes, by (name, scheme)."""
+    """Return a row for each name with the errors of all schemes, by (name, scheme)."""
 
     def draw(figure: Figure) -> None:
         axes = figure.add_subplot()
@@ -170,7 +170,7 @@ _STIFF_STEPS = (150, 300, 600, 1200)
 
 
 def _tumble(wire: Wire, steps: int, scheme: str) -> tuple[dict[str, Any], int, dict[str, Any]]:
-    """A free wire that tumbles in space while it bends and twists."""
+    """Return a free wire that tumbles in space while it bends and twists."""
     n = 6
     fraction = np.linspace(-0.5, 0.5, n + 1)
     middle = 0.5 * (fraction[1:] + fraction[:-1])
@@ -253,7 +253,7 @@ class _Problem:
     speed: float = 0.0
 
     def case(self, key: str, scheme: str, unit: float) -> Case:
-        """Its run with a scheme."""
+        """Return its run with a scheme."""
         step = unit * _STAGES[scheme]
         driven = {"displacementPerStep": self.speed * step / scenes.UNIT} if self.speed else {}
         return Case(key, {**self.scene, **driven, "integrator": scheme, "timeStep": step, "logSpheres": "last",

@@ -84,7 +84,7 @@ class LocalisedHelix:
 
 
 def localised_helix(bending: float, torsion: float, length: float, shortening: float, turn: float) -> LocalisedHelix:
-    """The localised helix of a rod whose ends were brought closer and turned by `turn` rad.
+    """Return the localised helix of a rod whose ends were brought closer and turned by `turn` rad.
 
     `bending` B and `torsion` C in one unit of stiffness, `length` and `shortening` in one unit of length.
     """

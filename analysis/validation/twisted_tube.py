@@ -59,7 +59,7 @@ def middle(moment: float) -> tuple[complex, complex, float]:
 
 
 def _terms(moment: float, s: float, order: int) -> np.ndarray:
-    """A derivative of 1, s, s^2 and exp(i M s)."""
+    """Return a derivative of 1, s, s^2 and exp(i M s)."""
     i, e = 1j * moment, np.exp(1j * moment * s)
     powers = [[1.0, s, s**2], [0.0, 1.0, 2.0 * s], [0.0, 0.0, 2.0], [0.0, 0.0, 0.0]][order]
     return np.array([*powers, i**order * e], dtype=complex)
@@ -78,7 +78,7 @@ class Pair:
 
 
 def pair(moment: float, guess: tuple[float, float], touches: bool = False) -> Pair:
-    """The rod that touches at two points, with `touches` in its middle too.
+    """Return the rod that touches at two points, with `touches` in its middle too.
 
     Raises ArithmeticError where there is none near the guess of place and angle.
     """

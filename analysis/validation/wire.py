@@ -27,7 +27,7 @@ class Wire:
 
     @classmethod
     def of_stiffness(cls, length: float, radius: float, bending: float, torsion: float, density: float) -> Wire:
-        """The wire of this radius whose EI and GJ are given."""
+        """Return the wire of this radius whose EI and GJ are given."""
         second = 0.25 * math.pi * radius**4
         return cls(length, radius, bending / second, 0.5 * torsion / second, density)
 

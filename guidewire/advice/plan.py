@@ -99,7 +99,7 @@ class AdviceRequest:
     quantity: Quantity = Quantity()
 
     def has_converged(self, reference_error: float) -> bool:
-        """Whether the reference is known well enough to say what meets the error."""
+        """Return whether the reference is known well enough to say what meets the error."""
         return self.error is None or reference_error <= self.error
 
 
@@ -117,7 +117,7 @@ def by_work(tried: Tried) -> float:
 
 
 def choose(searched: Sequence[Tried], wish: AdviceRequest, cost: Cost = by_time) -> Tried | None:
-    """The cheapest trial that meets an error, or the most accurate one within the budget of a step."""
+    """Return the cheapest trial that meets an error, or the most accurate one within the budget of a step."""
     if wish.budget is None:
         good = [tried for tried in searched if tried.error <= wish.error and math.isfinite(cost(tried))]
         return min(good, key=cost, default=None)
@@ -128,8 +128,8 @@ def choose(searched: Sequence[Tried], wish: AdviceRequest, cost: Cost = by_time)
 
 def check_of(file: Path, wish: AdviceRequest, cost: Cost = by_time, repeats: int = REPEATS,
              overrides: Mapping[str, Any] = MappingProxyType({})) -> Check[Advice]:
-    """What makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone. Overrides
-    are which override the file's values, dotted keys (`vessel.radius`) too."""
+    """Return what makes the runs of a scene's advice and reads them; without repeats the cost can be counts alone.
+    Overrides are which override the file's values, dotted keys (`vessel.radius`) too."""
     return Check(file.stem, "Advice", f"advice for {file.name}", partial(_plan, wish, cost, repeats, overrides),
                  str(file.resolve()))
 
@@ -246,8 +246,8 @@ def _with_times(tried: Tried, repeats: Sequence[Run]) -> Tried:
 
 
 def _shortlist(keys: Sequence[str], found: Mapping[str, Tried], wish: AdviceRequest) -> list[str]:
-    """What is worth timing: of those that meet the error the ones of least work, or, with a budget, those of least
-    error among ever less work."""
+    """Return what is worth timing: of those that meet the error the ones of least work, or, with a budget, those of
+    least error among ever less work."""
     if wish.budget is None:
         good = sorted((key for key in keys if found[key].error <= wish.error), key=lambda key: found[key].work)
         return good[:_TIMED]

@@ -96,7 +96,7 @@ class Quantity:
             raise LogError(f"--of {self.of} needs walls, and the scene has none")
 
     def scale(self, values: np.ndarray) -> float:
-        """What errors are a part of, of the reference's values."""
+        """Return what errors are a part of, of the reference's values."""
         base = values - values[0] if self.is_place else values
         return float(np.sqrt(np.mean(self._counted(base) ** 2)))
 
@@ -140,7 +140,7 @@ class Quantity:
 
 
 def number_of(summary: Mapping[str, Any], name: str) -> float:
-    """A number of a summary by its name, with points between.
+    """Return a number of a summary by its name, with points between.
 
     Raises
     ------

@@ -44,7 +44,7 @@ class Ending:
 
 
 def trials_of(run: Run, elements: bool) -> list[Trial]:
-    """The settings with which a run is repeated: half the time step and, if asked for, twice the elements."""
+    """Return the settings with which a run is repeated: half the time step and, if asked for, twice the elements."""
     return finer(run.parameters, elements)
 
 
@@ -77,7 +77,7 @@ def differences(run: Run, repeats: Mapping[str, Run]) -> list[str]:
 
 
 def as_markdown(run: Run, repeats: Mapping[str, Run]) -> str:
-    """One table: the run, and what is other in its repeats."""
+    """Return one table: the run, and what is other in its repeats."""
     end, others = ending_of(run), {name: ending_of(repeat) for name, repeat in repeats.items()}
     rows = [["", "this run", *others], ["---"] * (2 + len(others)),
             ["outcome", end.outcome, *(other.outcome for other in others.values())],

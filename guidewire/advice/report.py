@@ -16,7 +16,7 @@ _PATHS = ("startFile", "logFilePath")
 
 
 def as_markdown(name: str, wish: AdviceRequest, advice: Advice) -> str:
-    """The evidence: what each part costs and moves, and every setting that was searched."""
+    """Return the evidence: what each part costs and moves, and every setting that was searched."""
     said = wish.quantity.said
     asked = f"an error of at most {percent(wish.error)} in {said}" if wish.budget is None else \
         f"the least error in {said} within {number(wish.budget)} ms a step"
@@ -46,7 +46,7 @@ def as_markdown(name: str, wish: AdviceRequest, advice: Advice) -> str:
 
 
 def verdict(wish: AdviceRequest, advice: Advice) -> str:
-    """One line: what to take."""
+    """Return one line: what to take."""
     taken = advice.taken
     if not wish.has_converged(advice.reference_error):
         return (f"Not advised: {wish.quantity.said} has not converged. The finest run made "
@@ -67,8 +67,8 @@ def verdict(wish: AdviceRequest, advice: Advice) -> str:
 
 
 def parameters(advice: Advice, scene: Mapping[str, Any], folder: Path) -> str:
-    """The parameter file of the settings to take, to stand in `folder`: effective values, with the scene's own log and
-    end. Files that it names count from there."""
+    """Return the parameter file of the settings to take, to stand in `folder`: effective values, with the scene's own
+    log and end. Files that it names count from there."""
     own = ("deltaThreshold", "logSpheres", "logEvery", "logOrientations")
     values = {**advice.taken.parameters, **{key: scene[key] for key in own if key in scene}}
     for key in _PATHS:
@@ -94,7 +94,7 @@ def _coarser(wish: AdviceRequest) -> str:
 
 
 def _known(advice: Advice) -> str:
-    """What lies between the reference and coarser ones."""
+    """Return what lies between the reference and coarser ones."""
     known = advice.reference_error
     return f"are up to {percent(known)}" if math.isfinite(known) else "are, as one run failed, an unknown distance"
 

@@ -92,7 +92,8 @@ class Centreline:
         return float(np.linalg.norm(np.diff(self.points[indices], axis=0), axis=1).sum())
 
     def inner(self) -> np.ndarray:
-        """(k,): points farther than a radius from every closed end, where the sphere is bounded by the end as well."""
+        """Return (k,): points farther than a radius from every closed end, where the sphere is bounded by the end as
+        well."""
         inner = np.ones(len(self.points), dtype=bool)
         for end in self.ends:
             if not end.is_open:
@@ -203,7 +204,8 @@ class _Builder:
                    for loop in loops for point in loop.points)
 
     def _joined(self, loop: Loop) -> Loop:
-        """A loop whose two sides in the tree are next to each other: what the tree lacks between them is a branch."""
+        """Return a loop whose two sides in the tree are next to each other: what the tree lacks between them is a
+        branch."""
         one, other = loop.points
         sides = np.array([self._points[one], self._points[other]])
         away = np.linalg.norm(sides - loop.place, axis=1)
@@ -242,7 +244,7 @@ class _Builder:
         return kept
 
     def _is_at_rim(self, chain: list[int]) -> bool:
-        """Whether a path ends near a rim: beyond one that is not plane the wall of one side goes on."""
+        """Return whether a path ends near a rim: beyond one that is not plane the wall of one side goes on."""
         tip = self._graph.centres[chain[-1]]
         return any(np.linalg.norm(tip - rim.centre) < _AT_RIM * rim.radius for rim in self._rims if rim is not None)
 
@@ -265,7 +267,7 @@ class _Builder:
         return kept
 
     def _trim(self, chain: list[int], rim: Rim | None) -> list[int]:
-        """A path from the root; without its last piece, into the corner of a blind end."""
+        """Return a path from the root; without its last piece, into the corner of a blind end."""
         return chain if rim is not None else self._without_corner(chain)
 
     def _without_corner(self, chain: list[int]) -> list[int]:
@@ -308,7 +310,7 @@ class _Builder:
 
     def _smooth(self, line: np.ndarray, radii: np.ndarray, tail: Rim | None, head: Rim | None,
                 is_free: tuple[bool, bool], is_root: bool) -> tuple[np.ndarray, np.ndarray]:
-        """The points of a piece in even steps, each where the inscribed sphere is largest, and their radii."""
+        """Return the points of a piece in even steps, each where the inscribed sphere is largest, and their radii."""
         step = _STEP * float(np.median(radii))
         # A rim bounds no sphere, so its piece is centred with the others; a blind end's wall is met afterwards.
         if is_free[1] and tail is not None:
@@ -358,7 +360,7 @@ class _Builder:
         return int(after[np.argmax(beyond[after])])
 
     def _end(self, k: int, point: int) -> End:
-        """An end, not numbered yet; a closed one without a name."""
+        """Return an end, not numbered yet; a closed one without a name."""
         rim = self._rims[k]
         points, parents = self._points, self._parents
         path = [point]
@@ -381,7 +383,8 @@ class _Builder:
                    rim is None and self._is_sac(point))
 
     def _is_sac(self, point: int) -> bool:
-        """Whether a closed end is a dome: behind its widest place, and near it, there is a much narrower neck."""
+        """Return whether a closed end is a dome: behind its widest place, and near it, there is a much narrower
+        neck."""
         path, arc = [point], [0.0]
         widest = 0.0
         while len(path) < 2 or arc[-1] < _SAC * widest:
@@ -414,7 +417,7 @@ class _Builder:
 
 
 def _filtered(line: np.ndarray) -> np.ndarray:
-    """A line smoothed along itself, its ends kept."""
+    """Return a line smoothed along itself, its ends kept."""
     if len(line) < 5:
         return line
     # Reflected through its ends, so that a line keeps its direction there.

@@ -19,7 +19,7 @@ _SCHEMA = ("https://raw.githubusercontent.com/slicer/slicer/master/Modules/Loada
 
 
 def centreline_names(axes: Axes) -> list[str]:
-    """What is written: 3D Slicer needs to know where the axes point."""
+    """Return what is written: 3D Slicer needs to know where the axes point."""
     return [LINES, MARKUPS] if axes.is_known else [LINES]
 
 

@@ -117,7 +117,7 @@ def _taking(arguments: argparse.Namespace) -> Taking:
 
 
 def _number(arguments: argparse.Namespace) -> int:
-    """The seed of a vessel that is made."""
+    """Return the seed of a vessel that is made."""
     if arguments.seed is not None and not isinstance(arguments.seed, int):
         raise AnatomyError("--seed X,Y,Z is a point of a file; of a vessel that is made it is a whole number above 0")
     return arguments.seed or 1

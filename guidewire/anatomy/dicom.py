@@ -112,7 +112,7 @@ def read_dicom(path: Path, series: str | None = None) -> Voxels:
 
 
 def _head(file: Path) -> Any | None:
-    """What a file says of itself, without its voxels; None where it is no DICOM file."""
+    """Return what a file says of itself, without its voxels; None where it is no DICOM file."""
     import pydicom
 
     try:
@@ -154,7 +154,7 @@ def _check_kind(head: Any) -> None:
 
 
 def _stacks(folder: Path) -> tuple[list[_Stack], list[str]]:
-    """The stacks of slices in a folder, numbered; and why others are none."""
+    """Return the stacks of slices in a folder, numbered; and why others are none."""
     found = (Path(place) / name for place, _, names in os.walk(folder) for name in names)
     files = sorted(itertools.islice(found, _MOST_FILES + 1))
     if len(files) > _MOST_FILES:
@@ -187,7 +187,7 @@ def _stacks(folder: Path) -> tuple[list[_Stack], list[str]]:
 
 
 def _chosen(stacks: list[_Stack], others: list[str], series: str | None) -> _Stack:
-    """The stack that is asked for, or else the only one that is a volume."""
+    """Return the stack that is asked for, or else the only one that is a volume."""
     listed = "; ".join(f"--series {stack.number}: {stack}" for stack in stacks[:_LISTED])
     listed += "; .." if len(stacks) > _LISTED else ""
     if not stacks:
@@ -207,7 +207,7 @@ def _chosen(stacks: list[_Stack], others: list[str], series: str | None) -> _Sta
 
 
 def _in_order(stack: _Stack) -> tuple[list[_Slice], np.ndarray]:
-    """The slices along their normal, and the step (3,) from one to the next.
+    """Return the slices along their normal, and the step (3,) from one to the next.
 
     Raises
     ------
@@ -247,7 +247,7 @@ def _in_order(stack: _Stack) -> tuple[list[_Slice], np.ndarray]:
 
 
 def _values(pydicom: Any, stack: _Stack, slices: list[_Slice]) -> tuple[np.ndarray, str]:
-    """(i, j, k): rescaled by slope and intercept; and a sum of the files' bytes."""
+    """Return (i, j, k): rescaled by slope and intercept; and a sum of the files' bytes."""
     sizes = [int(stack.head.Columns), int(stack.head.Rows), len(slices)]
     check_count(sizes)
     values, total = None, hashlib.sha256()

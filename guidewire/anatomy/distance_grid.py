@@ -14,7 +14,8 @@ _SAMPLES = 8000  # points at which a displacement is measured
 
 
 def remesh(mesh: Mesh, rims: list[Rim], spacing: float) -> tuple[Mesh, float]:
-    """The outer boundary of what a surface encloses, open at its rims, and how far it is from the surface at most.
+    """Return the outer boundary of what a surface encloses, open at its rims, and how far it is from the surface at
+    most.
 
     Parameters
     ----------
@@ -48,8 +49,8 @@ def remesh(mesh: Mesh, rims: list[Rim], spacing: float) -> tuple[Mesh, float]:
 
 
 def _without_lid(made: Mesh, closed: Mesh, count: int) -> Mesh:
-    """A remeshed surface without the piece nearest to a lid, the triangles of the surface before from `count` on: at a
-    rim out of a plane any plane would take a piece of the wall as well."""
+    """Return a remeshed surface without the piece nearest to a lid, the triangles of the surface before from `count`
+    on: at a rim out of a plane any plane would take a piece of the wall as well."""
     _, triangles = nearest(made.corners.mean(axis=1), closed)
     lid = np.flatnonzero(triangles >= count)
     kept = np.ones(len(made.triangles), dtype=bool)
@@ -60,8 +61,8 @@ def _without_lid(made: Mesh, closed: Mesh, count: int) -> Mesh:
 
 
 def displacement(before: Mesh, after: Mesh, places: np.ndarray | None = None, reach: float = np.inf) -> float:
-    """The largest distance of the new wall from the old one, and of the old one where it is outside of the new one;
-    both closed. With places (k, 3), within a distance of them."""
+    """Return the largest distance of the new wall from the old one, and of the old one where it is outside of the new
+    one; both closed. With places (k, 3), within a distance of them."""
     from vtkmodules.vtkFiltersCore import vtkImplicitPolyDataDistance
 
     def sample(points: np.ndarray) -> np.ndarray:
@@ -124,7 +125,7 @@ def _sides(mesh: Mesh, points: np.ndarray, nodes: np.ndarray, sign: np.ndarray, 
 
 
 def cut_open(mesh: Mesh, point: np.ndarray, normal: np.ndarray, reach: float) -> Mesh:
-    """The mesh without what is behind a plane, as far as that is one piece near a point; normals as before."""
+    """Return the mesh without what is behind a plane, as far as that is one piece near a point; normals as before."""
     from vtkmodules.vtkCommonDataModel import vtkPlane
     from vtkmodules.vtkFiltersCore import vtkClipPolyData, vtkTriangleFilter
 
@@ -169,7 +170,7 @@ def cut_open(mesh: Mesh, point: np.ndarray, normal: np.ndarray, reach: float) ->
 
 
 def _sampled(mesh: Mesh, step: float) -> np.ndarray:
-    """Points on all triangles, no farther apart than a step."""
+    """Return points on all triangles, no farther apart than a step."""
     corners = mesh.corners
     longest = np.linalg.norm(corners - np.roll(corners, 1, axis=1), axis=2).max(axis=1)
     parts = np.maximum(1, np.ceil(longest / step).astype(int))

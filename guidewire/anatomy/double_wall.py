@@ -23,7 +23,7 @@ _LARGEST = 2**28  # capacity of an edge of the graph; the flow is computed in in
 
 
 def inner_wall(mesh: Mesh) -> tuple[Mesh, float]:
-    """The largest piece of the inner surface, and the median thickness of the wall."""
+    """Return the largest piece of the inner surface, and the median thickness of the wall."""
     normals = _normals(mesh)
     enclosed = _enclosure(mesh, normals)
     thickness, behind = cast_rays(mesh, np.arange(len(normals)), -normals)
@@ -37,8 +37,8 @@ def inner_wall(mesh: Mesh) -> tuple[Mesh, float]:
 
 
 def are_folds(mesh: Mesh, pairs: np.ndarray, thickness: float) -> bool:
-    """Whether the triangles of each of the pairs (k, 2) that cross are so near each other along the surface that it is
-    one wall that is folded there."""
+    """Return whether the triangles of each of the pairs (k, 2) that cross are so near each other along the surface that
+    it is one wall that is folded there."""
     if not len(pairs):
         return True
     one, other = Edges.of(mesh).pairs().T
@@ -50,8 +50,8 @@ def are_folds(mesh: Mesh, pairs: np.ndarray, thickness: float) -> bool:
 
 
 def _least_border(mesh: Mesh, evidence: np.ndarray, cost: float) -> np.ndarray:
-    """(t,): the triangles chosen so that the sum of the evidence (t,) over them, less the border's length times a cost,
-    is the largest."""
+    """Return (t,): the triangles chosen so that the sum of the evidence (t,) over them, less the border's length times
+    a cost, is the largest."""
     edges = Edges.of(mesh)
     ends = mesh.vertices[edges.ends[edges.counts == 2]]
     one, other = edges.pairs().T
@@ -73,14 +73,14 @@ def _least_border(mesh: Mesh, evidence: np.ndarray, cost: float) -> np.ndarray:
 
 
 def _normals(mesh: Mesh) -> np.ndarray:
-    """(t, 3): of length 1, out of what the surface encloses."""
+    """Return (t, 3): of length 1, out of what the surface encloses."""
     normals = mesh.area_vectors()
     normals /= np.maximum(np.linalg.norm(normals, axis=1), 1e-300)[:, None]
     return normals * (1.0 if signed_volume(mesh) > 0.0 else -1.0)
 
 
 def _enclosure(mesh: Mesh, normals: np.ndarray) -> np.ndarray:
-    """(t,): of a cone of rays out of each triangle the fraction that meets the mesh."""
+    """Return (t,): of a cone of rays out of each triangle the fraction that meets the mesh."""
     u = np.cross(normals, np.eye(3)[np.argmin(np.abs(normals), axis=1)])
     u /= np.maximum(np.linalg.norm(u, axis=1), 1e-300)[:, None]
     w = np.cross(normals, u)

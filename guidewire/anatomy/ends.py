@@ -21,7 +21,7 @@ _SIZES = (0.5, 1.7)  # radius of a cap over that of the lumen
 
 
 def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces | None = None) -> Repaired:
-    """The vessel without its caps, and without the last radius of other branches that end closed.
+    """Return the vessel without its caps, and without the last radius of other branches that end closed.
 
     numbers : of the ends to open, as a report without opened ones has them; None: all but domes of sacs.
     faces : of the wall, where its file numbers them: a face over an end is its cap; else a flat one with a sharp rim
@@ -54,19 +54,19 @@ def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces
 
 
 def _face_over(mesh: Mesh, end: End, faces: Faces) -> np.ndarray | None:
-    """(t,): the triangles of the face over an end; None where that is not of the size of a cap."""
+    """Return (t,): the triangles of the face over an end; None where that is not of the size of a cap."""
     own = faces.of(mesh)
     cap = own == own[int(nearest(end.centre[None], mesh)[1][0])]
     return cap if _is_as_wide(float(np.linalg.norm(mesh.area_vectors()[cap], axis=1).sum()), end) else None
 
 
 def _is_as_wide(area: float, end: End) -> bool:
-    """Whether an area is that of a cap over an end."""
+    """Return whether an area is that of a cap over an end."""
     return _SIZES[0] * end.radius < np.sqrt(area / np.pi) < _SIZES[1] * end.radius
 
 
 def _flat_cap(mesh: Mesh, end: End) -> np.ndarray | None:
-    """(t,): the triangles of a flat cap with a sharp rim over an end; None where there is none."""
+    """Return (t,): the triangles of a flat cap with a sharp rim over an end; None where there is none."""
     normals = mesh.area_vectors()
     areas = np.linalg.norm(normals, axis=1)
     normals = normals / np.maximum(areas, 1e-300)[:, None]

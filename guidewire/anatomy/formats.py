@@ -29,12 +29,12 @@ OTHERS = {
 
 
 def is_anatomy(file: Path) -> bool:
-    """Whether a path is named as a file that `guidewire.py anatomy` reads, and is no folder."""
+    """Return whether a path is named as a file that `guidewire.py anatomy` reads, and is no folder."""
     return not file.is_dir() and file.name.lower().endswith(ENDINGS)
 
 
 def is_dicom(path: Path) -> bool:
-    """Whether a path is a folder, which may hold slices, or a slice by its name or its mark."""
+    """Return whether a path is a folder, which may hold slices, or a slice by its name or its mark."""
     name = path.name.lower()
     if path.is_dir() or name.endswith(DICOM):
         return True

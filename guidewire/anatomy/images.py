@@ -30,7 +30,7 @@ class Image:
     sha256: str = ""
 
     def with_names(self, segments: tuple[Segment, ...]) -> Image:
-        """The image with segments of a table, in place of those of its file."""
+        """Return the image with segments of a table, in place of those of its file."""
         return replace(self, segments=segments)
 
     @property
@@ -39,12 +39,12 @@ class Image:
         return np.linalg.norm(self.to_space[:3, :3], axis=0)
 
     def place(self, index: np.ndarray) -> np.ndarray:
-        """(3,): where an index (3,) of voxels lies."""
+        """Return (3,): where an index (3,) of voxels lies."""
         return (self.to_space @ np.r_[index, 1.0])[:3]
 
 
 def read_image(file: Path, kind: str, axes: Axes | None = None, series: str | None = None) -> Image:
-    """A mask or an image.
+    """Return a mask or an image.
 
     Parameters
     ----------

@@ -104,13 +104,13 @@ def weld(mesh: Mesh, length: float) -> tuple[Mesh, int, float]:
 
 
 def weld_length_of(mesh: Mesh) -> float:
-    """The length below which vertices of a mesh are one: a thousandth of its median edge."""
+    """Return the length below which vertices of a mesh are one: a thousandth of its median edge."""
     lengths = mesh.edge_lengths()
     return _WELD * float(np.median(lengths[lengths > 0.0])) if (lengths > 0.0).any() else 0.0
 
 
 def without_slivers(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
-    """The mesh without triangles of two equal corners, and repeated ones; and the places of these."""
+    """Return the mesh without triangles of two equal corners, and repeated ones; and the places of these."""
     ordered = np.sort(mesh.triangles, axis=1)
     flat = (ordered[:, 0] == ordered[:, 1]) | (ordered[:, 1] == ordered[:, 2])
     _, first = np.unique(ordered, axis=0, return_index=True)
@@ -121,9 +121,9 @@ def without_slivers(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
 
 
 def without_fins(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
-    """The mesh without triangles that stand on an edge of more than two triangles and end in the open, and the middles
-    (k, 3) of those. Of such triangles those with two open edges go first: one with a single open edge may be the wall's
-    own, at a rim."""
+    """Return the mesh without triangles that stand on an edge of more than two triangles and end in the open, and the
+    middles (k, 3) of those. Of such triangles those with two open edges go first: one with a single open edge may be
+    the wall's own, at a rim."""
     places = np.empty((0, 3))
     while True:
         edges = Edges.of(mesh)
@@ -137,7 +137,7 @@ def without_fins(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
 
 
 def inspect(mesh: Mesh, unit: str | None = None, said_by: str = "as given") -> Inspection:
-    """All that can be said of a mesh as a file has it.
+    """Return all that can be said of a mesh as a file has it.
 
     Parameters
     ----------
@@ -192,8 +192,8 @@ def sort_rims(mesh: Mesh, rims: list[Rim]) -> list[Rim]:
 
 
 def find_unit(mesh: Mesh, known: str | None = None, said_by: str = "as given") -> Unit:
-    """The unit of a file's numbers: the one that is known, or else the most likely one, from the radii, lengths and
-    edges that vessels and their files have. Where it is not certain, the reason asks for it."""
+    """Return the unit of a file's numbers: the one that is known, or else the most likely one, from the radii, lengths
+    and edges that vessels and their files have. Where it is not certain, the reason asks for it."""
     radius, side = typical_radius(mesh), float(np.ptp(mesh.vertices, axis=0).max())
     if known:
         return Unit(known, f"{said_by}; {_sizes(known, radius, side)}", True)
@@ -216,7 +216,7 @@ def _sizes(unit: str, radius: float, side: float) -> str:
 
 
 def _beyond(size: float, low: float, high: float) -> float:
-    """How far a size is out of a range, in deviations."""
+    """Return how far a size is out of a range, in deviations."""
     return max(np.log(low / max(size, 1e-300)), np.log(size / high), 0.0) / _BEYOND
 
 
@@ -246,8 +246,8 @@ def facing(mesh: Mesh) -> np.ndarray:
 
 
 def cast_rays(mesh: Mesh, chosen: np.ndarray, directions: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """(k,): how far rays go from the middles of chosen triangles until they meet the mesh, infinite if they do not; and
-    (k,): the triangle there, or -1."""
+    """Return (k,): how far rays go from the middles of chosen triangles until they meet the mesh, infinite if they do
+    not; and (k,): the triangle there, or -1."""
     from vtkmodules.vtkCommonCore import mutable
     from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
 

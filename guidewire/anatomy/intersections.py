@@ -18,7 +18,7 @@ def self_intersections(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def _crossings(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """Points (k, 3) where an edge pierces a triangle, and (k, 2) the edge's triangle and the pierced one.
+    """Return points (k, 3) where an edge pierces a triangle, and (k, 2) the edge's triangle and the pierced one.
 
     Pairs come from a lattice of cells a little larger than the median edge: two triangles that meet share a cell.
     Triangles that touch in a plane common to both, or only in a vertex, do not count.
@@ -53,7 +53,8 @@ def _crossings(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def relaxed(mesh: Mesh) -> Mesh:
-    """The mesh with vertices of triangles that cross others moved to the middle of their neighbours, until none do."""
+    """Return the mesh with vertices of triangles that cross others moved to the middle of their neighbours, until none
+    do."""
     for _ in range(10):
         _, pairs = self_intersections(mesh)
         if not len(pairs):

@@ -93,7 +93,7 @@ def voxels_with(image: Image, labels: str | None, segments: str | None) -> tuple
 
 
 def _words(asked: str, segments: tuple[Segment, ...]) -> list[str]:
-    """The words between commas; a name may have commas itself."""
+    """Return the words between commas; a name may have commas itself."""
     if any(asked.strip().lower() == segment.name.lower() for segment in segments):
         return [asked]
     return asked.split(",")
@@ -122,7 +122,7 @@ def _told(segments: tuple[Segment, ...], with_layers: bool) -> str:
 
 
 def values_of(values: np.ndarray) -> np.ndarray:
-    """The different values of an array, ascending."""
+    """Return the different values of an array, ascending."""
     if values.dtype.kind in "iu" and values.dtype.itemsize <= 2:    # counting is many times as fast as sorting
         low = int(values.min())
         return np.flatnonzero(np.bincount((values.ravel().astype(np.int32) - low))) + low
@@ -130,7 +130,7 @@ def values_of(values: np.ndarray) -> np.ndarray:
 
 
 def told_values(image: Image, found: np.ndarray, most: int) -> str:
-    """The values of an image, with their names, for a line."""
+    """Return the values of an image, with their names, for a line."""
     names = {segment.value: f" '{segment.name}'" for segment in image.segments}
     return (", ".join(f"{value:g}{names.get(float(value), '')}" for value in found) if len(found) <= most
             else f"from {found[0]:g} to {found[-1]:g}")

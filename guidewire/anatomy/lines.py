@@ -52,7 +52,7 @@ class Lines:
 
 
 def read_lines(file: Path, kind: str) -> Lines:
-    """The centreline of a .csv or a .mrk.json.
+    """Return the centreline of a .csv or a .mrk.json.
 
     Raises
     ------
@@ -63,7 +63,7 @@ def read_lines(file: Path, kind: str) -> Lines:
 
 
 def lines_of_poly_data(file: Path, data) -> Lines | None:
-    """The centrelines of vtkPolyData that has lines with a radius at each point and no triangles, else None."""
+    """Return the centrelines of vtkPolyData that has lines with a radius at each point and no triangles, else None."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if data.GetNumberOfPolys() or not data.GetNumberOfLines():
@@ -83,7 +83,7 @@ def lines_of_poly_data(file: Path, data) -> Lines | None:
 
 
 def mesh_of_lines(lines: list[Line]) -> tuple[Mesh, str]:
-    """The wall around centrelines, open where they end; and what was done.
+    """Return the wall around centrelines, open where they end; and what was done.
 
     Raises
     ------
@@ -99,7 +99,8 @@ def mesh_of_lines(lines: list[Line]) -> tuple[Mesh, str]:
 
 
 def begin_of(lines: list[Line]) -> np.ndarray | None:
-    """(3,): where all lines begin, as those of VMTK do at their inlet; None where they begin in several places."""
+    """Return (3,): where all lines begin, as those of VMTK do at their inlet; None where they begin in several
+    places."""
     first = np.array([line.points[0] for line in lines])
     apart = np.linalg.norm(first - first[0], axis=1)
     return first[0] if (apart <= [line.radii[0] for line in lines]).all() else None
@@ -144,7 +145,7 @@ def tree_of(lines: list[Line]) -> tuple[list[Tube], int]:
 
 
 def _with_open_ends(tube: Tube, others: list[Tube]) -> Tube:
-    """A tube that is open where it ends outside of the others."""
+    """Return a tube that is open where it ends outside of the others."""
     def is_free(point: np.ndarray) -> bool:
         return all((np.linalg.norm(other.points - point, axis=1) > other.radii).all() for other in others)
 
@@ -156,7 +157,7 @@ def _length(points: np.ndarray) -> float:
 
 
 def _checked(file: Path, line: Line, name: str = "") -> Line:
-    """The line without points that are there twice.
+    """Return the line without points that are there twice.
 
     Raises
     ------

@@ -78,7 +78,7 @@ def find_loops(closed: Mesh, points: np.ndarray, radii: np.ndarray, parents: np.
 
 
 def _owners(vertices: np.ndarray, points: np.ndarray, radii: np.ndarray) -> np.ndarray:
-    """(v,): of each vertex the sphere with the least power."""
+    """Return (v,): of each vertex the sphere with the least power."""
     weights = np.einsum("ij,ij->i", points, points) - radii**2
     step = max(1, _CHUNK // len(points))
     return np.concatenate([np.argmin(weights - 2.0 * vertices[k:k + step] @ points.T, axis=1)
@@ -86,7 +86,7 @@ def _owners(vertices: np.ndarray, points: np.ndarray, radii: np.ndarray) -> np.n
 
 
 def _depths(points: np.ndarray, parents: np.ndarray) -> np.ndarray:
-    """(k,): distances from the root along the tree."""
+    """Return (k,): distances from the root along the tree."""
     depth = np.zeros(len(points))
     for k in range(1, len(points)):  # parents come first
         depth[k] = depth[parents[k]] + np.linalg.norm(points[k] - points[parents[k]])

@@ -73,7 +73,7 @@ def main_lumen() -> Lumen:
 
 
 def branch_lumen() -> Lumen:
-    """A side branch that leaves the arch 60 degrees after its start and goes on up, to a closed end."""
+    """Return a side branch that leaves the arch 60 degrees after its start and goes on up, to a closed end."""
     angle = np.pi / 3.0
     root = np.array([0.0, ARCH_RADIUS * (1.0 - np.cos(angle)), ARCH_START + ARCH_RADIUS * np.sin(angle)])
     direction = np.array([0.0, 0.25, 1.0]) / np.hypot(0.25, 1.0)
@@ -90,7 +90,7 @@ def depth(points: np.ndarray) -> np.ndarray:
 
 
 def artery_lumens() -> tuple[Lumen, Lumen]:
-    """The artery with its first arm and the second arm alone."""
+    """Return the artery with its first arm and the second arm alone."""
     start, radius, angle = ARTERY_BEND
     stem = [np.array([0.0, 0.0, z]) for z in (ARTERY_ENTRANCE - 10.0, start)]
     stem += [np.array([radius * (1.0 - np.cos(a)), 0.0, start + radius * np.sin(a)])
@@ -184,7 +184,7 @@ def onto_wall(vertices: np.ndarray, origin: np.ndarray, spacing: float, depth: C
 
 
 def arch() -> tuple[np.ndarray, np.ndarray]:
-    """The vessel: vertices (v, 3) in units and triangles (t, 3)."""
+    """Return the vessel: vertices (v, 3) in units and triangles (t, 3)."""
     low = np.array([-21.0, -21.0, ENTRANCE - 0.5 * SPACING])
     high = np.array([21.0, 160.0, 275.0])
     shape = tuple(int(n) for n in np.ceil((high - low) / SPACING) + 1)
@@ -193,7 +193,7 @@ def arch() -> tuple[np.ndarray, np.ndarray]:
 
 
 def artery() -> tuple[np.ndarray, np.ndarray]:
-    """The artery: vertices (v, 3) in mm and triangles (t, 3)."""
+    """Return the artery: vertices (v, 3) in mm and triangles (t, 3)."""
     lumens = artery_lumens()
     centres = np.concatenate([lumen.centres for lumen in lumens])
     low = centres.min(axis=0) - 2.0 * ARTERY_RADIUS

@@ -65,7 +65,7 @@ class Taken:
 
 
 def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
-    """The wall of a region.
+    """Return the wall of a region.
 
     Raises
     ------
@@ -128,8 +128,8 @@ def _volume(mesh: Mesh, image: Image, spacing: np.ndarray) -> float:
 
 
 def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray, list[str]]:
-    """A region in which parts that touch at edges or corners of voxels only are joined by voxels between them, at one
-    place each; and what was done. A surface joins voxels through their faces alone."""
+    """Return a region in which parts that touch at edges or corners of voxels only are joined by voxels between them,
+    at one place each; and what was done. A surface joins voxels through their faces alone."""
     parts, count = label_regions(inside)
     if count == 1:
         return inside, []
@@ -160,7 +160,7 @@ def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray,
 
 
 def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, list[str]]:
-    """(i, j, k): the voxels that are asked for; and a line for each kind that is not."""
+    """Return (i, j, k): the voxels that are asked for; and a line for each kind that is not."""
     values, left_out = image.values, []
     if taking.threshold is not None:
         if values.ndim == 4:
@@ -188,7 +188,7 @@ def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, list[str]]:
 
 
 def _in_box(inside: np.ndarray, image: Image, box: np.ndarray) -> np.ndarray:
-    """The voxels whose middles lie in a box along the axes of space."""
+    """Return the voxels whose middles lie in a box along the axes of space."""
     low, high = box.min(axis=0), box.max(axis=0)
     corners = np.array([[box[k, axis] for axis, k in enumerate(which)] for which in np.ndindex(2, 2, 2)])
     back = np.linalg.inv(image.to_space)
@@ -206,7 +206,7 @@ def _in_box(inside: np.ndarray, image: Image, box: np.ndarray) -> np.ndarray:
 
 
 def _seeded(image: Image, regions: np.ndarray, seed: np.ndarray) -> int:
-    """The region, from 1, that a point lies in."""
+    """Return the region, from 1, that a point lies in."""
     index = np.rint((np.linalg.inv(image.to_space) @ np.r_[seed, 1.0])[:3]).astype(int)
     if (index < 0).any() or (index >= regions.shape).any():
         ends = _listed(image.place(np.zeros(3))), _listed(image.place(np.array(regions.shape) - 1))

@@ -37,7 +37,7 @@ class WallDistance:
         return float(self._words[4]) ** 0.5
 
     def inside(self, points: np.ndarray) -> np.ndarray:
-        """(k,): whether points (k, 3) are inside, of a closed mesh."""
+        """Return (k,): whether points (k, 3) are inside, of a closed mesh."""
         from vtkmodules.vtkCommonCore import vtkPoints
         from vtkmodules.vtkCommonDataModel import vtkPolyData
         from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
@@ -129,7 +129,7 @@ class MedialGraph:
         self.largest = int(np.argmax(np.bincount(self.bodies, self.radii)))
 
     def at_rim(self, rim: Rim) -> int:
-        """The vertex of the diagram from which a path goes straight to a rim."""
+        """Return the vertex of the diagram from which a path goes straight to a rim."""
         away = np.linalg.norm(self.centres - rim.centre, axis=1)
         near = np.flatnonzero((away < 2.0 * rim.radius) & (self.bodies == self.largest))
         if not len(near):
@@ -139,7 +139,7 @@ class MedialGraph:
         return int(wide[np.argmin(np.linalg.norm(self.centres[wide] - target, axis=1))])
 
     def radii_near(self, nodes: list[int]) -> list[float]:
-        """The largest radius of the 100 vertices around each of these: of those in a corner too."""
+        """Return the largest radius of the 100 vertices around each of these: of those in a corner too."""
         _, near = cKDTree(self.centres).query(self.centres[nodes], k=min(100, len(self.centres)))
         return list(self.radii[near].max(axis=-1))
 
@@ -176,7 +176,7 @@ class MedialGraph:
 
 
 def walk_back(before: np.ndarray, node: int) -> list[int]:
-    """The path to a node, from the root."""
+    """Return the path to a node, from the root."""
     found = [int(node)]
     while before[found[-1]] >= 0:
         found.append(int(before[found[-1]]))

@@ -37,17 +37,18 @@ class Mesh:
         return float(np.linalg.norm(np.ptp(self.vertices, axis=0)))
 
     def area_vectors(self) -> np.ndarray:
-        """(t, 3): along the normal, as long as the triangle is large."""
+        """Return (t, 3): along the normal, as long as the triangle is large."""
         a, b, c = np.moveaxis(self.corners, 1, 0)
         return 0.5 * np.cross(b - a, c - a)
 
     def edge_lengths(self) -> np.ndarray:
-        """(3 t,), each inner edge twice."""
+        """Return (3 t,), each inner edge twice."""
         corners = self.corners
         return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).ravel()
 
     def vertex_normals(self) -> np.ndarray:
-        """(v, 3): sums of the normals around, weighted with the angle at the vertex, of length 1 (0 where it has none).
+        """Return (v, 3): sums of the normals around, weighted with the angle at the vertex, of length 1 (0 where it has
+        none).
         """
         corners = self.corners
         normals = self.area_vectors()
@@ -60,12 +61,12 @@ class Mesh:
         return total / np.maximum(np.linalg.norm(total, axis=1), 1e-300)[:, None]
 
     def part(self, kept: np.ndarray) -> Mesh:
-        """The triangles of a mask (t,), and only the vertices that they use."""
+        """Return the triangles of a mask (t,), and only the vertices that they use."""
         used, triangles = np.unique(self.triangles[kept], return_inverse=True)
         return Mesh(self.vertices[used], triangles.reshape(-1, 3))
 
     def turned(self) -> Mesh:
-        """The same with its normals to the other side."""
+        """Return the same with its normals to the other side."""
         return Mesh(self.vertices, self.triangles[:, ::-1].copy())
 
 
@@ -85,7 +86,7 @@ class Edges:
 
     @staticmethod
     def of(mesh: Mesh) -> Edges:
-        """All edges of a mesh."""
+        """Return all edges of a mesh."""
         halves = np.stack([mesh.triangles, np.roll(mesh.triangles, -1, axis=1)], axis=2).reshape(-1, 2)
         low, high = halves.min(axis=1), halves.max(axis=1)
         keys, inverse, counts = np.unique(low * len(mesh.vertices) + high, return_inverse=True, return_counts=True)
@@ -93,7 +94,7 @@ class Edges:
         return Edges(ends, counts, inverse.reshape(-1, 3), (halves[:, 0] == low).reshape(-1, 3))
 
     def pairs(self) -> np.ndarray:
-        """(p, 2): triangles on the two sides of the edges that have exactly two, and (p,) those edges."""
+        """Return (p, 2): triangles on the two sides of the edges that have exactly two, and (p,) those edges."""
         order = np.argsort(self.of_triangles.ravel(), kind="stable")
         first = np.concatenate([[0], np.cumsum(self.counts)])[:-1][self.counts == 2]
         return np.stack([order[first] // 3, order[first + 1] // 3], axis=1)
@@ -121,7 +122,7 @@ class Rim:
 
 
 def find_rims(mesh: Mesh, edges: Edges) -> list[Rim]:
-    """All rims, the largest first."""
+    """Return all rims, the largest first."""
     open_halves = np.argwhere(edges.counts[edges.of_triangles] == 1)
     if not len(open_halves):
         return []
@@ -148,18 +149,19 @@ def find_rims(mesh: Mesh, edges: Edges) -> list[Rim]:
 
 
 def find_bodies(mesh: Mesh) -> np.ndarray:
-    """(t,): the body of each triangle, 0 the one with the most triangles; triangles at one vertex are of one body."""
+    """Return (t,): the body of each triangle, 0 the one with the most triangles; triangles at one vertex are of one
+    body."""
     a, b, c = mesh.triangles.T
     return _ranked(_labels(len(mesh.vertices), np.r_[a, b], np.r_[b, c])[a])
 
 
 def find_sheets(mesh: Mesh) -> np.ndarray:
-    """(t,): as bodies, but only triangles on the two sides of an edge of two are of one sheet."""
+    """Return (t,): as bodies, but only triangles on the two sides of an edge of two are of one sheet."""
     return _ranked(_labels(len(mesh.triangles), *Edges.of(mesh).pairs().T))
 
 
 def _ranked(labels: np.ndarray) -> np.ndarray:
-    """(t,): numbers from 0 instead of labels, 0 for the most frequent one."""
+    """Return (t,): numbers from 0 instead of labels, 0 for the most frequent one."""
     _, inverse, counts = np.unique(labels, return_inverse=True, return_counts=True)
     rank = np.empty(len(counts), dtype=int)
     rank[np.argsort(-counts, kind="stable")] = np.arange(len(counts))
@@ -183,7 +185,7 @@ def signed_volume(mesh: Mesh, rims: list[Rim] | None = None) -> float:
 
 
 def close_rims(mesh: Mesh, rims: list[Rim]) -> Mesh:
-    """The mesh with a fan of triangles over each of these rims."""
+    """Return the mesh with a fan of triangles over each of these rims."""
     edges = Edges.of(mesh)
     triangle, k = np.argwhere(edges.counts[edges.of_triangles] == 1).T
     start, end = mesh.triangles[triangle, k], mesh.triangles[triangle, (k + 1) % 3]
@@ -197,7 +199,7 @@ def close_rims(mesh: Mesh, rims: list[Rim]) -> Mesh:
 
 
 def pinched_triangles(mesh: Mesh) -> np.ndarray:
-    """(t,): triangles at a vertex where more than one piece of rim begins, but for the larger fan there."""
+    """Return (t,): triangles at a vertex where more than one piece of rim begins, but for the larger fan there."""
     edges = Edges.of(mesh)
     opened = edges.ends[edges.counts == 1].ravel()
     counts = np.bincount(opened, minlength=len(mesh.vertices))

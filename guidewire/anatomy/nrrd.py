@@ -80,7 +80,7 @@ def read_nrrd(file: Path) -> Voxels:
 
 
 def _segments(more: dict[str, str]) -> tuple[Segment, ...]:
-    """Those of 3D Slicer, whose keys are Segment0_Name, Segment0_LabelValue, Segment0_Layer and so on."""
+    """Return those of 3D Slicer, whose keys are Segment0_Name, Segment0_LabelValue, Segment0_Layer and so on."""
     found = []
     for key, name in more.items():
         number = re.fullmatch(r"segment(\d+)_name", key)

@@ -70,7 +70,7 @@ def check_source(folder: Path, source: Source) -> None:
 
 
 def find_inlet(line: Centreline, asked: str | None, begin: np.ndarray | None = None) -> End:
-    """The end with a number or a name, or else that at which the file's lines begin, or else the widest one.
+    """Return the end with a number or a name, or else that at which the file's lines begin, or else the widest one.
 
     Raises
     ------
@@ -85,7 +85,7 @@ def find_inlet(line: Centreline, asked: str | None, begin: np.ndarray | None = N
 
 
 def find_end(line: Centreline, asked: str) -> End:
-    """The end with a number or a name.
+    """Return the end with a number or a name.
 
     Raises
     ------
@@ -99,9 +99,9 @@ def find_end(line: Centreline, asked: str) -> End:
 
 
 def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) -> End:
-    """The end with the longest path from an inlet, of those that a wire of a diameter in mm comes to; of all ends where
-    it comes to none. Of paths within a twentieth of the longest that whose narrowest place is the widest: where two
-    branches leave side by side, a wire goes into the wider one."""
+    """Return the end with the longest path from an inlet, of those that a wire of a diameter in mm comes to; of all
+    ends where it comes to none. Of paths within a twentieth of the longest that whose narrowest place is the widest:
+    where two branches leave side by side, a wire goes into the wider one."""
     inner, least = line.inner(), _CLEARANCE * 0.5e-3 * diameter / unit.metres
     others = ([end for end in line.ends if end is not inlet and not end.is_sac]
               or [end for end in line.ends if end is not inlet] or line.ends)
@@ -184,7 +184,7 @@ def write_scene(folder: Path, parameters: Mapping[str, Any]) -> None:
 
 
 def describe(found: Inspection, repaired: Repaired | None, line: Centreline | None, diameter: float) -> list[str]:
-    """The report: one line a finding."""
+    """Return the report: one line a finding."""
     mm = 1e3 * found.unit.metres
     lines = [f"{found.triangles} triangles, {found.vertices} vertices",
              f"orientation: normals {'outward' if found.volume > 0.0 else 'into the lumen'}, volume "

@@ -12,7 +12,7 @@ _BESIDE = 0.5  # of a step: what is kept lies so near the other surface, in the 
 
 
 def patched(mesh: Mesh, made: Mesh, places: np.ndarray, reach: float, step: float) -> Mesh | None:
-    """The wall of a mesh, but that of another surface where it is near places.
+    """Return the wall of a mesh, but that of another surface where it is near places.
 
     Parameters
     ----------
@@ -65,7 +65,7 @@ def _with_plain_rims(mesh: Mesh) -> Mesh:
 
 
 def _rings(mesh: Mesh) -> list[np.ndarray]:
-    """The vertices of each rim in order."""
+    """Return the vertices of each rim in order."""
     edges = Edges.of(mesh)
     beside: dict[int, list[int]] = {}
     for a, b in edges.ends[edges.counts == 1].tolist():
@@ -112,6 +112,6 @@ def _band(places: np.ndarray, ring: np.ndarray, others: np.ndarray, other: np.nd
 
 
 def _area(ring: np.ndarray) -> np.ndarray:
-    """(3,): twice the area vector of a ring of points."""
+    """Return (3,): twice the area vector of a ring of points."""
     from_middle = ring - ring.mean(axis=0)
     return np.cross(from_middle, np.roll(from_middle, -1, axis=0)).sum(axis=0)

@@ -41,11 +41,11 @@ class Axes:
         return "LPS" if self.letters else ""
 
     def take(self, mesh: Mesh) -> Mesh:
-        """A mesh of the file in LPS, its triangles oriented as they were."""
+        """Return a mesh of the file in LPS, its triangles oriented as they were."""
         return Mesh(mesh.vertices @ self.to_lps.T, mesh.triangles[:, ::-1] if self.is_mirrored else mesh.triangles)
 
     def describe(self) -> str:
-        """One line of a report."""
+        """Return one line of a report."""
         if not self.letters:
             return ("axes of the patient: unknown, those of the file are kept; --axes says how they lie, and a "
                     "C-arm has LAO and RAO then")

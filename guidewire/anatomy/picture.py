@@ -17,7 +17,7 @@ _LIGHT = np.array([0.3, 0.4, 0.85])
 
 
 def draw(mesh: Mesh, found: Inspection, line: Centreline | None, title: str) -> Figure:
-    """The vessel along the two axes across which it is largest; lengths in mm."""
+    """Return the vessel along the two axes across which it is largest; lengths in mm."""
     mm = 1e3 * found.unit.metres
     order = np.argsort(-np.ptp(mesh.vertices, axis=0), kind="stable")
     across = [(order[0], order[1], order[2]), (order[0], order[2], order[1])]

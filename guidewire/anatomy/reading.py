@@ -33,7 +33,7 @@ class Faces:
     numbers: np.ndarray
 
     def of(self, mesh: Mesh) -> np.ndarray:
-        """(t,): the face of each triangle of a mesh, by the nearest middle."""
+        """Return (t,): the face of each triangle of a mesh, by the nearest middle."""
         return self.numbers[cKDTree(self.middles).query(mesh.corners.mean(axis=1))[1]]
 
 
@@ -63,18 +63,18 @@ class Source:
 
 
 def name_of(file: Path) -> str:
-    """A file's name; of "." the folder's."""
+    """Return a file's name; of "." the folder's."""
     return file.name or file.resolve().name
 
 
 def stem_of(name: str) -> str:
-    """A file's name without the ending that is known here."""
+    """Return a file's name without the ending that is known here."""
     ending = next((one for one in ENDINGS if name.lower().endswith(one)), "")
     return name[:len(name) - len(ending)] or name
 
 
 def kind_of(file: Path) -> str:
-    """The ending of a name that is read here, such as ".nii.gz"; that of slices for a folder too.
+    """Return the ending of a name that is read here, such as ".nii.gz"; that of slices for a folder too.
 
     Raises
     ------
@@ -97,7 +97,7 @@ def kind_of(file: Path) -> str:
 
 def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: Taking = Taking(),
          series: str | None = None, names: Path | None = None) -> Source:
-    """The wall in a file, or one made of its mask or centreline.
+    """Return the wall in a file, or one made of its mask or centreline.
 
     Parameters
     ----------
@@ -150,7 +150,7 @@ def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: 
 
 
 def read_mesh(file: Path, data=None) -> Mesh:
-    """The triangles of a file in its own axes, polygons cut into triangles, not welded.
+    """Return the triangles of a file in its own axes, polygons cut into triangles, not welded.
 
     data : vtkPolyData of a .ply or .vtp that was read already.
 
@@ -202,7 +202,7 @@ def _triangles(data) -> Mesh:
 
 
 def _face_numbers(data) -> np.ndarray | None:
-    """(t,): ModelFaceID of each triangle, or None."""
+    """Return (t,): ModelFaceID of each triangle, or None."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     if data.GetCellData().GetArray("ModelFaceID") is None:

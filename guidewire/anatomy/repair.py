@@ -66,8 +66,8 @@ class Repaired:
 
 
 def with_rims_apart(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
-    """The mesh's largest body without the triangles around vertices at which a rim touches itself or another one, and
-    these vertices' places (k, 3)."""
+    """Return the mesh's largest body without the triangles around vertices at which a rim touches itself or another
+    one, and these vertices' places (k, 3)."""
     places = np.empty((0, 3))
     while True:
         mesh = mesh.part(find_bodies(mesh) == 0)
@@ -81,7 +81,7 @@ def with_rims_apart(mesh: Mesh) -> tuple[Mesh, np.ndarray]:
 
 
 def repair(mesh: Mesh) -> Repaired:
-    """A mesh that the program takes as a vessel.
+    """Return a mesh that the program takes as a vessel.
 
     Raises
     ------
@@ -157,7 +157,8 @@ class _Work:
             return
 
     def _stretches(self, points: np.ndarray) -> list[tuple[np.ndarray, int]]:
-        """Points (k, 3) near each other in one stretch of the wall: middle and number of each, the longest first."""
+        """Return points (k, 3) near each other in one stretch of the wall: middle and number of each, the longest
+        first."""
         if not len(points):
             return []
         reach = 2.0 * float(np.quantile(self.mesh.edge_lengths(), 0.9))
@@ -299,7 +300,7 @@ class _Work:
             self.mesh = filled
 
     def _is_end(self, rim: Rim) -> bool:
-        """Whether a rim was there before triangles were taken out, at least in part, or lies where one was."""
+        """Return whether a rim was there before triangles were taken out, at least in part, or lies where one was."""
         places = self.mesh.vertices[rim.vertices]
         return any(np.isin(_rows(places), _rows(known)).any() or
                    np.linalg.norm(rim.centre - before.centre) < max(rim.radius, before.radius)
@@ -345,24 +346,24 @@ class _Work:
 
 
 def _is_whole(mesh: Mesh, ends: int) -> bool:
-    """Whether a surface is of one body, with so many rims, and does not cross itself."""
+    """Return whether a surface is of one body, with so many rims, and does not cross itself."""
     edges = Edges.of(mesh)
     return bool((edges.counts <= 2).all() and find_bodies(mesh).max() == 0 and len(find_rims(mesh, edges)) == ends
                 and not len(self_intersections(mesh)[1]))
 
 
 def _keys(mesh: Mesh) -> np.ndarray:
-    """(t,): a number of each triangle's middle, the same for the same middle."""
+    """Return (t,): a number of each triangle's middle, the same for the same middle."""
     return _rows(mesh.corners.mean(axis=1))
 
 
 def _rows(points: np.ndarray) -> np.ndarray:
-    """(k,): a number of each point (k, 3), the same for the same place."""
+    """Return (k,): a number of each point (k, 3), the same for the same place."""
     return np.ascontiguousarray(points + 0.0).view(np.dtype((np.void, 24))).ravel()
 
 
 def _bulge(mesh: Mesh, rim: Rim) -> float:
-    """How far the wall may have been from a flat lid over a hole: that of a sphere, at most its radius."""
+    """Return how far the wall may have been from a flat lid over a hole: that of a sphere, at most its radius."""
     off = np.abs((mesh.vertices[rim.vertices] - rim.centre) @ rim.normal).max()
     return float(min(max(off, 0.1 * rim.radius), max(rim.radius, off)))
 
@@ -379,7 +380,7 @@ def _listed(stretches: list[tuple[np.ndarray, int]]) -> str:
 
 
 def _inner_body(mesh: Mesh, bodies: np.ndarray) -> int:
-    """The largest body, or the one inside of it that is nearly as large: the lumen of a wall of two surfaces."""
+    """Return the largest body, or the one inside of it that is nearly as large: the lumen of a wall of two surfaces."""
     sizes = [np.ptp(mesh.part(bodies == k).vertices, axis=0).max() for k in range(bodies.max() + 1)]
     largest = int(np.argmax(sizes))
     for k in range(bodies.max() + 1):
@@ -389,7 +390,7 @@ def _inner_body(mesh: Mesh, bodies: np.ndarray) -> int:
 
 
 def _is_around(mesh: Mesh, bodies: np.ndarray, outer: int, inner: int) -> bool:
-    """Whether the vertices of one body lie inside of another one."""
+    """Return whether the vertices of one body lie inside of another one."""
     from vtkmodules.vtkCommonDataModel import vtkPolyData
     from vtkmodules.vtkFiltersModeling import vtkSelectEnclosedPoints
 
@@ -405,7 +406,7 @@ def _is_around(mesh: Mesh, bodies: np.ndarray, outer: int, inner: int) -> bool:
 
 
 def _turned_alike(mesh: Mesh) -> tuple[Mesh, int]:
-    """The same with all triangles oriented as their neighbours, and how many were turned."""
+    """Return the same with all triangles oriented as their neighbours, and how many were turned."""
     edges = Edges.of(mesh)
     order = np.argsort(edges.of_triangles.ravel(), kind="stable")
     first = np.concatenate([[0], np.cumsum(edges.counts)])[:-1][edges.counts == 2]

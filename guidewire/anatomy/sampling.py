@@ -10,7 +10,7 @@ _MOST_CUTS = 8.0  # triangles of a sample over its points, as cut at all long ed
 
 
 def resample(line: np.ndarray, step: float) -> np.ndarray:
-    """A polyline (k, 3) in even steps, its ends kept; two points at least."""
+    """Return a polyline (k, 3) in even steps, its ends kept; two points at least."""
     steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
     arc = np.r_[0.0, np.cumsum(steps)]
     if not arc[-1] > 0.0:
@@ -21,7 +21,7 @@ def resample(line: np.ndarray, step: float) -> np.ndarray:
 
 
 def sample(mesh: Mesh, count: int) -> Mesh:
-    """The same surface with triangles cut, until there are about so many vertices; or with fewer of them."""
+    """Return the same surface with triangles cut, until there are about so many vertices; or with fewer of them."""
     area = np.linalg.norm(mesh.area_vectors(), axis=1).sum()
     limit = np.sqrt(2.3 * area / count)
     if len(mesh.vertices) > 2 * count:
@@ -47,13 +47,13 @@ def sample(mesh: Mesh, count: int) -> Mesh:
 
 
 def _longest(mesh: Mesh) -> np.ndarray:
-    """(t,): the longest edge of each triangle."""
+    """Return (t,): the longest edge of each triangle."""
     corners = mesh.corners
     return np.linalg.norm(corners - np.roll(corners, -1, axis=1), axis=2).max(axis=1)
 
 
 def thinned(mesh: Mesh, size: float) -> Mesh:
-    """One vertex a cell of a lattice; triangles that lose a corner are dropped."""
+    """Return one vertex a cell of a lattice; triangles that lose a corner are dropped."""
     cells = np.floor((mesh.vertices - mesh.vertices.min(axis=0)) / size).astype(np.int64)
     shape = cells.max(axis=0) + 1
     key = (cells[:, 0] * shape[1] + cells[:, 1]) * shape[2] + cells[:, 2]
@@ -65,7 +65,7 @@ def thinned(mesh: Mesh, size: float) -> Mesh:
 
 
 def cut_edges(mesh: Mesh, edges: Edges, long: np.ndarray) -> Mesh:
-    """Every triangle cut at the middles of its long edges."""
+    """Return every triangle cut at the middles of its long edges."""
     middle = np.full(len(edges.ends), -1)
     middle[long] = len(mesh.vertices) + np.arange(long.sum())
     vertices = np.concatenate([mesh.vertices, mesh.vertices[edges.ends[long]].mean(axis=1)])

@@ -37,7 +37,7 @@ _CARINA = 0.12  # radius of curvature of an edge between branches, of the larges
 
 def make(kind: str, number: int, seed: int, stenosis: float | None, aneurysm: float | None
          ) -> tuple[Mesh, str, list[str]]:
-    """A mesh in mm, its unit, and what it is.
+    """Return a mesh in mm, its unit, and what it is.
 
     Parameters
     ----------
@@ -74,7 +74,8 @@ def make(kind: str, number: int, seed: int, stenosis: float | None, aneurysm: fl
 
 
 def tubes_of(kind: str, number: int, seed: int) -> tuple[list[Tube], tuple[tuple[int, float], tuple[int, float]]]:
-    """The tubes of an anatomy, mm, and where a stenosis and an aneurysm are: index of a tube, fraction of its length.
+    """Return the tubes of an anatomy, mm, and where a stenosis and an aneurysm are: index of a tube, fraction of its
+    length.
     """
     rng = np.random.default_rng([seed, number])
     while True:
@@ -96,8 +97,8 @@ def _carina(tubes: list[Tube]) -> float:
 
 
 def _are_apart(tubes: list[Tube]) -> bool:
-    """Whether walls that have parted stay farther apart than a carina is thick: the ball that rounds an edge does not
-    fit between nearer ones, and their lumens would be joined there."""
+    """Return whether walls that have parted stay farther apart than a carina is thick: the ball that rounds an edge
+    does not fit between nearer ones, and their lumens would be joined there."""
     least = 2.0 * _carina(tubes)
     for k, tube in enumerate(tubes):
         for other in tubes[:k]:
@@ -109,7 +110,7 @@ def _are_apart(tubes: list[Tube]) -> bool:
 
 
 def tube_mesh(points: np.ndarray, radii: np.ndarray) -> Mesh:
-    """A tube around a centreline, open at both ends; in the unit of its points."""
+    """Return a tube around a centreline, open at both ends; in the unit of its points."""
     return mesh_of_tubes([Tube(points, radii, ends=(True, True))], 1.0)
 
 
@@ -225,7 +226,7 @@ def _normal(rng: np.random.Generator, mean: float, deviation: float) -> float:
 
 
 def _spline(knots, count: int = 40) -> np.ndarray:
-    """Points at even steps on a cubic through knots."""
+    """Return points at even steps on a cubic through knots."""
     knots = np.asarray(knots, dtype=float)
     arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(knots, axis=0), axis=1))]
     line = CubicSpline(arc, knots)(np.linspace(0.0, arc[-1], 8 * count))
@@ -234,7 +235,7 @@ def _spline(knots, count: int = 40) -> np.ndarray:
 
 
 def _changed(tube: Tube, place: float, factor: float) -> Tube:
-    """A tube that is narrower or wider around a place, over three diameters on each side, smoothly."""
+    """Return a tube that is narrower or wider around a place, over three diameters on each side, smoothly."""
     arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(tube.points, axis=0), axis=1))]
     centre = place * arc[-1]
     reach = min(6.0 * float(np.interp(centre, arc, tube.radii)), 0.9 * centre, 0.9 * (arc[-1] - centre))

@@ -31,7 +31,7 @@ def to_vtk(mesh: Mesh):
 
 
 def from_vtk(data) -> Mesh:
-    """The triangles of vtkPolyData that has no other polygons."""
+    """Return the triangles of vtkPolyData that has no other polygons."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
     vertices = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
@@ -40,7 +40,7 @@ def from_vtk(data) -> Mesh:
 
 
 def contour(values: np.ndarray, level: float, origin: np.ndarray, spacing: np.ndarray) -> Mesh:
-    """The surface where values on a grid (i, j, k) have a level, normals towards smaller values."""
+    """Return the surface where values on a grid (i, j, k) have a level, normals towards smaller values."""
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkCommonDataModel import vtkImageData
     from vtkmodules.vtkFiltersCore import vtkFlyingEdges3D
@@ -100,12 +100,12 @@ def decimate(mesh: Mesh, error: float, reductions: Sequence[float] = _REDUCTIONS
 
 
 def distances(points: np.ndarray, mesh: Mesh) -> np.ndarray:
-    """(k,): unsigned distances of points (k, 3) from the triangles of a mesh."""
+    """Return (k,): unsigned distances of points (k, 3) from the triangles of a mesh."""
     return nearest(points, mesh)[0]
 
 
 def nearest(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
-    """(k,): unsigned distances of points (k, 3) from the triangles of a mesh, and (k,): the nearest triangle."""
+    """Return (k,): unsigned distances of points (k, 3) from the triangles of a mesh, and (k,): the nearest triangle."""
     from vtkmodules.vtkCommonCore import mutable
     from vtkmodules.vtkCommonDataModel import vtkGenericCell, vtkStaticCellLocator
 
@@ -122,7 +122,7 @@ def nearest(points: np.ndarray, mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
 
 
 def farthest(before: Mesh, after: Mesh, most: int = 20000) -> float:
-    """The largest distance of sampled vertices and middles of triangles of each from the other."""
+    """Return the largest distance of sampled vertices and middles of triangles of each from the other."""
     def sample(mesh: Mesh) -> np.ndarray:
         points = np.concatenate([mesh.vertices, mesh.corners.mean(axis=1)])
         return points[:: max(1, len(points) // most)]

@@ -49,7 +49,7 @@ def draw_taken(image: Image, taken: Taken, taking: Taking, title: str) -> Figure
 
 
 def _place(image: Image, taken: Taken, taking: Taking) -> np.ndarray:
-    """(3,): the seed's voxel, or that of the vessel which is nearest to the middle of it."""
+    """Return (3,): the seed's voxel, or that of the vessel which is nearest to the middle of it."""
     if taking.seed is not None:
         return np.rint((np.linalg.inv(image.to_space) @ np.r_[taking.seed, 1.0])[:3]).astype(int)
     places = np.argwhere(taken.inside)

@@ -26,7 +26,7 @@ _MARK = b"\xef\xbb\xbf"  # of a text in UTF-8
 
 
 def read_stl(data: bytes) -> Mesh:
-    """Three vertices a triangle, not welded.
+    """Return three vertices a triangle, not welded.
 
     Raises
     ------

@@ -40,7 +40,7 @@ class Tube:
 
 
 def mesh_of_tubes(tubes: list[Tube], carina: float) -> Mesh:
-    """The wall of the union, normals into the lumen, open where tubes are.
+    """Return the wall of the union, normals into the lumen, open where tubes are.
 
     carina : radius of curvature of the edges between tubes, mm.
     """

@@ -76,7 +76,7 @@ def check_count(sizes: list[int]) -> None:
 
 
 def three_sizes(sizes: list[int]) -> list[int]:
-    """The sizes without axes of one voxel behind the third."""
+    """Return the sizes without axes of one voxel behind the third."""
     while len(sizes) > 3 and 1 in sizes:
         sizes = list(sizes)
         sizes.remove(1)

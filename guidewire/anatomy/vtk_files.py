@@ -61,7 +61,7 @@ def _reader(file: Path, kind: str):
 
 
 def _crashes(file: Path, kind: str) -> bool:
-    """Whether VTK's reader ends the process, tried in another one."""
+    """Return whether VTK's reader ends the process, tried in another one."""
     if not hasattr(os, "fork"):
         return False
     reader = _reader(file, kind)

@@ -58,8 +58,8 @@ def span_of(wire: Wire) -> float:
 
 
 def expected_stiffness(wire: Wire, start: float, arms: tuple[float, float]) -> float:
-    """What three-point bending of a piece gives by the method of unit loads: the integral of m^2/EI, m the moment of a
-    unit force, in place of the compliance of a uniform beam."""
+    """Return what three-point bending of a piece gives by the method of unit loads: the integral of m^2/EI, m the
+    moment of a unit force, in place of the compliance of a uniform beam."""
     a, b = arms
     edges = np.unique(np.concatenate([[0.0, a, a + b], np.clip(wire.ends - start, 0.0, a + b)]))
     stiffness = wire.stiffness(start + 0.5 * (edges[1:] + edges[:-1]))
@@ -85,7 +85,7 @@ def three_point(wire: Wire, start: float) -> dict[str, Any]:
 
 
 def read_three_point(folder: Path) -> Bending:
-    """The bending test of a run."""
+    """Return the bending test of a run."""
     require_end(folder)
     *_, (_, entry) = read_entries(folder)
     nodes = np.array([[node["y"], node["z"]] for node in entry["sphere"].values()]) * 1e-3
@@ -110,7 +110,7 @@ def torque(wire: Wire) -> dict[str, Any]:
 
 
 def read_torque(folder: Path) -> float:
-    """GJ of a torque test: torque times length over rotation, N m^2."""
+    """Return GJ of a torque test: torque times length over rotation, N m^2."""
     run = require_end(folder)
     moment = run.measured("solver")["distalMoment"][2]
     return abs(moment) * 1e-3 * run.number("guidewireLength") / _TWIST
@@ -132,7 +132,7 @@ def read_tip(folder: Path) -> np.ndarray:
 
 
 def require_end(folder: Path) -> Run:
-    """The run of a folder; raises LogError where it has not ended well: nothing is read from such a run."""
+    """Return the run of a folder; raises LogError where it has not ended well: nothing is read from such a run."""
     run = read_run(folder)
     if run.outcome not in ("finished", "converged") or not run.is_reliable:
         reason = run.summary["reason"] if isinstance(run.summary, Mapping) else ""

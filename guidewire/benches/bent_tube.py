@@ -79,7 +79,7 @@ def bent_tube(wire: Wire, drive: Path, friction: float | None) -> dict[str, Any]
 
 
 def read_tube(folder: Path) -> TubeTest:
-    """The test of a run."""
+    """Return the test of a run."""
     run = require_end(folder)
     hub = read_hub(folder)
     pushed = int(np.searchsorted(hub.time, _PUSHED + 1e-6)) - 1

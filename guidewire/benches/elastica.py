@@ -18,7 +18,8 @@ class ElasticaError(Exception):
 
 
 def load_at(wire: Wire, gauge: float, deflection: float) -> float:
-    """The force (N) that displaces the tip across by deflection (m) from its rest; gauge (m) is free of the clamp.
+    """Return the force (N) that displaces the tip across by deflection (m) from its rest; gauge (m) is free of the
+    clamp.
 
     Each uniform piece is mapped to [0, 1], with its own four functions, continuous from piece to piece.
 
@@ -66,7 +67,7 @@ def rest_tip(wire: Wire, gauge: float) -> np.ndarray:
 
 
 def rest_shape(wire: Wire, gauge: float, points: int = 401) -> np.ndarray:
-    """The unloaded shape of the last gauge (m) of a wire, (2, k): y and z in m from its first point."""
+    """Return the unloaded shape of the last gauge (m) of a wire, (2, k): y and z in m from its first point."""
     edges, _, _, curvature = _pieces(wire, gauge)
     fine = np.unique(np.concatenate([edges, np.linspace(0.0, gauge, points)]))
     pieces = np.clip(np.searchsorted(edges, 0.5 * (fine[1:] + fine[:-1])) - 1, 0, len(curvature) - 1)

@@ -15,7 +15,7 @@ _TIP = 0.12  # m of the tip that is drawn
 
 @styled
 def draw_instrument(name: str, wire: Wire, tube: TubeTest, smooth: TubeTest) -> Figure:
-    """The tip at rest, stiffness along the wire, and the test in a bent tube with friction and without.
+    """Return the tip at rest, stiffness along the wire, and the test in a bent tube with friction and without.
 
     Parameters
     ----------

@@ -34,7 +34,7 @@ def find_files(folders: Sequence[Path]) -> dict[str, Path]:
 
 
 def read_stated(file: Path) -> list[Stated]:
-    """All that a file states with a source, in its order."""
+    """Return all that a file states with a source, in its order."""
     return list(_stated(json.loads(file.read_text(encoding="utf-8-sig")), ""))
 
 

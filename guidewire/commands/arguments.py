@@ -50,7 +50,7 @@ class Commands:
         self._lines: dict[str, str] = {}
 
     def add_parser(self, name: str, help: str) -> argparse.ArgumentParser:
-        """A command's parser; `help` is its line in the list, and stands above its own help."""
+        """Return a command's parser; `help` is its line in the list, and stands above its own help."""
         self._lines[name] = help
         return self._parsers.add_parser(name, description=help)
 
@@ -80,7 +80,8 @@ def assignment(text: str) -> tuple[str, str]:
 
 
 def value_of(text: str) -> Any:
-    """The value of KEY=VALUE: a number, true, false, a list or an object as JSON has them, anything else as text."""
+    """Return the value of KEY=VALUE: a number, true, false, a list or an object as JSON has them, anything else as
+    text."""
     try:
         return json.loads(text)
     except (ValueError, RecursionError):
@@ -88,21 +89,21 @@ def value_of(text: str) -> Any:
 
 
 def path(text: str) -> Path:
-    """A folder or file."""
+    """Return a folder or file."""
     if not text.strip():
         raise argparse.ArgumentTypeError("an empty name is no folder")
     return Path(text)
 
 
 def positive(text: str) -> int:
-    """A whole number from 1."""
+    """Return a whole number from 1."""
     if not text.isdecimal() or int(text) < 1:
         raise argparse.ArgumentTypeError(f"'{text}' is not a whole number above 0")
     return int(text)
 
 
 def is_list_of_ends(text: str) -> bool:
-    """Whether a word is of numbers of ends, from 1, with commas between them."""
+    """Return whether a word is of numbers of ends, from 1, with commas between them."""
     return all(word.isdecimal() and int(word) > 0 for word in text.split(","))
 
 
@@ -132,17 +133,17 @@ def _numbers(text: str, count: int, what: str) -> tuple[float, ...]:
 
 
 def seed(text: str) -> int | tuple[float, ...]:
-    """A whole number from 1, or a point such as 1,2,3."""
+    """Return a whole number from 1, or a point such as 1,2,3."""
     return _numbers(text, 3, "a point X,Y,Z") if "," in text else positive(text)
 
 
 def box(text: str) -> tuple[float, ...]:
-    """Two corners, such as 0,0,0,10,20,30."""
+    """Return two corners, such as 0,0,0,10,20,30."""
     return _numbers(text, 6, "two corners X,Y,Z,X,Y,Z")
 
 
 def above_zero(text: str) -> float:
-    """A number above 0."""
+    """Return a number above 0."""
     number = finite(text)
     if number <= 0.0:
         raise argparse.ArgumentTypeError(f"'{text}' is not a number above 0")
@@ -150,7 +151,7 @@ def above_zero(text: str) -> float:
 
 
 def error_part(text: str) -> float:
-    """A relative error: 5% or 0.05. More than 1 without a percent sign is hardly meant."""
+    """Return a relative error: 5% or 0.05. More than 1 without a percent sign is hardly meant."""
     if text.endswith("%"):
         return 0.01 * above_zero(text[:-1])
     number = above_zero(text)

@@ -14,7 +14,7 @@ from guidewire.viewer.recording import read_recording
 
 
 def walls_of(run: Run, middle: np.ndarray, reach: float) -> list[Surface]:
-    """The walls of a run, as of `Session.walls`; of one without walls no session is asked.
+    """Return the walls of a run, as of `Session.walls`; of one without walls no session is asked.
 
     Raises
     ------
@@ -30,7 +30,8 @@ def walls_of(run: Run, middle: np.ndarray, reach: float) -> list[Surface]:
 
 
 def instruments_and_sheath(run: Run, log: PositionLog) -> tuple[tuple[Instrument, ...], np.ndarray | None]:
-    """The wire and the catheters over it, none for a wire alone; and the ends of the sheath, (2, 3), units, or None.
+    """Return the wire and the catheters over it, none for a wire alone; and the ends of the sheath, (2, 3), units, or
+    None.
 
     Raises
     ------

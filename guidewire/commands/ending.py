@@ -54,7 +54,8 @@ def code_of(action: Callable[[argparse.Namespace], int], arguments: argparse.Nam
 
 
 def _has_no_reader() -> bool:
-    """Whether whoever read this program's output has gone, as `head` does; what is still to be written is dropped."""
+    """Return whether whoever read this program's output has gone, as `head` does; what is still to be written is
+    dropped."""
     output = select.poll()
     output.register(sys.stdout.fileno(), 0)
     if not any(events & select.POLLERR for _, events in output.poll(0)):

@@ -84,8 +84,8 @@ def _chosen(log: PositionLog, arguments: argparse.Namespace, is_film: bool) -> S
 
 
 def _with_caption(grey: np.ndarray, view: dict[str, Any], time: float, is_known: bool) -> Image.Image:
-    """The picture with the C-arm's angles, as on a screen of an angiography room, and the time; without the words for
-    sides of a patient whose axes are unknown."""
+    """Return the picture with the C-arm's angles, as on a screen of an angiography room, and the time; without the
+    words for sides of a patient whose axes are unknown."""
     image = Image.fromarray(grey)
     pen = ImageDraw.Draw(image)
     angles = [f"{'LAO' if view['lao'] >= 0 else 'RAO'} {abs(view['lao']):.0f}",

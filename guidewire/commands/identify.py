@@ -49,7 +49,7 @@ def run(arguments: argparse.Namespace) -> int:
 
 
 def lines(found: Identified, measured: list[Path]) -> list[str]:
-    """The table, a line a value, and what is to be said of it."""
+    """Return the table, a line a value, and what is to be said of it."""
     width = max(len(one.key) for one in found.values)
     made = [f"{'key':{width}}  {'value':>12}  {'std. error':>10}  95 % interval"]
     for one in found.values:

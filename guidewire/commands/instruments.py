@@ -57,7 +57,7 @@ class Bench:
         self._count = 0
 
     def make(self, parameters: Mapping[str, Any]) -> Path:
-        """The folder of a run. Raises PreparationError with the runner's line where it cannot be made."""
+        """Return the folder of a run. Raises PreparationError with the runner's line where it cannot be made."""
         self._count += 1
         out = self._folder / str(self._count)
         answer = self._runner.run(Request(out.name, None, out, dict(parameters)))
@@ -66,7 +66,7 @@ class Bench:
         return out
 
     def wire(self, name: str) -> Wire:
-        """An instrument as it is simulated."""
+        """Return an instrument as it is simulated."""
         folder = self.make({**_BARE, "instrument": name})
         return wire_of(json.loads((folder / "parameters.json").read_text(encoding="utf-8")))
 
@@ -91,13 +91,14 @@ class Bench:
         return benches.read_torque(self.make(benches.torque(wire))), wire.torsional[0]
 
     def _load(self, wire: Wire, gauge: float, deflection: float) -> tuple[float, float]:
-        """The simulated tip under the load for a deflection, and the load for the deflection that it then has."""
+        """Return the simulated tip under the load for a deflection, and the load for the deflection that it then
+        has."""
         load = elastica.load_at(wire, gauge, deflection)
         tip = benches.read_tip(self.make(benches.tip_load(wire, gauge, load)))
         return load, elastica.load_at(wire, gauge, float(tip[0] - elastica.rest_tip(wire, gauge)[0]))
 
     def tube(self, wire: Wire, friction: float | None) -> bent_tube.TubeTest:
-        """The test of an instrument in the bent tube. Raises PreparationError where it gives no figure."""
+        """Return the test of an instrument in the bent tube. Raises PreparationError where it gives no figure."""
         drive = self._folder / "drive.csv"
         bent_tube.write_drive(drive)
         try:
@@ -108,7 +109,7 @@ class Bench:
 
 @contextmanager
 def opened(command: Sequence[str]) -> Iterator[Bench]:
-    """A bench whose runs are forgotten at the end."""
+    """Provide a bench whose runs are forgotten at the end."""
     runner = Runner(command)
     try:
         with tempfile.TemporaryDirectory() as folder:
@@ -153,7 +154,7 @@ def show(bench: Bench, name: str | None, out: Path) -> int:
 
 
 def table(bench: Bench) -> list[str]:
-    """All instruments, a line each."""
+    """Return all instruments, a line each."""
     lines = [f"{'name':30} {'diameter':9} {'length':7} {'EI shaft':9} {'':8} {'GJ':9} {'EI tip':9} {'friction':21} tip"]
     for name, file in files().items():
         wire = bench.wire(name)
@@ -166,7 +167,7 @@ def table(bench: Bench) -> list[str]:
 
 
 def stated_lines(stated: Sequence[Stated]) -> list[str]:
-    """What a file states, a line each."""
+    """Return what a file states, a line each."""
     return [f"{item.what:36} {item.value:22} {item.basis:9} {item.source}" for item in stated]
 
 
@@ -187,7 +188,7 @@ def bench_lines(results: Sequence[Line]) -> list[str]:
 
 
 def tube_lines(tube: bent_tube.TubeTest, smooth: bent_tube.TubeTest) -> list[Line]:
-    """What the tests in the bent tube give; nothing to compare with."""
+    """Return what the tests in the bent tube give; nothing to compare with."""
     return [Line("bent tube: force at the end", tube.force, "N"),
             Line("bent tube: force without friction", smooth.force, "N"),
             Line("bent tube: tip over hub, 1080 deg", tube.response, ""),
@@ -197,7 +198,7 @@ def tube_lines(tube: bent_tube.TubeTest, smooth: bent_tube.TubeTest) -> list[Lin
 
 
 def _tried(test: str, unit: str, bench: Callable[[], tuple[float, float]]) -> Line:
-    """A bench test, or why it gives no figure."""
+    """Return a bench test, or why it gives no figure."""
     try:
         value, expected = bench()
         return Line(test, value, unit, expected)

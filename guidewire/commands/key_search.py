@@ -35,6 +35,6 @@ def find_keys(table: Mapping[str, Key], word: str, solver: str) -> list[Key]:
 
 
 def describe(key: Key) -> str:
-    """What a key allows, who takes it and what it means, in two lines."""
+    """Return what a key allows, who takes it and what it means, in two lines."""
     return (f"{key.name}: {key.allowed}; default {key.default}; solver {', '.join(key.solvers)}\n"
             f"    {key.meaning}")

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 
 
 def runner_of(arguments: argparse.Namespace) -> list[str]:
-    """The command that makes runs, as `--runner` says."""
+    """Return the command that makes runs, as `--runner` says."""
     if arguments.runner == "headless":
         return build_runner()
     installed.refuse("--runner unity")
@@ -31,19 +31,19 @@ def runner_of(arguments: argparse.Namespace) -> list[str]:
 
 
 def build_benchmarks() -> list[str]:
-    """The command of the benchmarks, built if need be."""
+    """Return the command of the benchmarks, built if need be."""
     with seconds_counted() as tell:
         return building.build(building.BENCHMARKS, tell)
 
 
 def build_runner() -> list[str]:
-    """The runner's command, built if need be."""
+    """Return the runner's command, built if need be."""
     with seconds_counted() as tell:
         return building.build(building.RUNNER, tell)
 
 
 def means_of(arguments: argparse.Namespace, command: list[str], name: str, folder: Path | None = None) -> Means:
-    """What makes runs, as the command line says."""
+    """Return what makes runs, as the command line says."""
     from guidewire.sweeps.sweep import Means
 
     return Means(command, arguments.jobs, arguments.cluster, folder, build_benchmarks, bar_of(name))

@@ -14,7 +14,8 @@ if TYPE_CHECKING:
 
 @contextmanager
 def seconds_counted() -> Iterator[Callable[[str], None]]:
-    """A function that prints a line and, on a terminal, counts the seconds behind it to the end of the block."""
+    """Provide a function that prints a line and, on a terminal, counts the seconds behind it to the end of the
+    block."""
     screen, ended, counters = sys.stderr, threading.Event(), []
 
     def count(line: str, ended: threading.Event) -> None:
@@ -46,7 +47,8 @@ def seconds_counted() -> Iterator[Callable[[str], None]]:
 
 
 def bar_of(name: str) -> Callable[[int, int, int], Bar]:
-    """A bar for each round, with a rate and the time that is left; a line now and then where stderr is no terminal."""
+    """Return a bar for each round, with a rate and the time that is left; a line now and then where stderr is no
+    terminal."""
     def bar(number: int, total: int, found: int) -> Bar:
         from tqdm import tqdm
 

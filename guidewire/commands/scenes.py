@@ -12,7 +12,7 @@ SCENES = "params"
 
 
 def names() -> list[str]:
-    """The parameter files, such as params/default.json."""
+    """Return the parameter files, such as params/default.json."""
     return [f"{SCENES}/{path.name}" for path in sorted((ROOT / SCENES).glob("*.json"))]
 
 

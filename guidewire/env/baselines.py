@@ -137,7 +137,7 @@ class Lead(TurnAndRetry):
 
 
 def baseline_of(environment: Environment) -> TurnAndRetry:
-    """The policy that comes with an environment's task."""
+    """Return the policy that comes with an environment's task."""
     name = environment.task.baseline or ("follow" if environment.hubs > 1 else "retry")
     return {"retry": TurnAndRetry, "follow": Follow, "lead": Lead}[name](environment)
 

@@ -27,16 +27,16 @@ class Instrument(NamedTuple):
 
 
 def instruments_of(state: State) -> list[Instrument]:
-    """The wire, and the catheters over it, outermost first."""
+    """Return the wire, and the catheters over it, outermost first."""
     return [Instrument(one.positions, one.orientations, one.contact_forces, one.place, hub)
             for one, hub in ((state, state.hub), *((catheter, catheter) for catheter in state.catheters))]
 
 
 def names_of(hubs: int) -> list[str]:
-    """What they are called in reports: "wire", "catheter 1"."""
+    """Return what they are called in reports: "wire", "catheter 1"."""
     return ["wire", *(f"catheter {k}" for k in range(1, hubs))]
 
 
 def of_each(value: float | Sequence[float], hubs: int) -> list[float]:
-    """One number for each, where all may have the same."""
+    """Return one number for each, where all may have the same."""
     return list(value) if isinstance(value, (list, tuple, np.ndarray)) else [value] * hubs

@@ -49,7 +49,7 @@ class Box(Space):
         return np.where(finite, even, normal).astype(self.dtype)
 
     def contains(self, value: Any) -> bool:
-        """Whether it is an array of this shape between the bounds."""
+        """Return whether it is an array of this shape between the bounds."""
         return (isinstance(value, np.ndarray) and np.can_cast(value.dtype, self.dtype) and value.shape == self.shape
                 and bool(np.all(value >= self.low) and np.all(value <= self.high)))
 
@@ -74,7 +74,7 @@ class Discrete(Space):
         return self.start + self._np_random.integers(self.n)
 
     def contains(self, value: Any) -> bool:
-        """Whether it is one of them."""
+        """Return whether it is one of them."""
         whole = isinstance(value, (int, np.integer)) and not isinstance(value, bool) or (
             isinstance(value, np.ndarray) and value.shape == () and np.issubdtype(value.dtype, np.integer))
         return whole and bool(self.start <= value < self.start + self.n)
@@ -235,7 +235,7 @@ class NameNotFound(Error):
 
 
 def batch_space(space: Space, n: int) -> Space:
-    """The space of n values at once, as gymnasium.vector.utils.batch_space."""
+    """Return the space of n values at once, as gymnasium.vector.utils.batch_space."""
     if isinstance(space, Dict):
         return Dict({name: batch_space(part, n) for name, part in space.items()})
     if isinstance(space, Discrete):

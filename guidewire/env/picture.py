@@ -86,7 +86,7 @@ class PictureState:
         self._frames: deque[list[np.ndarray]] = deque(maxlen=picture.frames)
 
     def of(self, state: State) -> np.ndarray:
-        """The pictures after a step; before the first frames there are copies of the first one."""
+        """Return the pictures after a step; before the first frames there are copies of the first one."""
         picture = self._picture
         if self._step % picture.every == 0:
             shared = {"pixels": picture.pixels, "vessel": picture.vessel, "noise": picture.noise, "blur": picture.blur}

@@ -67,7 +67,8 @@ class RecordedDrive:
 
 
 def digest_of(state: State) -> str:
-    """A sum over the bits of positions, velocities, orientations and spins, and of places and frames of catheters."""
+    """Return a sum over the bits of positions, velocities, orientations and spins, and of places and frames of
+    catheters."""
     parts = [state.positions, state.velocities, state.orientations, state.angular_velocities]
     for catheter in state.catheters:
         parts += [catheter.positions, catheter.orientations]

@@ -19,7 +19,7 @@ def register() -> None:
 
 
 def make_vector(num_envs: int = 2, **options: object) -> object:
-    """A VectorEnvironment, as `gymnasium.make_vec` asks for one."""
+    """Return a VectorEnvironment, as `gymnasium.make_vec` asks for one."""
     from guidewire.env.vector import VectorEnvironment
 
     return VectorEnvironment(num_envs=num_envs, **options)

@@ -38,13 +38,13 @@ class Field:
         return points + np.sin(self._wave * (points - self._middle)) @ self._strains.T / self._wave
 
     def gradients(self, points: np.ndarray) -> np.ndarray:
-        """(n, 3, 3): what small vectors at points (n, 3) are multiplied by."""
+        """Return (n, 3, 3): what small vectors at points (n, 3) are multiplied by."""
         return np.eye(3) + self._strains * np.cos(self._wave * (points - self._middle))[:, None, :]
 
 
 def reshaped(scene: Mapping[str, Any], anatomy: Mapping[str, Any], warp: Sequence[float] | None,
              entry: Sequence[float] | None, folder: Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
-    """A scene with another vessel, whose files are written into a folder, and its anatomy.
+    """Return a scene with another vessel, whose files are written into a folder, and its anatomy.
 
     Parameters
     ----------
@@ -98,7 +98,7 @@ def _move(anatomy: dict[str, Any], field: Field) -> None:
 
 
 def _across(gradients: np.ndarray, along: np.ndarray) -> np.ndarray:
-    """(n,): the least stretch of a section across (n, 3), seen along where that goes."""
+    """Return (n,): the least stretch of a section across (n, 3), seen along where that goes."""
     thin = np.argmin(np.abs(along), axis=1)
     first = np.cross(along, np.eye(3)[thin])
     first /= np.maximum(np.linalg.norm(first, axis=1), 1e-300)[:, None]

@@ -38,7 +38,7 @@ class Placement(NamedTuple):
         return self.scale == 1.0 and not self.position.any() and np.array_equal(self.rotation, np.eye(3))
 
     def points(self, points: np.ndarray) -> np.ndarray:
-        """Points (n, 3) as they are placed."""
+        """Return points (n, 3) as they are placed."""
         return self.scale * points @ self.rotation.T + self.position
 
 
@@ -110,18 +110,19 @@ class Route:
             self.left[k] = self.left[self.next[k]] + self._lengths[k]
 
     def place(self, point: np.ndarray) -> tuple[int, float]:
-        """The centreline's point that a point (3,) belongs to, and the distance that is left from there, units."""
+        """Return the centreline's point that a point (3,) belongs to, and the distance that is left from there,
+        units."""
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         along, length = float((point - self.points[index]) @ self._steps[index]), float(self._lengths[index])
         return index, float(self.left[index]) - min(max(along, -length), length)
 
     def has_left(self, point: np.ndarray) -> bool:
-        """Whether a point (3,) is beyond one of the ends but the first, in whose sphere its place is."""
+        """Return whether a point (3,) is beyond one of the ends but the first, in whose sphere its place is."""
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         return bool(index in self._outlets and (point - self.points[index]) @ self._outlets[index] > 0.0)
 
     def ahead(self, index: int, distance: float) -> np.ndarray:
-        """The centreline's point (3,) that is so much nearer to the target, units, or the target."""
+        """Return the centreline's point (3,) that is so much nearer to the target, units, or the target."""
         goal = self.left[index] - distance
         while index != self.target and self.left[index] > goal:
             index = int(self.next[index])
@@ -137,7 +138,7 @@ def _three(value: Any) -> list[float]:
 
 
 def _matrix(degrees: np.ndarray) -> np.ndarray:
-    """The rotation by Euler angles about z, then x, then y."""
+    """Return the rotation by Euler angles about z, then x, then y."""
     x, y, z = np.radians(degrees).tolist()
     about_x = np.array([[1.0, 0.0, 0.0], [0.0, math.cos(x), -math.sin(x)], [0.0, math.sin(x), math.cos(x)]])
     about_y = np.array([[math.cos(y), 0.0, math.sin(y)], [0.0, 1.0, 0.0], [-math.sin(y), 0.0, math.cos(y)]])

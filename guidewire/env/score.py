@@ -62,8 +62,8 @@ def play(environment: Environment, policy: Policy, seed: int) -> Played:
 
 
 def benchmark_table(rows: Sequence[tuple[str, str, Sequence[Played]]]) -> str:
-    """A row for each task and policy: fractions of all episodes; means of time and path ratio over successes, of forces
-    over all."""
+    """Return a row for each task and policy: fractions of all episodes; means of time and path ratio over successes, of
+    forces over all."""
     head = ("task", "policy", "episodes", "success", "safe success", "time s", "path ratio", "largest force N",
             "of any N", "impulse N s")
     lines = [head, ("---",) * len(head)]
@@ -81,7 +81,7 @@ def benchmark_table(rows: Sequence[tuple[str, str, Sequence[Played]]]) -> str:
 
 
 def table(names: Sequence[str], played: Sequence[Sequence[Played]]) -> str:
-    """A row for each policy: fractions of episodes, means over them."""
+    """Return a row for each policy: fractions of episodes, means over them."""
     head = ("policy", "episodes", "success", "safe success", "time s", "return", "largest force N", "of any N",
             "impulse N s", "inserted mm", "retracted mm")
     rows = [head, ("---",) * len(head)]
@@ -107,7 +107,7 @@ def _is_finite(observation: Any) -> bool:
 
 
 def _faults_of(environment: Environment, report: dict[str, Any], terminated: bool, truncated: bool) -> list[str]:
-    """What an outcome claims and the wire does not show."""
+    """Return what an outcome claims and the wire does not show."""
     faults = []
     scene = environment.task
     tip = environment.session.state.positions[-1]

@@ -86,7 +86,7 @@ class VectorEnvironment(VectorEnv):
         return self._stacked([seen for seen, _ in answers]), self._gathered([info for _, info in answers])
 
     def step(self, actions: Any) -> tuple[Any, np.ndarray, np.ndarray, np.ndarray, dict[str, Any]]:
-        """One step in each, or a new episode where the last one had ended.
+        """Return one step in each, or a new episode where the last one had ended.
 
         Raises
         ------
@@ -110,12 +110,12 @@ class VectorEnvironment(VectorEnv):
         return self._stacked(seen), np.array(rewards, dtype=np.float64), terminated, truncated, self._gathered(infos)
 
     def call(self, name: str, *arguments: Any, **named: Any) -> tuple[Any, ...]:
-        """What a method of each environment returns, or the value of an attribute."""
+        """Return what a method of each environment returns, or the value of an attribute."""
         self._check_open()
         return tuple(self._ask([("call", (name, arguments, named))] * self.num_envs))
 
     def get_attr(self, name: str) -> tuple[Any, ...]:
-        """An attribute of each environment."""
+        """Return an attribute of each environment."""
         return self.call(name)
 
     def set_attr(self, name: str, values: Any) -> None:
@@ -127,7 +127,7 @@ class VectorEnvironment(VectorEnv):
         self._ask([("set", (name, one)) for one in values])
 
     def render(self) -> tuple[Any, ...]:
-        """A picture of each environment."""
+        """Return a picture of each environment."""
         return self.call("render")
 
     def close(self, **_: Any) -> None:

@@ -98,7 +98,7 @@ def _write_series(folder: Path, curves: Sequence[Curve], times: np.ndarray, fram
 
 
 def _table(recording: Recording, frame: Frame) -> str:
-    """A row a moment: step, time, tip, and what the log says of hubs, walls and energies."""
+    """Return a row a moment: step, time, tip, and what the log says of hubs, walls and energies."""
     known = {channel.name: channel for channel in recording.channels}
     tips = frame.points(known["positions"].values[:, -3:])
     columns = [("step", known["step"].values[:, 0].astype(int)), ("time (s)", known["time"].values[:, 0]),

@@ -34,8 +34,8 @@ class Curve:
 
 
 def curves_of(recording: Recording, described: Mapping[str, Any], frame: Frame) -> list[Curve]:
-    """The wire first. Arrays: Radius (mm), Curvature (1/m), and where the log has them ContactForce (N) and InSheath
-    (1 or 0).
+    """Return the wire first. Arrays: Radius (mm), Curvature (1/m), and where the log has them ContactForce (N) and
+    InSheath (1 or 0).
 
     described : as of `Session.describe`.
     """
@@ -83,6 +83,6 @@ def _with_tips(values: np.ndarray, of_pieces: np.ndarray) -> np.ndarray:
 
 
 def _at_nodes(of_elements: np.ndarray) -> np.ndarray:
-    """(n+1,): means of the elements (n,) beside each node."""
+    """Return (n+1,): means of the elements (n,) beside each node."""
     padded = np.pad(of_elements, 1, mode="edge")
     return 0.5 * (padded[:-1] + padded[1:])

@@ -51,7 +51,7 @@ class Frame:
 
 
 def frame_of(parameters: Mapping[str, Any], patient: Mapping[str, Any] | None, asked: str | None) -> Frame:
-    """The frame for a run.
+    """Return the frame for a run.
 
     Parameters
     ----------

@@ -102,7 +102,7 @@ def _numbers(values: np.ndarray) -> str:
 
 
 def _name(text: str) -> str:
-    """A name of a prim: letters, digits and _."""
+    """Return a name of a prim: letters, digits and _."""
     return "".join(part.capitalize() for part in text.split("-"))
 
 

@@ -11,7 +11,7 @@ from guidewire.logs.hub import HubLog
 
 @styled
 def draw_hub(log: HubLog) -> Figure:
-    """The six panels of one run."""
+    """Return the six panels of one run."""
     figure = new_figure(12.0, 7.0)
     insertion, turn, tip, force, torque, bend = figure.subplots(2, 3).flat
     insertion.plot(log.time, 1e3 * log.insertion)

@@ -13,7 +13,7 @@ _SHAPES = 4  # drawn at most, evenly over all
 
 @styled
 def draw_comparison(found: ComparedForce | ComparedShapes) -> Figure:
-    """Two panels for a force, three for shapes."""
+    """Return two panels for a force, three for shapes."""
     return _force(found) if isinstance(found, ComparedForce) else _shapes(found)
 
 

@@ -14,7 +14,7 @@ _REACH = 0.15  # of the wire's extent: how far the largest shift is drawn
 
 @styled
 def draw_modes(frequencies: Sequence[float], positions: np.ndarray, shapes: np.ndarray) -> Figure:
-    """One panel a mode: the rest shape and the mode to both sides, in the plane in which they reach farthest.
+    """Return one panel a mode: the rest shape and the mode to both sides, in the plane in which they reach farthest.
 
     Parameters
     ----------

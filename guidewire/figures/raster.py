@@ -29,7 +29,7 @@ class Camera:
         return np.stack([right, np.cross(forward, right), forward])
 
     def view(self, points: np.ndarray) -> np.ndarray:
-        """Points (k, 3) in camera axes, units."""
+        """Return points (k, 3) in camera axes, units."""
         axes = self.axes()
         return (points - (np.asarray(self.target) - self.distance * axes[2])) @ axes.T
 
@@ -43,13 +43,13 @@ class Picture:
 
     @staticmethod
     def blank(width: int, height: int, background: tuple[float, float, float] = (0.08, 0.09, 0.12)) -> Picture:
-        """A picture with nothing in it."""
+        """Return a picture with nothing in it."""
         colour = np.empty((height, width, 3))
         colour[:] = background
         return Picture(colour, np.full((height, width), np.inf))
 
     def copy(self) -> Picture:
-        """A picture of its own with the same content."""
+        """Return a picture of its own with the same content."""
         return Picture(self.colour.copy(), self.depth.copy())
 
 

@@ -85,7 +85,7 @@ class Instrument:
     hub: np.ndarray | None = None
 
     def line(self, entry: int | None) -> str:
-        """Its name, and where its hub is at an entry of the log."""
+        """Return its name, and where its hub is at an entry of the log."""
         if entry is None or self.hub is None:
             return self.name
         insertion, turn = self.hub[entry]
@@ -93,7 +93,7 @@ class Instrument:
 
 
 def instruments_of(described: Sequence[Mapping[str, Any]], hubs: Sequence[np.ndarray | None]) -> tuple[Instrument, ...]:
-    """A run's instruments, the wire's first, as `Session.describe` lists them, with their hubs."""
+    """Return a run's instruments, the wire's first, as `Session.describe` lists them, with their hubs."""
     return tuple(Instrument(one["title"], max(one["radii"]), INSTRUMENTS[k % len(INSTRUMENTS)], hub)
                  for k, (one, hub) in enumerate(zip(described, hubs, strict=True)))
 
@@ -227,7 +227,7 @@ def _pixel(colour: np.ndarray) -> tuple[int, ...]:
 
 def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, times: Sequence[float],
                  instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> Image.Image:
-    """A picture of a run: its last moment, or several.
+    """Return a picture of a run: its last moment, or several.
 
     Parameters
     ----------
@@ -270,7 +270,7 @@ def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, 
 
 
 def _of_few_colours(images: Sequence[Image.Image]) -> list[Image.Image]:
-    """The same with one palette for all: what does not move stays the same, which makes a small file."""
+    """Return the same with one palette for all: what does not move stays the same, which makes a small file."""
     shown = images[:: max(1, len(images) // _LEARNT_FROM)]
     sample = Image.new("RGB", (images[0].width, len(shown) * images[0].height))
     for k, image in enumerate(shown):
@@ -292,7 +292,7 @@ def save_images(images: Sequence[Image.Image], path: Path) -> None:
 
 
 def nearest(log: PositionLog, time: float) -> int:
-    """The log's entry that is nearest to a moment of the run."""
+    """Return the log's entry that is nearest to a moment of the run."""
     slack = 1e-9 + (float(np.diff(log.time).max()) if len(log.time) > 1 else 0.0)
     if not log.time[0] - slack <= time <= log.time[-1] + slack:
         raise LogError(f"{log.source}: --times {time:g} is beyond the run, whose log goes from {log.time[0]:g} s to "
@@ -301,7 +301,7 @@ def nearest(log: PositionLog, time: float) -> int:
 
 
 def _at_tip(view: View, log: PositionLog, k: int) -> View:
-    """A view of the tip at one entry of the log, where it is followed."""
+    """Return a view of the tip at one entry of the log, where it is followed."""
     return replace(view, target=tuple(_finite(log, k)[-1])) if view.follows_tip else view
 
 
@@ -335,7 +335,7 @@ def _framed(run: Run, log: PositionLog, walls: Sequence[Surface]) -> tuple[np.nd
 
 
 def _radius(run: Run) -> float:
-    """The wire's radius in units: with gains what meets walls, with a material its own."""
+    """Return the wire's radius in units: with gains what meets walls, with a material its own."""
     if "wireRadius" in run.parameters:
         return run.number("wireRadius") / run.number("metresPerUnit")
     return run.number("sphereRadius")
@@ -348,7 +348,7 @@ def _finite(log: PositionLog, k: int) -> np.ndarray:
 
 
 def _path(log: PositionLog, k: int) -> np.ndarray:
-    """Points of the wire at one entry, the tips of catheters that it comes out of among them."""
+    """Return points of the wire at one entry, the tips of catheters that it comes out of among them."""
     nodes = _finite(log, k)
     return through_tips(nodes, _catheters_at(log, k), lengths_of(log.positions))[0] if log.catheters else nodes
 
@@ -363,6 +363,6 @@ def _caption(log: PositionLog, k: int, stage: Stage) -> str:
 
 
 def _round_up(value: float) -> float:
-    """The next number of the form 1, 2 or 5 times a power of ten."""
+    """Return the next number of the form 1, 2 or 5 times a power of ten."""
     power = 10.0 ** math.floor(math.log10(value))
     return next(step * power for step in (1.0, 2.0, 5.0, 10.0) if value <= step * power * (1.0 + 1e-12))

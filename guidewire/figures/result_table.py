@@ -14,7 +14,7 @@ _MARKERS = ("o", "s", "^", "D", "v")
 
 @styled
 def draw_curves(curves: Curves, x_label: str, logarithmic: str = "") -> Figure:
-    """One panel: a colour for each value of the parameter that makes colours, dashes for what else varies.
+    """Return one panel: a colour for each value of the parameter that makes colours, dashes for what else varies.
 
     Parameters
     ----------

@@ -14,7 +14,7 @@ _MOST_TIMES = 1000  # columns of a map: more would not be seen
 
 @styled
 def draw_stress(log: StressLog) -> Figure:
-    """The four panels of one run."""
+    """Return the four panels of one run."""
     figure = new_figure(10.0, 7.0)
     shape, energy, force, couple = figure.subplots(2, 2).flat
     _draw_shape(figure, shape, log)

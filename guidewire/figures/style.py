@@ -49,7 +49,7 @@ class _StyledFigure(Figure):
 
 
 def new_figure(width: float, height: float) -> Figure:
-    """A figure with room for panels of the given size in inches; a caption makes it taller."""
+    """Return a figure with room for panels of the given size in inches; a caption makes it taller."""
     figure = _StyledFigure(figsize=(width, height), layout="constrained")
     FigureCanvasAgg(figure)
     return figure
@@ -84,14 +84,14 @@ def add_caption(figure: Figure, caption: str) -> None:
 
 
 def captioned(figure: Figure, caption: str) -> tuple[Figure, str]:
-    """A figure with the caption's opening under it, and the whole caption, which stands below the picture in an
+    """Return a figure with the caption's opening under it, and the whole caption, which stands below the picture in an
     index."""
     add_caption(figure, opening(caption))
     return figure, caption
 
 
 def opening(caption: str) -> str:
-    """The first whole sentences of a caption, of MOST_WORDS words at most."""
+    """Return the first whole sentences of a caption, of MOST_WORDS words at most."""
     sentences = _SENTENCE.split(caption)
     count = len(sentences)
     while count > 1 and len(" ".join(sentences[:count]).split()) > MOST_WORDS:

@@ -9,7 +9,7 @@ import numpy as np
 
 
 def number(value: float, digits: int = 3) -> str:
-    """A number with so many significant digits, as 0.297, 1,548 or 2.1e-5."""
+    """Return a number with so many significant digits, as 0.297, 1,548 or 2.1e-5."""
     if not math.isfinite(value):
         return "not finite"
     if value == 0.0:
@@ -22,7 +22,7 @@ def number(value: float, digits: int = 3) -> str:
 
 
 def span(values: Sequence[float] | np.ndarray, digits: int = 3) -> str:
-    """The range of the finite values, as "0.15 to 1.55", or one number where both ends read the same."""
+    """Return the range of the finite values, as "0.15 to 1.55", or one number where both ends read the same."""
     finite = np.asarray(values)[np.isfinite(values)]
     if finite.size == 0:
         return "no value"
@@ -31,7 +31,7 @@ def span(values: Sequence[float] | np.ndarray, digits: int = 3) -> str:
 
 
 def percent(fraction: float, digits: int = 2) -> str:
-    """A fraction as "4.8 %"."""
+    """Return a fraction as "4.8 %"."""
     return f"{number(100.0 * fraction, digits)} %"
 
 
@@ -49,7 +49,7 @@ def relative_spread(values: Sequence[float] | np.ndarray) -> float:
 
 
 def beside(loads: Sequence[float | None]) -> str:
-    """What was measured of the machine beside timed runs, each with the processors that others kept busy."""
+    """Return what was measured of the machine beside timed runs, each with the processors that others kept busy."""
     known = [load for load in loads if load is not None]
     if not known:
         return "and the load of other programs was not measured"

@@ -25,7 +25,7 @@ _REST = {"initialState": "equilibrium", "maxSimulationSteps": 0, "logOrientation
 
 
 def find_critical(trials: Trials, values: Mapping[str, Any], scene: Mapping[str, Any], key: str, guess: float) -> float:
-    """The value of `key` at which the wire snaps, in the key's unit.
+    """Return the value of `key` at which the wire snaps, in the key's unit.
 
     Parameters
     ----------
@@ -60,7 +60,7 @@ def find_critical(trials: Trials, values: Mapping[str, Any], scene: Mapping[str,
 
 def _rest(trials: Trials, values: Mapping[str, Any], key: str, value: float, state: Mapping[str, Any]
           ) -> dict[str, Any] | None:
-    """The state at rest that the search of the minimum finds from another; None where there is none."""
+    """Return the state at rest that the search of the minimum finds from another; None where there is none."""
     asked: dict[str, Any] = {key: value}
     start = dict(state)
     if key == "distalRotation" and "distalFrame" in start:    # counted from the start, and each state is a new one

@@ -15,7 +15,7 @@ _SHAPES = 5    # drawn at most
 
 @styled
 def draw_identified(found: Identified, names: Sequence[str]) -> Figure:
-    """Two panels a measurement: both curves, or values, and the residuals in their order.
+    """Return two panels a measurement: both curves, or values, and the residuals in their order.
 
     Parameters
     ----------
@@ -51,5 +51,5 @@ def draw_identified(found: Identified, names: Sequence[str]) -> Figure:
 
 
 def _widest(points: np.ndarray) -> list[int]:
-    """The two axes along which points extend most."""
+    """Return the two axes along which points extend most."""
     return sorted(np.argsort(np.ptp(points, axis=0))[-2:].tolist())

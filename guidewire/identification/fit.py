@@ -142,10 +142,10 @@ class _Search:
         return self._descend(at, low, high)
 
     def _other_side(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
-        """The better one of what was found and of a search from a standard error beyond its mirror image: a curvature
-        of either sign, with other stiffnesses, may make nearly the same shape, and each is the end of a search that
-        begins on its side. A search whose first step goes back across is given up. The worse one is kept where it
-        cannot be ruled out."""
+        """Return the better one of what was found and of a search from a standard error beyond its mirror image: a
+        curvature of either sign, with other stiffnesses, may make nearly the same shape, and each is the end of a
+        search that begins on its side. A search whose first step goes back across is given up. The worse one is kept
+        where it cannot be ruled out."""
         signed = np.array([not one.by_ratio for one in self._unknowns])
         variance = 2.0 * found.cost / self._free()
         error = np.sqrt(np.diag(_covariance(self._unknowns, found.jac, math.sqrt(variance))[0]))
@@ -227,8 +227,8 @@ class _Search:
         return made
 
     def _jacobian(self, steps: np.ndarray) -> np.ndarray:
-        """The last one, corrected by what the step from there has changed (Broyden), where it promised well; else
-        difference quotients."""
+        """Return the last one, corrected by what the step from there has changed (Broyden), where it promised well;
+        else difference quotients."""
         base = self._residual(steps)
         if self._model is not None:
             at, residual, jacobian = self._model
@@ -263,7 +263,7 @@ class _Search:
         return np.concatenate([weight * part.offsets.ravel() for weight, part in zip(self._weights, parts)])
 
     def _compared(self, many: Sequence[np.ndarray]) -> list[list[Residuals] | None]:
-        """Every run's residuals, of each measurement; None where there is no result."""
+        """Return every run's residuals, of each measurement; None where there is no result."""
         self._tried += len(many)
         if self._tried > MOST_TRIALS:
             raise PreparationError(f"no end of the search after {MOST_TRIALS} sets of values: give bounds, or "
@@ -370,7 +370,7 @@ def _sentence(unknowns: Sequence[Unknown], row: np.ndarray) -> str:
 
 
 def _first_weight(measured: Measurement) -> float:
-    """One over a guess of the error, by which measurements are weighed before they are compared."""
+    """Return one over a guess of the error, by which measurements are weighed before they are compared."""
     if measured.shapes:
         every = np.concatenate([shape.points for shape in measured.shapes])
         return 100.0 / max(float(np.linalg.norm(np.ptp(every, axis=0))), 1e-12)

@@ -65,12 +65,12 @@ class Identified:
     is_complete: bool = True
 
     def __getitem__(self, key: str) -> Value:
-        """The value of a key."""
+        """Return the value of a key."""
         return next(one for one in self.values if one.key == key)
 
 
 def to_json(found: Identified, scene: str, measured: Sequence[Path]) -> str:
-    """The contents of identified.json."""
+    """Return the contents of identified.json."""
     def number(value: float | None) -> float | None:
         return None if value is None or not math.isfinite(value) else float(value)
 

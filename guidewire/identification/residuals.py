@@ -126,7 +126,8 @@ def project(camera: np.ndarray, points: np.ndarray) -> np.ndarray:
 
 
 def aligned(points: Sequence[np.ndarray], curves: Sequence[np.ndarray]) -> tuple[list[np.ndarray], int]:
-    """Points moved as one rigid body to where their distances from the curves are least, and its degrees of freedom.
+    """Return points moved as one rigid body to where their distances from the curves are least, and its degrees of
+    freedom.
 
     Parameters
     ----------

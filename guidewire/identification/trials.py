@@ -54,7 +54,7 @@ class Trials:
         shutil.rmtree(self._folder, ignore_errors=True)
 
     def run(self, many: Sequence[Mapping[str, Any]]) -> list[Path | str]:
-        """The folder of each run, by its overrides, or one line that says why it has no result."""
+        """Return the folder of each run, by its overrides, or one line that says why it has no result."""
         first = self.made
         self.made += len(many)
         return list(self._pool.map(self._one, range(first, first + len(many)), many))
@@ -78,7 +78,7 @@ class Trials:
 
 
 def effective(folder: Path) -> dict[str, Any]:
-    """Every value that a run took.
+    """Return every value that a run took.
 
     Raises
     ------

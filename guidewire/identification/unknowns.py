@@ -43,11 +43,11 @@ class Unknown:
     unit: str
 
     def value(self, step: float) -> float:
-        """The value at so many scales from the start."""
+        """Return the value at so many scales from the start."""
         return self.start * math.exp(step) if self.by_ratio else self.start + self.scale * step
 
     def step(self, value: float) -> float:
-        """The inverse of `value`; infinite where there is none."""
+        """Return the inverse of `value`; infinite where there is none."""
         if not self.by_ratio:
             return (value - self.start) / self.scale
         return math.log(value / self.start) if value > 0.0 else -math.inf
@@ -55,7 +55,7 @@ class Unknown:
 
 def unknowns_of(keys: Sequence[str], scene: Mapping[str, Any], table: Mapping[str, Key],
                 bounds: Mapping[str, tuple[float, float]]) -> list[Unknown]:
-    """The unknowns that keys name; a key of three numbers is three.
+    """Return the unknowns that keys name; a key of three numbers is three.
 
     Parameters
     ----------

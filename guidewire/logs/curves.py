@@ -9,7 +9,7 @@ _PIECES = 8  # straight pieces an element: of an arc they are 64 times nearer th
 
 
 def smooth(nodes: np.ndarray) -> np.ndarray:
-    """Points of a cubic spline through nodes.
+    """Return points of a cubic spline through nodes.
 
     Parameters
     ----------
@@ -35,7 +35,7 @@ def fractions(line: np.ndarray) -> np.ndarray:
 
 
 def by_arc(line: np.ndarray, at: np.ndarray) -> np.ndarray:
-    """Points of a chain (m, d) at fractions of its length (p,), shape (p, d)."""
+    """Return points of a chain (m, d) at fractions of its length (p,), shape (p, d)."""
     own = fractions(line)
     return np.stack([np.interp(at, own, column) for column in line.T], axis=1)
 

@@ -80,7 +80,7 @@ class PositionLog:
 
 
 def find_log(path: str | Path) -> Path:
-    """The log that ``path`` means: a file itself, or a run folder's log, complete or else partial."""
+    """Return the log that ``path`` means: a file itself, or a run folder's log, complete or else partial."""
     path = Path(path)
     if path.is_dir():
         for name in LOG_NAMES:
@@ -168,7 +168,7 @@ def _is_of_arrays(source: Path) -> bool:
 
 @contextmanager
 def _named(source: Path) -> Iterator[None]:
-    """What goes wrong with a log of arrays, as a line with its name."""
+    """Provide what goes wrong with a log of arrays, as a line with its name."""
     try:
         yield
     except (OSError, ValueError) as error:
@@ -253,7 +253,7 @@ class _Entries:
         self._at = 0
 
     def _peek(self, at_end: bool = False) -> str:
-        """The next character that is not white space; at the end of the file "" if ``at_end``."""
+        """Return the next character that is not white space; at the end of the file "" if ``at_end``."""
         while True:
             while self._at < len(self._buffer):
                 if self._buffer[self._at] not in _WHITESPACE:
@@ -285,7 +285,7 @@ class _Entries:
         return entry
 
     def _decode(self) -> object:
-        """One JSON value. An error near the end of what has been read is a value still to be read on."""
+        """Return one JSON value. An error near the end of what has been read is a value still to be read on."""
         while True:
             try:
                 value, self._at = self._decoder.raw_decode(self._buffer, self._at)

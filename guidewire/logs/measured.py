@@ -79,7 +79,7 @@ class ComparedShapes:
 
 
 def compare(folder: Path, file: Path) -> ComparedForce | ComparedShapes:
-    """A run beside a measurement.
+    """Return a run beside a measurement.
 
     Raises
     ------
@@ -120,7 +120,7 @@ def _within(times: np.ndarray, run: np.ndarray, file: Path) -> np.ndarray:
 
 
 def nodes_at(log: PositionLog, time: float) -> np.ndarray:
-    """The nodes at a time, linear between log entries, shape (n + 1, 3)."""
+    """Return the nodes at a time, linear between log entries, shape (n + 1, 3)."""
     after = min(int(np.searchsorted(log.time, time)), len(log.time) - 1)
     before = max(after - 1, 0)
     span = log.time[after] - log.time[before]

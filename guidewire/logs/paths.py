@@ -10,13 +10,15 @@ _STRETCH = 1e-3  # of an element's length, by which it may be longer or shorter
 
 
 def lengths_of(positions: np.ndarray) -> np.ndarray:
-    """(n,): lengths of the elements of a wire, from its nodes (k, n+1, 3) at several moments: the longest chords."""
+    """Return (n,): lengths of the elements of a wire, from its nodes (k, n+1, 3) at several moments: the longest
+    chords."""
     return np.linalg.norm(np.diff(positions, axis=1), axis=2).max(axis=0)
 
 
 def through_tips(nodes: np.ndarray, catheters: Sequence[np.ndarray], lengths: np.ndarray
                  ) -> tuple[np.ndarray, np.ndarray]:
-    """A wire's nodes, and the catheters' tips that it comes out of; and the element that each piece between is of.
+    """Return a wire's nodes, and the catheters' tips that it comes out of; and the element that each piece between is
+    of.
 
     The chord of an element that comes out of a tip cuts the corner there. The two pieces by the tip are together as
     long as the element, or shorter where the catheter is bent behind its tip.

@@ -45,20 +45,20 @@ class Run:
     repeat_folders: tuple[Path, ...] = ()
 
     def value(self, key: str) -> Any:
-        """The effective value of a parameter."""
+        """Return the effective value of a parameter."""
         if key not in self.parameters:
             raise LogError(f"{self.folder / PARAMETERS_NAME}: has no {key}")
         return self.parameters[key]
 
     def number(self, key: str) -> float:
-        """The effective value of a parameter that is a number."""
+        """Return the effective value of a parameter that is a number."""
         value = self.value(key)
         if isinstance(value, bool) or not isinstance(value, (int, float)):
             raise LogError(f"{self.folder / PARAMETERS_NAME}: {key} is {json.dumps(value)}, not a number")
         return value
 
     def measured(self, name: str) -> float:
-        """A number of the summary."""
+        """Return a number of the summary."""
         if self.summary is None:
             raise LogError(f"{self.folder}: has no {SUMMARY_NAME}, the run did not end by itself")
         if name not in self.summary:
@@ -102,7 +102,7 @@ class Run:
 
 
 def busiest(repeats: Iterable[Run]) -> float | None:
-    """What others kept busy beside the repeat that they disturbed most; None where nobody looked."""
+    """Return what others kept busy beside the repeat that they disturbed most; None where nobody looked."""
     return max((busy for repeat in repeats if (busy := repeat.others_busy) is not None), default=None)
 
 
@@ -173,7 +173,7 @@ def read_run(
 
 
 def read_repeats(run: Run, repeats: int) -> list[Run]:
-    """The timed repeats of a run that has so many."""
+    """Return the timed repeats of a run that has so many."""
     if len(run.repeat_folders) < repeats:
         raise LogError(f"{run.key}: has {len(run.repeat_folders)} timed repeats, not {repeats}")
     return [read_run(place, run.key, k, run.variant, run.values)
@@ -224,7 +224,7 @@ class _Row:
 
 
 def _rows(folder: Path) -> list[_Row]:
-    """The lines of a study's table."""
+    """Return the lines of a study's table."""
     try:
         return [_Row(row["key"], row["variant"], row["values"], row["repeat"], (folder / row["folder"]).resolve())
                 for row in _read_object(folder / TABLE).get("runs", [])]

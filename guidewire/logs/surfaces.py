@@ -89,7 +89,8 @@ def tube(positions: np.ndarray, radius: float, per_element: int = 4, sides: int 
 
 
 def refine(surface: Surface, longest: float) -> Surface:
-    """The same surface of triangles that have no side longer than ``longest``, units; those that had none stay."""
+    """Return the same surface of triangles that have no side longer than ``longest``, units; those that had none
+    stay."""
     corners = surface.vertices[surface.triangles]
     done = []
     while len(corners):
@@ -109,7 +110,7 @@ def refine(surface: Surface, longest: float) -> Surface:
 
 
 def read_obj(path: Path) -> Surface:
-    """The triangles of an OBJ file, turned so that they face inwards (their signed volume is negative).
+    """Return the triangles of an OBJ file, turned so that they face inwards (their signed volume is negative).
 
     Raises LogError where it cannot be read.
     """

@@ -118,7 +118,8 @@ def build_browser(is_compiled_ahead: bool, tell: Callable[[str], None]) -> Path:
 
 
 def native_library() -> Path | None:
-    """The native library where it was built from what is there now; None elsewhere. The package always has one."""
+    """Return the native library where it was built from what is there now; None elsewhere. The package always has
+    one."""
     if INSTALLED:
         return installed.library()
     if not _stamp(NATIVE).is_file():
@@ -127,7 +128,7 @@ def native_library() -> Path | None:
 
 
 def dotnet() -> tuple[str, str]:
-    """The dotnet program, and a text that tells its SDKs from others.
+    """Return the dotnet program, and a text that tells its SDKs from others.
 
     Raises PreparationError, one line, where it or a new enough SDK is missing.
     """
@@ -175,8 +176,8 @@ def _hold(projects: Sequence[str], sources: str) -> bool:
 
 
 def _is_beyond_msbuild(project: str) -> bool:
-    """Whether MSBuild may take what is there for current although it is not. Where nothing of the project was built it
-    cannot (and to compile all would replace programs of an earlier part that run already)."""
+    """Return whether MSBuild may take what is there for current although it is not. Where nothing of the project was
+    built it cannot (and to compile all would replace programs of an earlier part that run already)."""
     if not any((HEADLESS / project / folder).exists() for folder in ("bin", "obj")):
         return False
     if not _stamp(project).is_file():
@@ -186,7 +187,7 @@ def _is_beyond_msbuild(project: str) -> bool:
 
 
 def _sources(sdks: str) -> str:
-    """A digest of the SDKs and of the content of every file that a build can read."""
+    """Return a digest of the SDKs and of the content of every file that a build can read."""
     digest = hashlib.sha256(sdks.encode())
     for path in sorted(_files()):
         with open(path, "rb") as file:
@@ -206,7 +207,7 @@ def _files() -> Iterator[str]:
 
 
 def _digest(project: str, sources: str) -> str:
-    """What the stamp of a project holds: its sources, and size and time of each file that was written."""
+    """Return what the stamp of a project holds: its sources, and size and time of each file that was written."""
     files = sorted(path for pattern in _WRITTEN for path in _output(project).glob(pattern))
     written = [(str(path), path.stat().st_size, path.stat().st_mtime_ns) for path in files]
     return hashlib.sha256(f"{sources}{written}".encode()).hexdigest()

@@ -86,7 +86,7 @@ def _try_name(above: Path, folder: Path) -> None:
 
 
 def read_table() -> dict[str, Key]:
-    """Every key by name; none where the page that has them cannot be read."""
+    """Return every key by name; none where the page that has them cannot be read."""
     try:
         return parse_key_table(_TABLE.read_text(encoding="utf-8").split("<!-- keys -->")[1])
     except (OSError, ValueError, IndexError):

@@ -53,7 +53,7 @@ class Key:
     meaning: str = ""
 
     def holds(self, number: float) -> bool:
-        """Whether a number lies in the range; one that is none does not."""
+        """Return whether a number lies in the range; one that is none does not."""
         above = number >= self.low if self.low_is_allowed else number > self.low
         return math.isfinite(number) and above and number <= self.high
 
@@ -103,10 +103,10 @@ def _key(row: re.Match[str], methods: tuple[str, ...]) -> Key:
 
 
 def own_keys(table: Mapping[str, Key], solver: str) -> set[str]:
-    """Those that a method takes."""
+    """Return those that a method takes."""
     return {name for name, key in table.items() if solver in key.solvers}
 
 
 def foreign_keys(table: Mapping[str, Key], solver: str) -> list[str]:
-    """Those that it does not take."""
+    """Return those that it does not take."""
     return [name for name, key in table.items() if solver not in key.solvers]

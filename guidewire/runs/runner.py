@@ -48,7 +48,7 @@ class Request:
     log: bool = True
 
     def to_line(self, check: bool = False) -> str:
-        """The request as the runner reads it; `check` asks for no more than the address of the run."""
+        """Return the request as the runner reads it; `check` asks for no more than the address of the run."""
         message: dict[str, Any] = {"id": self.name, "set": self.overrides}
         if self.parameters is not None:
             message["parameters"] = str(self.parameters)
@@ -127,7 +127,7 @@ class Runner:
             return self._not_an_answer(request, json.dumps(reply))
 
     def check(self, request: Request, following: Request | None = None) -> Checked | Answer:
-        """The address of a run, or why it cannot be made; `following` is the run that is checked next."""
+        """Return the address of a run, or why it cannot be made; `following` is the run that is checked next."""
         ahead = following.to_line(check=True) if following else ""
         reply = self._ask(request, request.to_line(check=True), _SECONDS_TO_END, ahead)
         if isinstance(reply, Answer):
@@ -161,7 +161,7 @@ class Runner:
         process.stdout.close()
 
     def _ask(self, request: Request, line: str, seconds: float | None, ahead: str) -> dict[str, Any] | Answer:
-        """The runner's reply, or what became of a run that got none."""
+        """Return the runner's reply, or what became of a run that got none."""
         if self._ahead not in ("", line):
             self.close()  # the next reply would be to what nobody asks for any more
         try:

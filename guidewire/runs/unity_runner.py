@@ -44,7 +44,7 @@ class Unity:
     seconds: float = _SECONDS
 
     def command(self, log: Path, own: list[str]) -> list[str]:
-        """The command line of one run; what follows -guidewire is ours."""
+        """Return the command line of one run; what follows -guidewire is ours."""
         command = [str(self.path), "-batchmode", "-nographics", "-logFile", str(log)]
         if self.is_editor:
             command += ["-projectPath", str(ROOT), "-executeMethod", ENTRY]
@@ -61,7 +61,7 @@ class Ending:
 
 
 def find(given: str | None, seconds: float = _SECONDS) -> Unity:
-    """The Unity to use: the one given, that of the environment, a player built here, or one on the PATH.
+    """Return the Unity to use: the one given, that of the environment, a player built here, or one on the PATH.
 
     Raises PreparationError, which names every place where it looked, if there is none.
     """
@@ -84,7 +84,7 @@ def find(given: str | None, seconds: float = _SECONDS) -> Unity:
 
 
 def adapter(unity: Unity) -> list[str]:
-    """The command that takes the headless runner's place."""
+    """Return the command that takes the headless runner's place."""
     # Whatever folder it is started in, it finds this package.
     start = (f"import sys; sys.path.insert(0, {str(ROOT)!r}); "
              "from guidewire.runs import unity_runner; sys.exit(unity_runner.main())")
@@ -159,7 +159,8 @@ def _last_word(log: Path) -> str:
 
 
 def _digest(unity: Unity, request: dict[str, Any]) -> str:
-    """What a run depends on, as far as can be said without Unity: two texts that mean the same have two addresses."""
+    """Return what a run depends on, as far as can be said without Unity: two texts that mean the same have two
+    addresses."""
     parts = [unity.path.resolve(), unity.path.stat().st_mtime_ns,
              Path(request["parameters"]).read_text(encoding="utf-8") if "parameters" in request else "",
              json.dumps(request.get("set", {}), sort_keys=True)]
@@ -170,7 +171,7 @@ def _digest(unity: Unity, request: dict[str, Any]) -> str:
 
 
 def answer(unity: Unity, line: str) -> dict[str, Any]:
-    """The answer to one request line; never raises for what the request says."""
+    """Return the answer to one request line; never raises for what the request says."""
     reply: dict[str, Any] = {"id": None, "exitCode": 2, "outcome": None, "message": "", "out": None}
     try:
         request = json.loads(line)
@@ -210,7 +211,7 @@ def _one_run(unity: Unity, own: list[str]) -> int:
 
 
 def main(arguments: list[str] | None = None) -> int:
-    """The command line of the module."""
+    """Return the command line of the module."""
     parser = argparse.ArgumentParser(prog="guidewire.runs.unity_runner", allow_abbrev=False)
     parser.add_argument("--unity", help=f"path of a Unity editor or player (or {VARIABLE})")
     parser.add_argument("--seconds", type=float, default=_SECONDS, help="the time limit of a run")

@@ -13,7 +13,8 @@ FULL = (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)  # no space left: of the disk, 
 
 @contextmanager
 def whole_file(path: Path) -> Iterator[Path]:
-    """A name beside a file, with its ending, to write to: at the end of the block it takes the file's place at once.
+    """Provide a name beside a file, with its ending, to write to: at the end of the block it takes the file's place at
+    once.
 
     Raises
     ------

@@ -34,7 +34,7 @@ class Agent:
 
     @classmethod
     def of(cls, answer: Mapping[str, Any]) -> Agent:
-        """What an answer of the runner says."""
+        """Return what an answer of the runner says."""
         parts = np.frombuffer(base64.b64decode(answer["agent"]), "<f8").copy()
         return cls(parts, answer["injected"], answer["held"], answer["washedOut"], answer["isActive"],
                    answer["isInjecting"], answer["inlet"])

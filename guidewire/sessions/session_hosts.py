@@ -43,7 +43,7 @@ class Process:
                                         encoding="utf-8", start_new_session=True)
 
     def ask(self, line: str) -> dict[str, Any]:
-        """The answer to a request. Raises Ended; what interrupts it, such as Ctrl-C, ends the runner."""
+        """Return the answer to a request. Raises Ended; what interrupts it, such as Ctrl-C, ends the runner."""
         try:
             self.process.stdin.write(line + "\n")
             self.process.stdin.flush()
@@ -98,13 +98,13 @@ class Library:
         self._is_killed = threading.Event()
 
     def ask(self, line: str) -> dict[str, Any]:
-        """The answer to a request."""
+        """Return the answer to a request."""
         if self._is_killed.is_set():
             raise Ended("this session was ended while it made steps")
         return self._answer(line.encode("utf-8"))
 
     def last(self) -> dict[str, Any]:
-        """The answer to a request for the state, also of a session that was ended."""
+        """Return the answer to a request for the state, also of a session that was ended."""
         return self._answer(_STATE.encode("ascii"))
 
     def step(self, motion: Sequence[float], steps: int) -> tuple[int, float, float] | dict[str, Any]:
@@ -243,7 +243,7 @@ def obstacle() -> str:
 
 
 def lanes(path: Path) -> int:
-    """How many numbers the library computes with at once, 4 where its vector paths are on."""
+    """Return how many numbers the library computes with at once, 4 where its vector paths are on."""
     return _load(str(path)).guidewire_lanes()
 
 

@@ -186,8 +186,8 @@ class State:
     _session: ClassVar[Callable[..., Session | None]] = _no_session
 
     def picture(self, **view: Any) -> np.ndarray:
-        """A fluoroscopic picture of this moment: grey levels from 0 to 255, (pixels, pixels) of uint8. `view` is as of
-        `Session.picture`.
+        """Return a fluoroscopic picture of this moment: grey levels from 0 to 255, (pixels, pixels) of uint8. `view` is
+        as of `Session.picture`.
 
         Raises
         ------
@@ -240,7 +240,7 @@ class Frames:
 
 
 def directors_of(orientations: np.ndarray) -> np.ndarray:
-    """(n, 3, 3): the images of the three axes under (n, 4) unit quaternions x, y, z, w, one a row."""
+    """Return (n, 3, 3): the images of the three axes under (n, 4) unit quaternions x, y, z, w, one a row."""
     x, y, z, w = np.asarray(orientations, dtype=float).T
     rows = [[1.0 - 2.0 * (y * y + z * z), 2.0 * (x * y + z * w), 2.0 * (x * z - y * w)],
             [2.0 * (x * y - z * w), 1.0 - 2.0 * (x * x + z * z), 2.0 * (y * z + x * w)],
@@ -249,7 +249,7 @@ def directors_of(orientations: np.ndarray) -> np.ndarray:
 
 
 def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
-    """The arrays of an answer of the runner or the library, by their names."""
+    """Return the arrays of an answer of the runner or the library, by their names."""
     columns = {name: _COLUMNS.get(name.rstrip(_DIGITS)) for name in answer}
     return {name: np.frombuffer(base64.b64decode(answer[name]), dtype="<f8").reshape(-1, width).astype(float)
             for name, width in columns.items() if width is not None}
@@ -263,8 +263,8 @@ def part_of(array: str) -> int:
 
 
 def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
-    """The state of a session whose run goes on, of which nothing else has been read off. Until all of it is, it keeps
-    its session."""
+    """Return the state of a session whose run goes on, of which nothing else has been read off. Until all of it is, it
+    keeps its session."""
     state = object.__new__(State)
     vars(state).update(step=step, time=time, outcome=None, reason="", prediction_error=prediction_error,
                        _session=lambda: session)    # not a part of what it says
@@ -272,7 +272,7 @@ def unread_state(step: int, time: float, prediction_error: float, session: Sessi
 
 
 def state_of(answer: Mapping[str, Any], arrays: Mapping[str, np.ndarray], session: Session) -> State:
-    """The state of a session that an answer and its arrays say."""
+    """Return the state of a session that an answer and its arrays say."""
     state = unread_state(answer["step"], answer["time"], answer["predictionError"], session)
     vars(state).update(outcome=answer["outcome"], reason=answer["message"])
     for part in PARTS:
@@ -300,7 +300,7 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
 
 
 def unread(state: State) -> list[int]:
-    """The parts of a state that have not been read off."""
+    """Return the parts of a state that have not been read off."""
     return [part for part, name in ((MOTION, "positions"), (INSTRUMENTS, "hub"), (STRAINS, "strain"))
             if name not in vars(state)]
 

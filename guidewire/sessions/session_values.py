@@ -19,7 +19,7 @@ def accepted(answer: dict[str, Any]) -> dict[str, Any]:
 
 
 def plain(value: Any) -> Any:
-    """What JSON has for a numpy array or number, and for a path."""
+    """Return what JSON has for a numpy array or number, and for a path."""
     if isinstance(value, (np.ndarray, np.generic)):
         return value.tolist()
     if isinstance(value, Path):
@@ -35,7 +35,7 @@ def whole(name: str, value: Any, least: str) -> int:
 
 
 def numbers(name: str, value: Any, hub: int, hubs: int) -> list[float]:
-    """A number for each hub, or for none where all of them have 0."""
+    """Return a number for each hub, or for none where all of them have 0."""
     try:
         one_each = [0.0] * hubs if not isinstance(value, (list, tuple, np.ndarray)) and value == 0.0 else list(value)
     except TypeError:

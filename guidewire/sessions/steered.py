@@ -22,7 +22,7 @@ RULES = {"grain": _GRAIN, "turnGrain": _TURN_GRAIN, "constant": _CONSTANT, "stop
 
 
 def exact_push(wanted: float, metres: float) -> float:
-    """A push in a step, units, near a wanted one, for which metres * push is a multiple of the grain."""
+    """Return a push in a step, units, near a wanted one, for which metres * push is a multiple of the grain."""
     middle = round(metres * wanted / _GRAIN)
     for k in range(_TRIES):
         displacement = (middle + (k + 1) // 2 * (1 if k % 2 else -1)) * _GRAIN
@@ -34,7 +34,7 @@ def exact_push(wanted: float, metres: float) -> float:
 
 
 def exact_turn(wanted: float) -> float:
-    """A turn in a step, rad, near a wanted one, that is a multiple of the grain."""
+    """Return a turn in a step, rad, near a wanted one, that is a multiple of the grain."""
     return round(wanted / _TURN_GRAIN) * _TURN_GRAIN
 
 
@@ -99,7 +99,7 @@ class Steered:
         self.problem = self.problem or why
 
     def to_csv(self) -> str:
-        """The table, as `driveFile` takes it.
+        """Return the table, as `driveFile` takes it.
 
         A step asks for the values at its beginning and at its end. The core's time at those differs from a multiple of
         dt by roundings, so around each multiple the value is constant.

@@ -32,7 +32,7 @@ class Holds:
     at_most: Mapping[str, float] = field(default_factory=dict)
 
     def why_not(self, summary: Mapping[str, Any]) -> str:
-        """What is wrong with a run, in a word or the name of a number; empty where it holds."""
+        """Return what is wrong with a run, in a word or the name of a number; empty where it holds."""
         if summary["outcome"] not in self.outcomes:
             return str(summary["outcome"])
         return next((name for name, most in self.at_most.items()
@@ -93,7 +93,7 @@ class _Search:
         self._seen: dict[float, str] = {}  # value to what is wrong there
 
     def case_at(self, value: float) -> Case:
-        """The run with this value of the parameter."""
+        """Return the run with this value of the parameter."""
         values = {**self._case.values, self._asked.range.key: value}
         name = f"{self._asked.range.key}={value_text(value)}"
         key = name if self._case.key == "default" else f"{self._case.key},{name}"
@@ -106,7 +106,7 @@ class _Search:
         self._seen[value] = why_not
 
     def middle(self) -> float | None:
-        """What to run next; None where the search has ended."""
+        """Return what to run next; None where the search has ended."""
         between = self._between()
         if between is None:
             return None
@@ -118,7 +118,7 @@ class _Search:
         return None if high - low <= self._asked.width else 0.5 * (low + high)
 
     def found(self) -> dict[str, Any]:
-        """The row of this point."""
+        """Return the row of this point."""
         row = {"variant": self._case.variant, **told_values(self._case.values), "key": self._asked.range.key}
         between = self._between()
         if between is None:

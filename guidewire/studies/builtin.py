@@ -61,7 +61,7 @@ def _longitudinal(name: str, title: str, key: str, values: tuple[Value, ...]) ->
 
 
 def _perturbations(scene: str) -> tuple[Study, ...]:
-    """A scene's reference and the four sweeps that the thesis compares with it."""
+    """Return a scene's reference and the four sweeps that the thesis compares with it."""
     return (
         _perturbation(scene, "reference", "the reference run and two coarser ones", common=_REFERENCE, variants={
             "reference": {},

@@ -40,7 +40,7 @@ _NO_WORDS = ("true", "false")  # as texts they are written like other texts, bet
 
 
 def value_text(value: Value) -> str:
-    """A value as it stands in names; different values, also of different types, have different texts.
+    """Return a value as it stands in names; different values, also of different types, have different texts.
 
     Raises
     ------
@@ -62,12 +62,12 @@ def value_text(value: Value) -> str:
 
 
 def plain_values(values: Mapping[str, Value]) -> dict[str, Any]:
-    """What the parameters are, as a file has them."""
+    """Return what the parameters are, as a file has them."""
     return {key: value.value if isinstance(value, Named) else value for key, value in values.items()}
 
 
 def told_values(values: Mapping[str, Value]) -> dict[str, Any]:
-    """What tables say of the parameters: of a named value its name."""
+    """Return what tables say of the parameters: of a named value its name."""
     return {key: value.name if isinstance(value, Named) else value for key, value in values.items()}
 
 
@@ -79,7 +79,7 @@ def run_key(variant: str, values: Mapping[str, Value]) -> str:
 
 
 def checked_key(key: str) -> str:
-    """The name itself, where it can be that of a file.
+    """Return the name itself, where it can be that of a file.
 
     Raises
     ------

@@ -44,13 +44,14 @@ def _study(name: str, title: str, scene: str, grid: Grid) -> Study:
 
 
 def _bent(angle: float, law: str) -> dict[str, Any]:
-    """A couple at the tip that turns each joint by so much, in rad, where K times the angle is its couple."""
+    """Return a couple at the tip that turns each joint by so much, in rad, where K times the angle is its couple."""
     return {"tipMoment": [angle * _STIFFNESS, 0.0, 0.0], "bendLaw": law, "initialState": "equilibrium",
             "maxSimulationSteps": 0, "maxNewtonIterations": 200}
 
 
 def _twisted(angle: float) -> dict[str, Any]:
-    """A distal clamp that turns each joint by so much, in rad; those at the clamps count for 3/8 and 7/6, 23/24."""
+    """Return a distal clamp that turns each joint by so much, in rad; those at the clamps count for 3/8 and 7/6,
+    23/24."""
     return {"distalEnd": "clamped", "distalRotation": angle * JOINT_ELEMENTS, "initialState": "equilibrium",
             "maxSimulationSteps": 0, "maxNewtonIterations": 200}
 

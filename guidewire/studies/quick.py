@@ -17,7 +17,7 @@ _MANY = 1000  # iterations a step, from which a quarter is made
 
 
 def shortened(study: Study) -> Study:
-    """The study in short; it has the same name."""
+    """Return the study in short; it has the same name."""
     table = study.grid
     if isinstance(table, Bisection):
         variants = dict(list(table.grid.variants.items())[:_BISECTED_VARIANTS])

@@ -43,7 +43,7 @@ class Range:
             raise ValueError(f"{self.key} goes from {self.low:g}: a logarithmic range lies above 0")
 
     def at(self, fraction: float) -> Value:
-        """The value at this part of the range, 0 for its start and 1 for its end."""
+        """Return the value at this part of the range, 0 for its start and 1 for its end."""
         low, high = self.low, self.high
         if self.whole:  # each of them as wide as any other
             low, high = math.ceil(low) - 0.5, math.floor(high) + 0.5

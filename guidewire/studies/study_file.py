@@ -45,7 +45,7 @@ class StudyFileError(Exception):
 
 
 def read_study_file(path: Path, most_runs: int | None = LIMIT) -> Study:
-    """The study that a file holds.
+    """Return the study that a file holds.
 
     Parameters
     ----------
@@ -212,7 +212,7 @@ class _Reader:
         return [self._value(f"{where}[{k}]", value) for k, value in enumerate(given)]
 
     def _value(self, where: str, given: Any) -> Value:
-        """A value, or one with a name: {"name": "wide", "value": {..}}."""
+        """Return a value, or one with a name: {"name": "wide", "value": {..}}."""
         if not isinstance(given, dict):
             return given
         self._only(where, given, ("name", "value"))
@@ -223,7 +223,7 @@ class _Reader:
         return Named(self._text(f"{where}.name", given["name"]), given["value"])
 
     def _built(self, where: str, make: Callable[..., Any], *given: Any) -> Any:
-        """The object made of these values; a ValueError becomes a line that says where in the file they are."""
+        """Return the object made of these values; a ValueError becomes a line that says where in the file they are."""
         try:
             return make(*given)
         except ValueError as error:

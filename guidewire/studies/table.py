@@ -48,7 +48,7 @@ class Axis:
         return (self.key,)
 
     def points(self) -> list[tuple[str, dict[str, Value]]]:
-        """Each value with its name."""
+        """Return each value with its name."""
         return [(run_key("", {self.key: value}), {self.key: value}) for value in self.values]
 
 
@@ -82,7 +82,7 @@ class Rows:
         return self.rows
 
     def points(self) -> list[tuple[str, dict[str, Value]]]:
-        """Each row with its name."""
+        """Return each row with its name."""
         digits = len(str(len(self.rows)))
         return [(f"{self.name}-{number:0{digits}}", dict(zip(self.keys, row)))
                 for number, row in enumerate(self.rows, 1)]
@@ -154,7 +154,7 @@ class Grid:
         return max(1, len(self.variants)) * points * (1 + self.repeats)
 
     def cases(self) -> list[Case]:
-        """Every run, the last axis first."""
+        """Return every run, the last axis first."""
         cases = []
         for variant, changed in (self.variants or {"": {}}).items():
             for point in itertools.product(*(axis.points() for axis in self.axes)):
@@ -169,7 +169,7 @@ class Grid:
         yield self.cases()
 
     def overrides(self, variant: Mapping[str, Any], values: Mapping[str, Value]) -> dict[str, Any]:
-        """The overrides of the scene for one run."""
+        """Return the overrides of the scene for one run."""
         overrides = {**self.common, **variant, **plain_values(values)}
         if self.duration is not None:
             steps = max(math.ceil(self.duration / overrides["timeStep"] - _ROUNDING), self.least_steps)
@@ -268,5 +268,5 @@ class Study:
         return str(self.file or self.name)
 
     def rounds(self, folder: Path) -> Rounds:
-        """The rounds of its table."""
+        """Return the rounds of its table."""
         return self.grid.rounds()

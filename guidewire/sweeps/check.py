@@ -67,7 +67,7 @@ TUNED = ("its stiffness is no material's and would be tuned to this very result,
 
 
 def not_run(what: str, solver: str, reason: str) -> Result:
-    """A line of the table that only says why it has no figure."""
+    """Return a line of the table that only says why it has no figure."""
     return Result(what, solver, math.nan, math.nan, math.nan, None, reason=reason)
 
 

@@ -142,7 +142,7 @@ class Cluster:
         return sum(found["nthreads"] for found in self._client.scheduler_info()["workers"].values())
 
     def check(self, jobs: Sequence[Job]) -> list[str | Answer]:
-        """The addresses of runs, or why they cannot be made, in their order.
+        """Return the addresses of runs, or why they cannot be made, in their order.
 
         Raises
         ------

@@ -32,7 +32,8 @@ def folder_of(runs: Path, address: str, repeat: int | None = None, in_turns: boo
 
 
 def read_whole(folder: Path, log: bool, timed: bool) -> dict[str, Any] | None:
-    """The summary of a whole run, with the load beside it where that was measured; None where the run is to be made.
+    """Return the summary of a whole run, with the load beside it where that was measured; None where the run is to be
+    made.
 
     Parameters
     ----------

@@ -61,7 +61,7 @@ def no_bar(number: int, total: int, found: int) -> Bar:
 
 
 def build_stopwatch() -> list[str]:
-    """The program that measures a motion's cost in turns with sweeps, built without a word."""
+    """Return the program that measures a motion's cost in turns with sweeps, built without a word."""
     return building.build(building.BENCHMARKS, lambda _: None)
 
 
@@ -151,7 +151,7 @@ class _Row:
         return self.job.request.repeat
 
     def read(self) -> dict[str, Any] | None:
-        """Its summary, where it is done."""
+        """Return its summary, where it is done."""
         return None if self.refused else read_whole(self.folder, self.job.request.log, self.job.timed)
 
 
@@ -293,7 +293,7 @@ class _Asked:
         _write(self._folder / RESULTS, _csv(self._lines))
 
     def _line(self, row: _Row, summary: Mapping[str, Any]) -> dict[str, Any]:
-        """What came of a run, and last what depends on the machine."""
+        """Return what came of a run, and last what depends on the machine."""
         flat = dict(_flat("", {name: value for name, value in summary.items() if name not in _SAID}))
         last = {name: flat.pop(name) for name in WALL_TIMES if name in flat}
         return {**flat, "folder": self._place_of(row), **last}
@@ -306,7 +306,7 @@ class _Asked:
         return f"{self._places[above]}/{part}/{name}"
 
     def _answer(self, row: _Row, answers: Mapping[Path, Answer]) -> Answer:
-        """What became of a run that is not done."""
+        """Return what became of a run that is not done."""
         if row.refused:
             return Answer(row.case.key, BAD_INPUT, None, row.refused)
         return answers.get(row.folder, Answer(row.case.key, INTERRUPTED, "", "not run yet"))

@@ -46,7 +46,7 @@ class Job:
     seconds: float
 
     def to_plain(self) -> Plain:
-        """The job as it travels."""
+        """Return the job as it travels."""
         asked = self.request
         return (asked.name, str(asked.parameters), str(asked.out or ""), asked.overrides, asked.repeat, asked.log,
                 self.timed,
@@ -54,7 +54,7 @@ class Job:
 
     @classmethod
     def of(cls, plain: Plain) -> Job:
-        """The job that has travelled."""
+        """Return the job that has travelled."""
         name, parameters, out, overrides, repeat, log, timed, seconds = plain
         return cls(Request(name, Path(parameters), Path(out), overrides, repeat, log), timed, seconds)
 
@@ -65,12 +65,12 @@ class Job:
 
 
 def to_text(jobs: Sequence[Job]) -> str:
-    """A batch of jobs as it travels."""
+    """Return a batch of jobs as it travels."""
     return json.dumps([job.to_plain() for job in jobs])
 
 
 def of_text(text: str) -> list[Job]:
-    """The batch that has travelled."""
+    """Return the batch that has travelled."""
     return [Job.of(plain) for plain in json.loads(text)]
 
 
@@ -120,7 +120,7 @@ class Runners(WorkerPlugin):
 
     @contextmanager
     def runner(self, command: Sequence[str]) -> Iterator[Runner]:
-        """A runner of a command that nobody else uses meanwhile, started and found to be of the right version.
+        """Provide a runner of a command that nobody else uses meanwhile, started and found to be of the right version.
 
         Raises
         ------
@@ -208,7 +208,7 @@ def stop(plugin: str, dask_worker: Any) -> None:
 
 
 def _time(runner: Runner, job: Job) -> Answer:
-    """A timed run with the load beside it, measured again where others disturbed it."""
+    """Return a timed run with the load beside it, measured again where others disturbed it."""
     for measured in range(1, _MEASURED_AT_MOST + 1):
         load = LoadBeside(runner.process) if runner.process is not None else None
         answer = runner.run(job.request, job.seconds)

@@ -69,7 +69,8 @@ class VesselPicture:
         self._lines = lines
 
     def to_bytes(self) -> bytes:
-        """The length of the header (4 bytes, lowest first), the header (JSON), vertices (float32), triangles (uint32).
+        """Return the length of the header (4 bytes, lowest first), the header (JSON), vertices (float32), triangles
+        (uint32).
         """
         mesh, mm = self._mesh, 1e3 * self._found.unit.metres
         if len(mesh.triangles) > _MOST:

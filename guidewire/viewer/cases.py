@@ -17,7 +17,7 @@ SCENES = {    # of params: title and sentence
 
 
 def title_of(file: Path) -> str:
-    """A parameter file as a case is called: by its place where its own name says nothing."""
+    """Return a parameter file as a case is called: by its place where its own name says nothing."""
     if file.stem in SCENES:
         return SCENES[file.stem][0]
     name = file.resolve().parent.name if file.stem == "scene" else file.stem

@@ -19,7 +19,7 @@ _BOOT = "boot.js"  # unpacks the modules
 
 
 def to_html(files: Mapping[str, Path], recordings: Sequence[bytes]) -> str:
-    """The page as one file.
+    """Return the page as one file.
 
     Parameters
     ----------
@@ -34,13 +34,13 @@ def to_html(files: Mapping[str, Path], recordings: Sequence[bytes]) -> str:
 
 
 def page_of_packed(boot: str = "") -> str:
-    """The page's frame, where its modules are packed; `boot` takes the place of the main module."""
+    """Return the page's frame, where its modules are packed; `boot` takes the place of the main module."""
     page = (PAGE / "index.html").read_text(encoding="utf-8")
     return _MAP.sub("", page).replace(_MAIN, boot)
 
 
 def modules_of(files: Mapping[str, Path]) -> bytes:
-    """The page's modules in one block, which boot.js takes: JSON of their texts by name, packed."""
+    """Return the page's modules in one block, which boot.js takes: JSON of their texts by name, packed."""
     texts = {name: path.read_text(encoding="utf-8") for name, path in files.items()
              if path.suffix == ".js" and name != _BOOT}
     return pack(json.dumps(texts).encode())

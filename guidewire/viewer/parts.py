@@ -33,7 +33,8 @@ def three(tell: Callable[[str], None]) -> dict[str, Path]:
 
 
 def require(kind: str, tell: Callable[[str], None]) -> Path:
-    """The folder node_modules with all packages of one kind, "dependencies" or "devDependencies" of package.json.
+    """Return the folder node_modules with all packages of one kind, "dependencies" or "devDependencies" of
+    package.json.
 
     Parameters
     ----------
@@ -68,7 +69,7 @@ def require(kind: str, tell: Callable[[str], None]) -> Path:
 
 
 def _all(modules: Path, wanted: dict[str, str]) -> dict[str, str]:
-    """What is wanted and what is there already: npm takes away what it is not asked for."""
+    """Return what is wanted and what is there already: npm takes away what it is not asked for."""
     pinned = json.loads((PAGE / "package.json").read_text(encoding="utf-8"))
     known = {**pinned["dependencies"], **pinned["devDependencies"]}
     there = {name: version for name, version in known.items() if _version(modules / name) == version}

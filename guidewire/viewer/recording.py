@@ -82,8 +82,8 @@ class Recording:
     described: Mapping[str, Any] = field(default_factory=dict)
 
     def to_bytes(self, exact: bool = True) -> bytes:
-        """The block for the page; where it need not be exact, of 16 bits a number between the lowest and the highest
-        of its kind (time: 32 bits)."""
+        """Return the block for the page; where it need not be exact, of 16 bits a number between the lowest and the
+        highest of its kind (time: 32 bits)."""
         arrays = _Arrays()
         largest = largest_shown(self.channels) if self.largest is None else self.largest
         channels = [{
@@ -170,19 +170,19 @@ class Units:
 
 
 def units_of(parameters: Mapping[str, Any]) -> Units:
-    """The units of a run with these effective values."""
+    """Return the units of a run with these effective values."""
     return Units(parameters["metresPerUnit"] if "wireRadius" in parameters else None)
 
 
 def radius_of(parameters: Mapping[str, Any]) -> float:
-    """The wire's radius in units: with gains what meets walls, with a material its own."""
+    """Return the wire's radius in units: with gains what meets walls, with a material its own."""
     if "wireRadius" in parameters:
         return parameters["wireRadius"] / parameters["metresPerUnit"]
     return parameters["sphereRadius"]
 
 
 def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> list[Channel]:
-    """What can be shown of k frames of a wire of n elements.
+    """Return what can be shown of k frames of a wire of n elements.
 
     Parameters
     ----------
@@ -268,7 +268,7 @@ def _at_the_hub(known: Mapping[str, np.ndarray], units: Units, along: np.ndarray
 
 
 def read_off(state: State) -> dict[str, np.ndarray]:
-    """What a state says of energies and of the hub, by the names of a log."""
+    """Return what a state says of energies and of the hub, by the names of a log."""
     numbers: dict[str, float | None] = {}
     if state.energy is not None:
         energy = state.energy
@@ -337,7 +337,7 @@ def _twist(orientations: np.ndarray, lengths: np.ndarray) -> np.ndarray:
 
 def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: Mapping[str, Any],
                    places: Callable[[np.ndarray], Sequence[LumenPlace]]) -> Recording:
-    """A run from its folder.
+    """Return a run from its folder.
 
     Parameters
     ----------
@@ -389,12 +389,12 @@ def lumen_of(places: Sequence[LumenPlace | None]) -> np.ndarray | None:
 
 
 def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[tuple[str, Surface]]:
-    """Each wall of a run with what it is; the vessel stands first where there is one."""
+    """Return each wall of a run with what it is; the vessel stands first where there is one."""
     return [("vessel" if k == 0 and parameters.get("vessel") else "obstacle", wall) for k, wall in enumerate(walls)]
 
 
 def facts_of(parameters: Mapping[str, Any], summary: Mapping[str, Any] | None) -> list[tuple[str, str]]:
-    """What is shown of a run beside its picture."""
+    """Return what is shown of a run beside its picture."""
     facts = [("method", parameters.get("solver", "")), ("elements", str(parameters.get("numberRodElements", ""))),
              ("time step", f"{parameters.get('timeStep')} s")]
     if summary:
@@ -416,7 +416,7 @@ def _wall_times(steps: np.ndarray, elapsed: np.ndarray, time: np.ndarray, kept: 
 
 
 def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
-    """What entries of a log hold beside positions, for the steps that are shown."""
+    """Return what entries of a log hold beside positions, for the steps that are shown."""
     wanted = set(steps.tolist())
     rows: dict[str, list[Any]] = {}
     for step, entry in read_entries(run.folder):

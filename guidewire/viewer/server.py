@@ -37,7 +37,7 @@ _INLINE = re.compile(r"<script type=\"importmap\">(.*?)</script>", re.DOTALL)
 
 
 def page_files(parts: Mapping[str, Path]) -> dict[str, Path]:
-    """Every file of the page by its name in the address."""
+    """Return every file of the page by its name in the address."""
     own = {path.name: path for path in PAGE.iterdir() if path.suffix in _TYPES}
     return {**own, **parts}
 

@@ -133,7 +133,7 @@ def _put(place: Path, file: Path, is_plain: bool) -> None:
 
 
 def _read(file: Path) -> _Scene:
-    """A scene with what it names, pictured on the way of its own drive."""
+    """Return a scene with what it names, pictured on the way of its own drive."""
     checking.check_file(file)
     try:
         with session_of(file, native=False) as session:

@@ -42,7 +42,7 @@ class Asmdef:
         return str(self.data.get("name", ""))
 
     def strings(self, key: str) -> list[str]:
-        """The texts of a list, or nothing where it is no list."""
+        """Return the texts of a list, or nothing where it is no list."""
         value = self.data.get(key)
         return [item for item in value if isinstance(item, str)] if isinstance(value, list) else []
 
@@ -57,13 +57,13 @@ class Asmdef:
 
 
 def assemblies(project: Project) -> list[Asmdef]:
-    """The readable assembly definitions."""
+    """Return the readable assembly definitions."""
     return project.derived("assemblies", lambda p: [
         Asmdef(path, parsed(p, path)[0]) for path in p.assets(".asmdef") if not parsed(p, path)[1]])
 
 
 def targets(project: Project, asmdef: Asmdef) -> list[tuple[str, Asmdef | None]]:
-    """Each reference as written, by name or GUID, with the project's assembly that it means."""
+    """Return each reference as written, by name or GUID, with the project's assembly that it means."""
     known = {item.name: item for item in assemblies(project)}
     by_path = {item.path: item for item in assemblies(project)}
     known |= {f"GUID:{guid}": by_path[path] for guid, path in guids(project).items() if path in by_path}
@@ -71,7 +71,7 @@ def targets(project: Project, asmdef: Asmdef) -> list[tuple[str, Asmdef | None]]
 
 
 def owner(asmdefs: list[Asmdef], path: str) -> Asmdef | None:
-    """The assembly that a source file belongs to: the nearest definition above it."""
+    """Return the assembly that a source file belongs to: the nearest definition above it."""
     above = [asmdef for asmdef in asmdefs if path.startswith(asmdef.folder)]
     return max(above, key=lambda asmdef: len(asmdef.folder), default=None)
 

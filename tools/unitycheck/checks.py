@@ -10,5 +10,5 @@ MODULES = (metas, textfiles, packages, settings, asmdefs, sources, references, s
 
 
 def run(project: Project) -> list[Violation]:
-    """Every violation of every rule, ordered by file and line."""
+    """Return every violation of every rule, ordered by file and line."""
     return sorted({violation for module in MODULES for violation in module.check(project)})

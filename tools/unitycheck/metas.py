@@ -26,7 +26,7 @@ _RESERVED = re.compile(r"^0{16}[0-9a-f]0{15}$")
 
 
 def importer(path: str, is_folder: bool) -> str | None:
-    """The name of the importer that Unity uses for a path; None where the extension is in no table."""
+    """Return the name of the importer that Unity uses for a path; None where the extension is in no table."""
     if is_folder:
         return "DefaultImporter"
     if PurePosixPath(path).name == "package.json":
@@ -37,12 +37,12 @@ def importer(path: str, is_folder: bool) -> str | None:
 
 @lru_cache(maxsize=None)
 def stable_guid(path: str) -> str:
-    """The GUID given to a new asset: the same on every machine, and kept when the file is renamed."""
+    """Return the GUID given to a new asset: the same on every machine, and kept when the file is renamed."""
     return hashlib.md5(f"guidewire/{path}".encode("utf-8")).hexdigest()
 
 
 def meta_text(path: str, is_folder: bool) -> str:
-    """The whole .meta file of a new asset."""
+    """Return the whole .meta file of a new asset."""
     name = importer(path, is_folder) or "DefaultImporter"
     text = f"fileFormatVersion: 2\nguid: {stable_guid(path)}\n"
     if is_folder:

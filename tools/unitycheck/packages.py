@@ -29,7 +29,7 @@ _NAME = re.compile(r"^[a-z0-9-]+(\.[a-z0-9-]+){2,}$")
 
 
 def parsed(project: Project, path: str) -> tuple[dict[str, Any], Violation | None]:
-    """The JSON object of a file, or the violation that says why it is none."""
+    """Return the JSON object of a file, or the violation that says why it is none."""
     if not project.exists(path):
         return {}, Violation(path, 0, "json", "the file is missing")
     try:
@@ -42,7 +42,7 @@ def parsed(project: Project, path: str) -> tuple[dict[str, Any], Violation | Non
 
 
 def dependencies(project: Project) -> dict[str, str]:
-    """The manifest's packages, empty if it cannot be read."""
+    """Return the manifest's packages, empty if it cannot be read."""
     found = parsed(project, MANIFEST)[0].get("dependencies")
     return found if isinstance(found, dict) else {}
 

@@ -51,7 +51,7 @@ class Project:
                           if path.is_file() and is_visible(path.name)]
 
     def with_changes(self, changes: Mapping[str, bytes | None], only: Iterable[str] | None = None) -> Project:
-        """The same project with other bytes in some files, or (None) without them; nothing on disk is touched.
+        """Return the same project with other bytes in some files, or (None) without them; nothing on disk is touched.
 
         Of the C# sources `only` these are checked, where it is given.
         """
@@ -66,7 +66,7 @@ class Project:
         return other
 
     def derived(self, name: str, make: Callable[[Project], Any]) -> Any:
-        """What is computed from the whole project once, whichever rule asks first. Nobody may change it."""
+        """Return what is computed from the whole project once, whichever rule asks first. Nobody may change it."""
         if name not in self._derived:
             self._derived[name] = make(self)
         return self._derived[name]
@@ -84,7 +84,7 @@ class Project:
         return self.changes[path] is not None if path in self.changes else (self.root / path).exists()
 
     def data(self, path: str) -> bytes:
-        """The bytes of a file."""
+        """Return the bytes of a file."""
         changed = self.changes.get(path)
         if changed is not None:
             return changed
@@ -93,7 +93,7 @@ class Project:
         return self._data[path]
 
     def text(self, path: str) -> str:
-        """The text of a file; bytes that are not UTF-8 become U+FFFD (the text rules report them)."""
+        """Return the text of a file; bytes that are not UTF-8 become U+FFFD (the text rules report them)."""
         if path not in self._text:
             self._text[path] = self.data(path).decode("utf-8", "replace").replace("\r\n", "\n")
         return self._text[path]

@@ -21,7 +21,7 @@ _OWN_KEYS = {"m_ObjectHideFlags", "m_CorrespondingSourceObject", "m_PrefabInstan
 
 
 def local_id(reference: Any) -> int:
-    """The local file ID of a reference such as {fileID: 101}; 0 if it is none."""
+    """Return the local file ID of a reference such as {fileID: 101}; 0 if it is none."""
     text = str(reference.get("fileID", "0")) if isinstance(reference, dict) else "0"
     return int(text) if _INTEGER.match(text) else 0
 

@@ -106,7 +106,7 @@ def block(keys: dict[str, Any], indent: str = "  ") -> str:
 
 
 def _item(value: Any) -> str:
-    """An entry of a list; a pair is a key with its value."""
+    """Return an entry of a list; a pair is a key with its value."""
     return f"{value[0]}: {_inline(value[1])}" if isinstance(value, tuple) else _inline(value)
 
 
@@ -120,7 +120,7 @@ def _inline(value: Any) -> str:
 
 
 def document(class_id: int, file_id: int, name: str, keys: dict[str, Any]) -> str:
-    """One object of a file."""
+    """Return one object of a file."""
     return f"--- !u!{class_id} &{file_id}\n{name}:\n{block(keys)}"
 
 
@@ -153,7 +153,7 @@ def _script(file_id: int, game_object: int, path: str, fields: dict[str, Any]) -
 
 
 def scene_text(scene: Scene) -> str:
-    """The whole .unity file of a scene."""
+    """Return the whole .unity file of a scene."""
     upright = {"x": 0, "y": 0, "z": 0, "w": 1}
     loop, wire, contacts, hud, camera = ({"fileID": number} for number in (302, 402, 502, 304, 103))
     target = dict(zip("xyz", scene.target))
@@ -192,7 +192,7 @@ def scene_text(scene: Scene) -> str:
 
 
 def material_text(name: str, is_translucent: bool, colour: tuple[float, float, float, float]) -> str:
-    """A material of Unity's Standard shader; the translucent variant is named so that players keep it."""
+    """Return a material of Unity's Standard shader; the translucent variant is named so that players keep it."""
     floats = {"_Glossiness": 0.35, "_Metallic": 0.0, "_Mode": 3 if is_translucent else 0, "_SrcBlend": 1,
               "_DstBlend": 10 if is_translucent else 0, "_ZWrite": 0 if is_translucent else 1}
     keys = {
@@ -212,7 +212,8 @@ def material_text(name: str, is_translucent: bool, colour: tuple[float, float, f
 
 
 def prefab_text() -> str:
-    """A wire in a vessel, a unit of it a millimetre of a scene of metres; views find their loop, input steers it."""
+    """Return a wire in a vessel, a unit of it a millimetre of a scene of metres; views find their loop, input steers
+    it."""
     upright = {"x": 0, "y": 0, "z": 0, "w": 1}
     text_asset = {"fileID": 4900000, "guid": stable_guid(f"{PREFABS}/WireInVessel.json"), "type": 3}
     transform = _transform(101, 100, upright, _ZERO).replace(
@@ -225,7 +226,7 @@ def prefab_text() -> str:
 
 
 def files() -> dict[str, str]:
-    """Every file that this module writes, by repository path."""
+    """Return every file that this module writes, by repository path."""
     result = {f"{FOLDER}/{scene.name}.unity": scene_text(scene) for scene in SCENES}
     result[f"{PREFABS}/WireInVessel.prefab"] = prefab_text()
     result[f"{MATERIALS}/Wire.mat"] = material_text("Wire", False, (1.0, 1.0, 1.0, 1.0))

@@ -28,12 +28,12 @@ CALLERS = ("README.md", "docs/unity.md", "guidewire/runs/unity_runner.py")
 
 
 def is_built() -> bool:
-    """Whether the program is there."""
+    """Return whether the program is there."""
     return (_HOME / PROGRAM).is_file() and shutil.which("dotnet") is not None
 
 
 def answer(project: Project) -> dict[str, Any] | None:
-    """The C# checker's reply for a project; None where the checker is not built."""
+    """Return the C# checker's reply for a project; None where the checker is not built."""
     return project.derived("sources", _ask) if is_built() else None
 
 

@@ -36,7 +36,7 @@ class Document:
 
 
 def flow(text: str, line: int) -> Any:
-    """A value after a key: a string, or the map or list that braces or brackets hold."""
+    """Return a value after a key: a string, or the map or list that braces or brackets hold."""
     if text[:1] not in ("{", "["):
         return text
     value, end = _flow(text, 0, line, 0)
@@ -82,7 +82,7 @@ def _flow(text: str, start: int, line: int, depth: int) -> tuple[Any, int]:
 
 @functools.lru_cache(maxsize=512)
 def parse(text: str) -> list[Document]:
-    """All documents of a file; FormError where a line is of no known form."""
+    """Return all documents of a file; FormError where a line is of no known form."""
     documents = []
     lines = text.split("\n")
     starts = [i for i, line in enumerate(lines) if line.startswith("---")]
