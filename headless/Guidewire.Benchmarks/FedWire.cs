@@ -3,10 +3,10 @@ namespace Guidewire.Benchmarks
     /// <summary>A nitinol wire of 0.36 mm that is fed into <see cref="ArchWalls"/>.</summary>
     internal static class FedWire
     {
-        /// <summary>Of its hub, m/s.</summary>
+        /// <summary>The speed of its hub, m/s.</summary>
         public const double Speed = 0.02;
 
-        /// <summary>s.</summary>
+        /// <summary>The time step, s.</summary>
         public const double TimeStep = 0.02;
 
         /// <summary>A wire whose tip is at the origin; what drives it is the caller's.</summary>

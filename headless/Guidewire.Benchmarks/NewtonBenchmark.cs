@@ -21,7 +21,7 @@ namespace Guidewire.Benchmarks
         private RodVector[] _step = null!;
         private RodBlock[] _blocks = null!;
 
-        /// <summary>n.</summary>
+        /// <summary>The number of elements n.</summary>
         [Params(30, 1000, 10000, 100000)]
         public int Elements { get; set; }
 

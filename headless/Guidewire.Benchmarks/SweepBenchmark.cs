@@ -7,11 +7,11 @@ namespace Guidewire.Benchmarks
     {
         private Simulation _simulation = null!;
 
-        /// <summary>n.</summary>
+        /// <summary>The number of elements n.</summary>
         [Params(30, 300, 3000, 10000)]
         public int Elements { get; set; }
 
-        /// <summary>m.</summary>
+        /// <summary>The number of iterations m.</summary>
         [Params(10, 100)]
         public int Iterations { get; set; }
 

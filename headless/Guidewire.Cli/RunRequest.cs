@@ -105,7 +105,7 @@ namespace Guidewire.Cli
         /// <summary>Contrast agent to be injected, ml; 0 ends an injection; null: no other one.</summary>
         public double? Amount { get; }
 
-        /// <summary>How fast, ml/s.</summary>
+        /// <summary>The rate of the injection, ml/s.</summary>
         public double Rate { get; }
 
         /// <summary>Time by which the blood goes on without a step, s.</summary>

@@ -23,10 +23,10 @@ namespace Guidewire.Cli
                 Count = count;
             }
 
-            /// <summary>As in an answer.</summary>
+            /// <summary>The name that it has in an answer.</summary>
             public string Name { get; }
 
-            /// <summary>Its numbers.</summary>
+            /// <summary>How many numbers it has.</summary>
             public int Count { get; }
         }
 

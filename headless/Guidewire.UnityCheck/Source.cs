@@ -43,13 +43,13 @@ namespace Guidewire.UnityCheck
                 member => member.Locations.Any(place => place.SourceTree == Tree));
         }
 
-        /// <summary>The name of a source's file without its ending.</summary>
+        /// <summary>Gives the name of a source's file without its ending.</summary>
         public static string StemOf(SyntaxTree? tree)
         {
             return System.IO.Path.GetFileNameWithoutExtension(tree?.FilePath ?? "");
         }
 
-        /// <summary>The line of a symbol's name in this source, from 1.</summary>
+        /// <summary>Gives the line of a symbol's name in this source, from 1.</summary>
         public int Line(ISymbol symbol)
         {
             return Line(symbol.Locations.FirstOrDefault(place => place.SourceTree == Tree) ?? Location.None);

@@ -50,13 +50,13 @@ namespace Guidewire.UnityCheck
             return known.Tree;
         }
 
-        /// <summary>The same source as a player's compiler sees it.</summary>
+        /// <summary>Gives the same source as a player's compiler sees it.</summary>
         public static SyntaxTree ForPlayer(SyntaxTree tree)
         {
             return tree.WithRootAndOptions(Parse(tree.ToString(), tree.FilePath, InPlayer).GetRoot(), InPlayer);
         }
 
-        /// <summary>The compilations of a request's assemblies by name.</summary>
+        /// <summary>Gives the compilations of a request's assemblies by name.</summary>
         public Dictionary<string, CSharpCompilation> Compile(Request request)
         {
             var made = new Dictionary<string, CSharpCompilation>();

@@ -21,7 +21,7 @@ namespace Guidewire.UnityCheck
                 && !above.Locations.Any(place => place.IsInSource));
         }
 
-        /// <summary>A type and those above it, nearest first.</summary>
+        /// <summary>Gives a type and those above it, nearest first.</summary>
         public static IEnumerable<ITypeSymbol> Chain(ITypeSymbol? type)
         {
             for (ITypeSymbol? above = type; above != null; above = above.BaseType)

@@ -94,7 +94,7 @@ namespace Guidewire.Core
             return new DirectStep(new InstrumentSet(rod), parameters.Method.TimeStep);
         }
 
-        /// <summary>Iterations over constraints with compliance.</summary>
+        /// <summary>Gives the iterations over constraints with compliance.</summary>
         public static TimeStepper Compliant(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             SolverReport report)
         {

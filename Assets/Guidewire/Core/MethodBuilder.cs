@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Builds the wire of a run and its time stepper; here alone the method is chosen.</summary>
     internal static class MethodBuilder
     {
-        /// <summary>The wire at its start, and its stepper.</summary>
+        /// <summary>Gives the wire at its start, and its stepper.</summary>
         /// <exception cref="ArgumentException">A wire that starts outside the vessel, or a value that the method does
         /// not take.</exception>
         public static MethodStart Build(SimulationParameters parameters, Scene scene)

@@ -27,7 +27,7 @@ namespace Guidewire.Core
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
 
-        /// <summary>All of a state.</summary>
+        /// <summary>Gives all of a state.</summary>
         /// <param name="contacts">Null where there are no walls.</param>
         /// <param name="extremes">Null where the method has none.</param>
         /// <param name="coaxial">Null without a catheter.</param>

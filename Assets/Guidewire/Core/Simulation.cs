@@ -140,7 +140,7 @@ namespace Guidewire.Core
                 : SheathExit.FindProblem(parameters, new MaterialScene(parameters, scene));
         }
 
-        /// <summary>The solver's report on its own work, for a run with a material; null with pbd.</summary>
+        /// <summary>Gives the solver's report on its own work, for a run with a material; null with pbd.</summary>
         public SolverReport? Report()
         {
             return _stepper.Report();
@@ -174,7 +174,7 @@ namespace Guidewire.Core
             return _stepper.Coaxial();
         }
 
-        /// <summary>Results of each catheter at the current time, outermost first; as
+        /// <summary>Gives the results of each catheter at the current time, outermost first; as
         /// <see cref="Coaxial"/>.</summary>
         public IReadOnlyList<CoaxialRecord> Catheters()
         {

@@ -73,7 +73,7 @@ namespace Guidewire.Core
             return Impact(from, to, i, i, out impact);
         }
 
-        /// <summary>The same for the rod element from sphere j to sphere j + 1.</summary>
+        /// <summary>Gives the same for the rod element from sphere j to sphere j + 1.</summary>
         public double ElementImpact(Vector3d[] from, Vector3d[] to, int j, out WireContact impact)
         {
             impact = default;

@@ -15,7 +15,7 @@ namespace Guidewire.Core
         /// <summary>Where it comes nearest to the wall; its position runs along the element.</summary>
         public readonly SurfaceContact Nearest;
 
-        /// <summary>A contact with these values.</summary>
+        /// <summary>Makes a contact with these values.</summary>
         public WireContact(int wall, int index, bool isElement, in SurfaceContact nearest)
         {
             Wall = wall;

@@ -122,7 +122,7 @@ namespace Guidewire.Core
         /// <summary>Whether there is agent, or will be: otherwise nothing changes with time.</summary>
         public bool IsActive { get; private set; }
 
-        /// <summary>Flow through a cell over that at the inlet, without injection.</summary>
+        /// <summary>Gives the flow through a cell over that at the inlet, without injection.</summary>
         public double ShareOf(int cell)
         {
             return _cells.Shares[cell];
@@ -156,7 +156,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Blood without agent again, at the beginning of its pulse.</summary>
+        /// <summary>Takes all agent out of the blood, at the beginning of its pulse.</summary>
         public void Clear()
         {
             Array.Clear(_part, 0, _part.Length);

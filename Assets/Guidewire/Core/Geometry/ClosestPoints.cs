@@ -26,7 +26,7 @@ namespace Guidewire.Core
         // needle, and without cost.
         private const double LimitBorder = 1e-9;
 
-        /// <summary>Parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no
+        /// <summary>Gives the parameter in [0, 1] of the point of segment a b nearest to p; 0 for a segment of no
         /// length.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double PointSegment(in Vector3d p, in Vector3d a, in Vector3d b)

@@ -29,7 +29,7 @@ namespace Guidewire.Core
         /// <summary>Principal curvature along n x <see cref="Direction"/>, 1/units.</summary>
         public readonly double CrossCurvature;
 
-        /// <summary>A contact point with these values.</summary>
+        /// <summary>Makes a contact point with these values.</summary>
         public ContactPoint(in SurfaceContact contact, int weight, in Vector3d direction, double curvature,
             double crossCurvature)
         {
@@ -40,13 +40,13 @@ namespace Guidewire.Core
             CrossCurvature = crossCurvature;
         }
 
-        /// <summary>A contact point of a flat wall.</summary>
+        /// <summary>Gives a contact point of a flat wall.</summary>
         public static ContactPoint Flat(in SurfaceContact contact, int weight)
         {
             return new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), 0.0, 0.0);
         }
 
-        /// <summary>A contact point at a straight edge, or on a cylinder.</summary>
+        /// <summary>Gives a contact point at a straight edge, or on a cylinder.</summary>
         /// <param name="contact">Where.</param>
         /// <param name="weight">How often it counts.</param>
         /// <param name="along">Unit vector along the edge.</param>
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             return new ContactPoint(contact, weight, along, 0.0, radius == 0.0 ? 0.0 : 1.0 / radius);
         }
 
-        /// <summary>A contact point at a corner, or on a ball.</summary>
+        /// <summary>Gives a contact point at a corner, or on a ball.</summary>
         /// <param name="contact">Where.</param>
         /// <param name="weight">How often it counts.</param>
         /// <param name="radius">Distance of the segment's point from the corner, signed as an edge's.</param>
@@ -67,7 +67,7 @@ namespace Guidewire.Core
             return new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), curvature, curvature);
         }
 
-        /// <summary>f'' n n^T + f' H.</summary>
+        /// <summary>Gives f'' n n^T + f' H.</summary>
         /// <param name="slope">f'.</param>
         /// <param name="curvature">f''.</param>
         public Symmetric3 SecondDerivative(double slope, double curvature)
@@ -79,7 +79,7 @@ namespace Guidewire.Core
                 + Symmetric3.Outer(slope * CrossCurvature, Vector3d.Cross(n, Direction));
         }
 
-        /// <summary>The same point seen from behind the wall.</summary>
+        /// <summary>Gives the same point seen from behind the wall.</summary>
         public ContactPoint FromBehind()
         {
             return new ContactPoint(

@@ -43,7 +43,7 @@ namespace Guidewire.Core
         /// <summary>Radius over which it turns, units; 0 of a sharp edge.</summary>
         public readonly double Rounding;
 
-        /// <summary>A crossing with these values.</summary>
+        /// <summary>Makes a crossing with these values.</summary>
         public EdgeContact(double position, double distance, in Vector3d normal, double weight,
             in Vector3d weightAlongA, in Vector3d weightAlongB, double angle, double rounding)
             : this(position, distance, normal, weight, weightAlongA, weightAlongB, angle, rounding, default, default,
@@ -68,7 +68,7 @@ namespace Guidewire.Core
             WeightAlongB = weightAlongB;
         }
 
-        /// <summary>The same of the segment b a.</summary>
+        /// <summary>Gives the same of the segment b a.</summary>
         public EdgeContact Reversed()
         {
             return new EdgeContact(1.0 - Position, Distance, Normal, Weight, WeightAlongB, WeightAlongA, Angle,

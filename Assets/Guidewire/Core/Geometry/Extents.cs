@@ -13,7 +13,7 @@ namespace Guidewire.Core
         /// <summary>The largest coordinates.</summary>
         public readonly Vector3d High;
 
-        /// <summary>The box between two corners.</summary>
+        /// <summary>Makes the box between two corners.</summary>
         public Extents(in Vector3d low, in Vector3d high)
         {
             Low = low;
@@ -55,7 +55,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Both corners, to four digits.</summary>
+        /// <summary>Gives both corners, to four digits.</summary>
         public override string ToString()
         {
             return string.Format(

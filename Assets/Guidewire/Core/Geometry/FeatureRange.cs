@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>A feature of a wall (whatever a shape takes for one) that was found near something.</summary>
     internal readonly struct WallFeature : IComparable<WallFeature>
     {
-        /// <summary>Feature number <paramref name="index"/>.</summary>
+        /// <summary>Makes the feature number <paramref name="index"/>.</summary>
         /// <param name="index">As the shape counts.</param>
         /// <param name="distance">Units; the feature was no nearer.</param>
         public WallFeature(int index, double distance)
@@ -33,7 +33,7 @@ namespace Guidewire.Core
     {
         private readonly StructList<WallFeature>? _features;
 
-        /// <summary>The part from one index (inclusive) to another (exclusive).</summary>
+        /// <summary>Makes the part from one index (inclusive) to another (exclusive).</summary>
         /// <param name="features">The list.</param>
         /// <param name="from">First index.</param>
         /// <param name="to">Index behind the last.</param>

@@ -99,7 +99,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Signed distance from the wall.</summary>
+        /// <summary>Gives the signed distance from the wall.</summary>
         public double DistanceAt(in Vector3d x)
         {
             _wall.Nearest(x, x, double.PositiveInfinity, ref _hint, out SurfaceContact contact);

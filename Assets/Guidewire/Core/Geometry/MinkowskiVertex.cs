@@ -20,7 +20,7 @@ namespace Guidewire.Core
             End = end;
         }
 
-        /// <summary>The vertex farthest along <paramref name="direction"/>.</summary>
+        /// <summary>Gives the vertex farthest along <paramref name="direction"/>.</summary>
         public static MinkowskiVertex Support(in Vector3d a, in Vector3d b, Vector3d[] hull, in Vector3d direction)
         {
             int lowest = 0;

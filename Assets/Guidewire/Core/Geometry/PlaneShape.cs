@@ -37,7 +37,7 @@ namespace Guidewire.Core
             return contact.Distance <= range;
         }
 
-        /// <summary>The foot of the perpendicular.</summary>
+        /// <summary>Gives the foot of the perpendicular.</summary>
         internal override double FindContactPoints(in Vector3d x, double range, FeatureRange features,
             StructList<ContactPoint> contactPoints)
         {

@@ -15,7 +15,7 @@ namespace Guidewire.Core
         /// <summary>Distance of the element's core line from the wall in units, negative beyond the wall.</summary>
         public readonly double Distance;
 
-        /// <summary>A contact with these values.</summary>
+        /// <summary>Makes a contact with these values.</summary>
         public SurfaceContact(double position, in Vector3d point, in Vector3d normal, double distance)
         {
             Position = position;

@@ -56,7 +56,7 @@ namespace Guidewire.Core
             return Free(x - From) > _length + (1.0 + Math.Abs(_lean)) * distance;
         }
 
-        /// <summary>The same for the first knot.</summary>
+        /// <summary>Says the same for the first knot.</summary>
         public bool IsBefore(in Vector3d x, double distance)
         {
             return Free(x - From) < -(1.0 + Math.Abs(_lean)) * distance;

@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// <summary>The piece that gives it; at a handover, the one that follows.</summary>
         public readonly int Piece;
 
-        /// <summary>A point with these values.</summary>
+        /// <summary>Makes a point with these values.</summary>
         public TubePoint(double s, double distance, int piece)
         {
             S = s;

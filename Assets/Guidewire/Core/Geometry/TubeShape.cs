@@ -273,7 +273,7 @@ namespace Guidewire.Core
             return piece;
         }
 
-        /// <summary>That of the narrowest knot.</summary>
+        /// <summary>Gives that of the narrowest knot.</summary>
         internal override double NarrowestRadius(double above, double below)
         {
             double narrowest = double.PositiveInfinity;
@@ -292,7 +292,7 @@ namespace Guidewire.Core
 
         private TubePlanes Planes => _planes ??= new TubePlanes(_knots);
 
-        /// <summary>What <see cref="TubeCcd"/> proves at once.</summary>
+        /// <summary>Gives what <see cref="TubeCcd"/> proves at once.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
             in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit)
         {

@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private const double OfCavity = 2.0 / 3.0;          // 1/(1 + nu)
         private const int Harmonics = 20000;
 
-        /// <summary>K, the line load over the displacement of the wall under it, Pa.</summary>
+        /// <summary>Gives K, the line load over the displacement of the wall under it, Pa.</summary>
         /// <remarks>A ring of radius R and thickness h has D = E h^3/12 * 4/3 per length of vessel. Harmonic n >= 2 of
         /// its displacement w cos(n t) bends it without stretching, D (n^2 - 1)^2/R^4 (Timoshenko and Gere, Theory of
         /// Elastic Stability); n = 0 stretches it, 4/3 E h/R^2; n = 1 moves it. All press the surrounding tissue by

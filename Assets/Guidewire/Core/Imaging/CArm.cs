@@ -14,7 +14,7 @@ namespace Guidewire.Core
         private readonly Vector3d _up;
         private readonly Vector3d _towards;
 
-        /// <summary>A position of the C-arm.</summary>
+        /// <summary>Makes a position of the C-arm.</summary>
         /// <param name="leftOblique">LAO, degrees; RAO is negative.</param>
         /// <param name="cranial">Degrees; caudal is negative.</param>
         /// <param name="centre">What is in the middle of the picture, units.</param>

@@ -17,7 +17,7 @@ namespace Guidewire.Core
             return IsBentAt(x, j) || IsBentAt(x, j + 1);
         }
 
-        /// <summary>The point of element j at t in [0, 1].</summary>
+        /// <summary>Gives the point of element j at t in [0, 1].</summary>
         public static Vector3d At(Vector3d[] x, int j, double t)
         {
             int last = x.Length - 1;

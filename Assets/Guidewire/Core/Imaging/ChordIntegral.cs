@@ -12,7 +12,7 @@ namespace Guidewire.Core
         private const int Entries = 4096;
         private static readonly double[] Table = Create();
 
-        /// <summary>F(u), off by less than 4e-6.</summary>
+        /// <summary>Gives F(u), off by less than 4e-6.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double At(double u)
         {

@@ -11,13 +11,13 @@ namespace Guidewire.Core
         private const int Mean = 510;
         private static readonly float PerDeviation = (float)(1.0 / Math.Sqrt(4.0 * 65535.0 / 12.0));
 
-        /// <summary>What a seed contributes to every pixel's hash.</summary>
+        /// <summary>Gives what a seed contributes to every pixel's hash.</summary>
         public static uint Start(uint seed)
         {
             return Mixed(seed ^ 0x9e3779b9u);
         }
 
-        /// <summary>A pixel's deviation, in standard deviations.</summary>
+        /// <summary>Gives a pixel's deviation, in standard deviations.</summary>
         /// <param name="start">Of the seed.</param>
         /// <param name="pixel">Its number.</param>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

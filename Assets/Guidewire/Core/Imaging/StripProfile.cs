@@ -40,7 +40,8 @@ namespace Guidewire.Core
         /// <summary>Distance from the axis beyond which the piece is invisible.</summary>
         public double HalfWidth => _r + 0.5 * (_one + _other);
 
-        /// <summary>Integral up to x of the convolution of two boxes of these widths, above 0, and of area 1.</summary>
+        /// <summary>Gives the integral up to x of the convolution of two boxes of these widths, above 0, and of area
+        /// 1.</summary>
         public static double Trapezoid(double x, double one, double other)
         {
             double half = 0.5 * (one + other);

@@ -6,13 +6,13 @@ namespace Guidewire.Core
         /// <summary>The terms that act.</summary>
         public abstract EnergyTerm[] All { get; }
 
-        /// <summary>Energy stored in the contacts' normal forces, J.</summary>
+        /// <summary>Gives the energy stored in the contacts' normal forces, J.</summary>
         public abstract double StoredEnergy(RodShape shape);
 
         /// <summary>Energy stored in the elastic displacements of sticking contacts, J.</summary>
         public abstract double FrictionStored { get; }
 
-        /// <summary>Force of the support on node 0, N.</summary>
+        /// <summary>Gives the force of the support on node 0, N.</summary>
         public abstract Vector3d SupportForce(RodShape shape);
 
         /// <summary>Writes or restores what friction keeps from step to step.</summary>

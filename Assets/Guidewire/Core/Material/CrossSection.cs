@@ -44,7 +44,7 @@ namespace Guidewire.Core
             RestCurvature = RestCurvature,
         };
 
-        /// <summary>A round wire: A = pi r^2, I = pi r^4/4, J = 2 I.</summary>
+        /// <summary>Gives a round wire: A = pi r^2, I = pi r^4/4, J = 2 I.</summary>
         /// <param name="radius">r, m.</param>
         /// <param name="youngsModulus">E, Pa.</param>
         /// <param name="shearModulus">G, Pa.</param>
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             return round;
         }
 
-        /// <summary>A round tube: A = pi (r^2 - a^2), I = pi (r^4 - a^4)/4, J = 2 I.</summary>
+        /// <summary>Gives a round tube: A = pi (r^2 - a^2), I = pi (r^4 - a^4)/4, J = 2 I.</summary>
         /// <param name="radius">r, m.</param>
         /// <param name="innerRadius">a, m, less than r.</param>
         /// <param name="youngsModulus">E, Pa.</param>

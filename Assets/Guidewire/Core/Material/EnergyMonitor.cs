@@ -27,7 +27,7 @@ namespace Guidewire.Core
         private double _maxPutIn;              // J
         private int _step;
 
-        /// <summary>A monitor of a wire at its start.</summary>
+        /// <summary>Makes a monitor of a wire at its start.</summary>
         /// <param name="terms">Its energies and loads.</param>
         /// <param name="inertia">How its motion counts.</param>
         /// <param name="shape">Where it is, now and after each step.</param>

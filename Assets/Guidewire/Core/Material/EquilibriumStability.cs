@@ -38,7 +38,7 @@ namespace Guidewire.Core
         private readonly double _neutral;  // N
         private readonly double _noEnergy; // J
 
-        /// <summary>For a rod under these terms.</summary>
+        /// <summary>Makes one for a rod under these terms.</summary>
         /// <param name="system">Its system; it holds another factorisation after each question.</param>
         /// <param name="neutral">The size of an eigenvalue below which it may be 0, N.</param>
         public EquilibriumStability(MaterialRod rod, RodSupports supports, EnergyTerm[] terms,
@@ -91,7 +91,7 @@ namespace Guidewire.Core
             return true;
         }
 
-        /// <summary>The eigenvector of the smallest eigenvalue; of no use after the next question.</summary>
+        /// <summary>Gives the eigenvector of the smallest eigenvalue; of no use after the next question.</summary>
         /// <param name="eigenvalue">N.</param>
         public RodVector[] LowestMode(RodShape shape, out double eigenvalue)
         {

@@ -57,7 +57,7 @@ namespace Guidewire.Core
             return negative;
         }
 
-        /// <summary>y := (K + d M)^-1 y with the current factorisation.</summary>
+        /// <summary>Computes y := (K + d M)^-1 y with the current factorisation.</summary>
         public void Solve(RodVector[] y)
         {
             _system.Solve(y);

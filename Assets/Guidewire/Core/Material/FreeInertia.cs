@@ -8,7 +8,7 @@ namespace Guidewire.Core
         private readonly int _first;
         private readonly int _last;
 
-        /// <summary>That of a wire between these supports.</summary>
+        /// <summary>Makes that of a wire between these supports.</summary>
         public FreeInertia(RodMass mass, RodSupports supports)
         {
             _mass = mass;

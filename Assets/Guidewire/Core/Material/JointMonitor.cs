@@ -29,7 +29,7 @@ namespace Guidewire.Core
         private readonly double _end;       // of the run, s
         private readonly double _least = Math.Cos(0.5 * Limit);
 
-        /// <summary>A monitor of the joints of this scene's rod.</summary>
+        /// <summary>Makes a monitor of the joints of this scene's rod.</summary>
         /// <param name="end">When the run ends at the latest, s: up to then turns go on that are prescribed.</param>
         public JointMonitor(MaterialScene scene, double end)
         {

@@ -21,7 +21,7 @@ namespace Guidewire.Core
         private readonly double _length;     // of the instrument, m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
 
-        /// <summary>The drive of this scene.</summary>
+        /// <summary>Makes the drive of this scene.</summary>
         /// <param name="followsSpring">Whether node 0 follows its support on a spring, which yields a little.</param>
         public MaterialDrive(SimulationParameters parameters, Scene scene, bool followsSpring)
         {
@@ -94,7 +94,7 @@ namespace Guidewire.Core
         /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
         public double BeyondLimit => Insertion - _maxInsertion;
 
-        /// <summary>Largest displacements of node 0 from its present position, m.</summary>
+        /// <summary>Sets the largest displacements of node 0 from its present position, m.</summary>
         /// <param name="back">0 or less.</param>
         /// <param name="forward">0 or more.</param>
         public void Limit(double back, double forward)
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             return _direction == null ? 0.0 : Limited(_override ?? SpeedAt(time) * _timeStep);
         }
 
-        /// <summary>The hub slips, after a step, along its axis.</summary>
+        /// <summary>Lets the hub slip, after a step, along its axis.</summary>
         /// <param name="slip">m, back where it is positive.</param>
         public void SlipHub(double slip)
         {
@@ -167,7 +167,7 @@ namespace Guidewire.Core
             return _sense * Vector3d.Dot(to - from, Axis);
         }
 
-        /// <summary>The same since another insertion, m.</summary>
+        /// <summary>Gives the same since another insertion, m.</summary>
         public double DisplacementSince(double insertion)
         {
             return _sense * (Insertion - insertion);

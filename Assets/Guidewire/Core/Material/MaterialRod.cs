@@ -28,7 +28,7 @@ namespace Guidewire.Core
             _sides = new JointSide[]?[elementCount];
         }
 
-        /// <summary>n.</summary>
+        /// <summary>The number of elements n.</summary>
         public int ElementCount => Length.Length;
 
         /// <summary>Rest length l of each element, m.</summary>
@@ -70,7 +70,7 @@ namespace Guidewire.Core
         /// <summary>Radius of the surface that touches walls, m; the largest along an element.</summary>
         public double[] Radius { get; }
 
-        /// <summary>L, m.</summary>
+        /// <summary>The length L of all elements at rest, m.</summary>
         public double TotalLength
         {
             get
@@ -115,7 +115,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A straight round wire of n equal elements: A = pi r^2, I = pi r^4/4, J = 2 I.</summary>
+        /// <summary>Gives a straight round wire of n equal elements: A = pi r^2, I = pi r^4/4, J = 2 I.</summary>
         /// <param name="elementCount">n, at least 1.</param>
         /// <param name="length">L, m.</param>
         /// <param name="radius">r, m.</param>
@@ -167,13 +167,13 @@ namespace Guidewire.Core
             _sides[j] = new[] { start, end };
         }
 
-        /// <summary>What the joint before element j sees of it.</summary>
+        /// <summary>Gives what the joint before element j sees of it.</summary>
         public JointSide StartOf(int j)
         {
             return _sides[j] == null ? Even(j) : _sides[j]![0];
         }
 
-        /// <summary>What the joint after element j sees of it.</summary>
+        /// <summary>Gives what the joint after element j sees of it.</summary>
         public JointSide EndOf(int j)
         {
             return _sides[j] == null ? Even(j) : _sides[j]![1];

@@ -55,7 +55,7 @@ namespace Guidewire.Core
             return FindProblem(scene, x, element, scene.Rod.ElementCount, 1.0, name);
         }
 
-        /// <summary>The same for the elements before one, exclusive.</summary>
+        /// <summary>Gives the same for the elements before one, exclusive.</summary>
         /// <param name="fraction">Of the radius, that has to be free.</param>
         /// <param name="name">What the phrase calls it.</param>
         public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0,

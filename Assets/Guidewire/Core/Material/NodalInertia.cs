@@ -4,7 +4,7 @@ namespace Guidewire.Core
     /// individually.</summary>
     internal sealed class NodalInertia : IKineticEnergy
     {
-        /// <summary>Those of a rod; 0 for a held node.</summary>
+        /// <summary>Makes those of a rod; 0 for a held node.</summary>
         public NodalInertia(RodMass mass, RodSupports supports)
         {
             int n = mass.Rotary.Length;

@@ -64,7 +64,7 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>w x I w of element j over I: as I3 = I1 + I2, (w2 w3, -w1 w3, w1 w2 (I2 - I1)/I3).</summary>
+        /// <summary>Gives w x I w of element j over I: as I3 = I1 + I2, (w2 w3, -w1 w3, w1 w2 (I2 - I1)/I3).</summary>
         public Vector3d Precession(int j, in Vector3d w)
         {
             Vector3d i = Rotary[j];

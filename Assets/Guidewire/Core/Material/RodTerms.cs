@@ -19,7 +19,7 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>The terms of a rod in a scene.</summary>
+        /// <summary>Makes the terms of a rod in a scene.</summary>
         /// <param name="scene">What acts on it; loads that change in time come with <see cref="SetTime"/>.</param>
         /// <param name="others">Loads besides those of the scene.</param>
         public RodTerms(MaterialRod rod, RodSupports supports, SceneParameters scene, params EnergyTerm[] others)
@@ -114,7 +114,7 @@ namespace Guidewire.Core
             return Array.FindAll(All, term => term.HasPotential);
         }
 
-        /// <summary>Every term and these.</summary>
+        /// <summary>Gives every term and these.</summary>
         public EnergyTerm[] With(params EnergyTerm[] more)
         {
             return Joined(All, more);
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             AddGradient(_loads, shape, gradient);
         }
 
-        /// <summary>Energy stored in the wire, J.</summary>
+        /// <summary>Gives the energy stored in the wire, J.</summary>
         public double ElasticEnergy(RodShape shape)
         {
             double sum = 0.0;
@@ -214,7 +214,7 @@ namespace Guidewire.Core
             return Release?.SheathForce(shape) ?? 0.0;
         }
 
-        /// <summary>The hub's axis, a unit vector.</summary>
+        /// <summary>Gives the hub's axis, a unit vector.</summary>
         public Vector3d HubAxis(RodShape shape)
         {
             return Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;

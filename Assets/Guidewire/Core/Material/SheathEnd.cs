@@ -18,7 +18,7 @@ namespace Guidewire.Core
         /// <summary>Where the sheath ends, m.</summary>
         public Vector3d Exit { get; }
 
-        /// <summary>Where it leads, a unit vector.</summary>
+        /// <summary>The direction in which the sheath leads, a unit vector.</summary>
         public Vector3d Axis { get; }
 
         /// <summary>How many nodes, from the first on, are in the sheath.</summary>
@@ -32,13 +32,13 @@ namespace Guidewire.Core
             return inside;
         }
 
-        /// <summary>Distance of a node beyond the exit of the sheath, m; negative inside.</summary>
+        /// <summary>Gives the distance of a node beyond the exit of the sheath, m; negative inside.</summary>
         public double Outside(in Vector3d node)
         {
             return Vector3d.Dot(node - Exit, Axis);
         }
 
-        /// <summary>The point of the sheath's axis beside a node, m.</summary>
+        /// <summary>Gives the point of the sheath's axis beside a node, m.</summary>
         public Vector3d OnAxis(in Vector3d node)
         {
             return Exit + Outside(node) * Axis;

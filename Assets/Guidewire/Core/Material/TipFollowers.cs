@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private readonly TimeTable? _momentTable;
         private readonly TimeTable? _forceTable;
 
-        /// <summary>Those of a scene.</summary>
+        /// <summary>Makes those of a scene.</summary>
         public TipFollowers(MaterialRod rod, SceneParameters scene)
         {
             int last = rod.ElementCount - 1;
@@ -50,7 +50,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Whether they change after this time, s.</summary>
+        /// <summary>Says whether they change after this time, s.</summary>
         public bool ChangeAfter(double time)
         {
             return (Moment.Varies && _momentTable!.ChangesFrom(time))

@@ -309,7 +309,7 @@ namespace Guidewire.Core
                 _friction.Coefficient > 0.0 ? LargestEndForce(joints, shape) : 0.0);
         }
 
-        /// <summary>Force of a hub, N: of the outermost instrument first, of the wire last.</summary>
+        /// <summary>Gives the force of a hub, N: of the outermost instrument first, of the wire last.</summary>
         internal double ForceOf(int hub)
         {
             return hub == _instrument ? Force : Inside == null ? WireForce : Inside.ForceOf(hub);

@@ -7,7 +7,7 @@ namespace Guidewire.Core
         private readonly IKineticEnergy _inertia;
         private StressRecord? _stress;
 
-        /// <summary>A step of this scene's wire.</summary>
+        /// <summary>Makes a step of this scene's wire.</summary>
         /// <param name="terms">Its energies and loads.</param>
         /// <param name="inertia">How its motion counts against the energy that is put in.</param>
         /// <param name="velocities">Of the nodes, m/s, now and after each step.</param>
@@ -50,7 +50,7 @@ namespace Guidewire.Core
         /// <summary>What moves node 0.</summary>
         protected MaterialDrive Drive => Scene.Drive;
 
-        /// <summary>dt, s.</summary>
+        /// <summary>The time step dt, s.</summary>
         protected double TimeStep { get; }
 
         /// <summary>The solver's report on its own work.</summary>

@@ -54,7 +54,7 @@ namespace Guidewire.Core
             return null;
         }
 
-        /// <summary>Results of the outermost catheter, and of the one inside it; null without
+        /// <summary>Gives the results of the outermost catheter, and of the one inside it; null without
         /// one.</summary>
         public virtual CoaxialRecord? Coaxial()
         {
@@ -76,7 +76,7 @@ namespace Guidewire.Core
         {
         }
 
-        /// <summary>The same for <see cref="PredictionError"/>.</summary>
+        /// <summary>Does the same for <see cref="PredictionError"/>.</summary>
         protected void SerializePredictionError(Snapshot snapshot)
         {
             PredictionError = snapshot.Serialize(PredictionError);

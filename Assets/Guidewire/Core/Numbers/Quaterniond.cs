@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// <summary>The real component.</summary>
         public readonly double W;
 
-        /// <summary>The quaternion x i + y j + z k + w.</summary>
+        /// <summary>Makes the quaternion x i + y j + z k + w.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Quaterniond(double x, double y, double z, double w)
         {
@@ -111,7 +111,7 @@ namespace Guidewire.Core
             return !(a == b);
         }
 
-        /// <summary>The quaternion with imaginary part v and real part 0.</summary>
+        /// <summary>Gives the quaternion with imaginary part v and real part 0.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Quaterniond Pure(in Vector3d v)
         {
@@ -125,7 +125,7 @@ namespace Guidewire.Core
             return (1.0 / Math.Sqrt(q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W)) * q;
         }
 
-        /// <summary>The turn by <paramref name="angle"/> radians about <paramref name="axis"/>, a unit
+        /// <summary>Gives the turn by <paramref name="angle"/> radians about <paramref name="axis"/>, a unit
         /// vector.</summary>
         public static Quaterniond FromAxisAngle(in Vector3d axis, double angle)
         {

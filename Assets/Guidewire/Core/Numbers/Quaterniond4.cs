@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// <summary>The real components.</summary>
         public readonly Vector256<double> W;
 
-        /// <summary>The quaternions x i + y j + z k + w.</summary>
+        /// <summary>Makes the quaternions x i + y j + z k + w.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Quaterniond4(Vector256<double> x, Vector256<double> y, Vector256<double> z, Vector256<double> w)
         {
@@ -111,7 +111,7 @@ namespace Guidewire.Core
             return new Quaterniond4(s * q.X, s * q.Y, s * q.Z, s * q.W);
         }
 
-        /// <summary>Four successive quaternions in memory.</summary>
+        /// <summary>Gives four successive quaternions in memory.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Quaterniond4 Load(ref Quaterniond first)
         {

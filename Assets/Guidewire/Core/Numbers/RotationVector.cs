@@ -47,7 +47,7 @@ namespace Guidewire.Core
             return new Vector3d(scale * q.X, scale * q.Y, scale * q.Z);
         }
 
-        /// <summary>c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
+        /// <summary>Gives c(a) = (1 - (a/2) cot(a/2))/a^2, for the inverse tangent map T = 1 + [theta]/2 + c
         /// [theta]^2.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double CotangentFactor(double angleSquared)
@@ -62,7 +62,8 @@ namespace Guidewire.Core
                 + a2 * a2 * (1.0 / 47900160.0 + a * (691.0 / 1307674368000.0));
         }
 
-        /// <summary>c'(a)/a, the derivative of <see cref="CotangentFactor"/> by the angle over the angle.</summary>
+        /// <summary>Gives c'(a)/a, the derivative of <see cref="CotangentFactor"/> by the angle over the
+        /// angle.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double CotangentSlope(double angleSquared, double cotangentFactor)
         {
@@ -76,7 +77,7 @@ namespace Guidewire.Core
                 + a2 * a2 * (691.0 / 130767436800.0 + a * (1.0 / 6227020800.0));
         }
 
-        /// <summary>J(phi) u, the body's turn that belongs to the change u of the rotation vector phi:
+        /// <summary>Gives J(phi) u, the body's turn that belongs to the change u of the rotation vector phi:
         /// J = 1 - (1 - cos a)/a^2 [phi] + (a - sin a)/a^3 [phi]^2.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d TangentMap(in Vector3d phi, in Vector3d u)

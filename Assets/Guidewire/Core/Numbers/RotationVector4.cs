@@ -49,7 +49,7 @@ namespace Guidewire.Core
                 + a2 * a2 * (Of(1.0 / 47900160.0) + a * Of(691.0 / 1307674368000.0));
         }
 
-        /// <summary>Its slope over the angle.</summary>
+        /// <summary>Gives its slope over the angle.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector256<double> CotangentSlope(Vector256<double> a)
         {
@@ -58,7 +58,7 @@ namespace Guidewire.Core
                 + a2 * a2 * (Of(691.0 / 130767436800.0) + a * Of(1.0 / 6227020800.0));
         }
 
-        /// <summary>J(phi) u of small phi.</summary>
+        /// <summary>Gives J(phi) u of small phi.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d4 TangentMap(Vector3d4 phi, Vector3d4 u)
         {

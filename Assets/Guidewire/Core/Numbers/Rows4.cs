@@ -91,7 +91,7 @@ namespace Guidewire.Core
             AddAt(ref first, 3 * stride, Avx.ExtractVector128(odd, 1));
         }
 
-        /// <summary>sum + a0 + a1 + a2 + a3, one after the other.</summary>
+        /// <summary>Gives sum + a0 + a1 + a2 + a3, one after the other.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static double Sum(double sum, Vector256<double> a)
         {

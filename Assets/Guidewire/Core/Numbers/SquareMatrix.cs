@@ -56,7 +56,7 @@ namespace Guidewire.Core
             return inverse;
         }
 
-        /// <summary>The number of eigenvalues of a with a real part below <paramref name="x"/>.</summary>
+        /// <summary>Gives the number of eigenvalues of a with a real part below <paramref name="x"/>.</summary>
         public static int EigenvaluesLeftOf(double[,] a, double x)
         {
             int n = a.GetLength(0);

@@ -27,7 +27,7 @@ namespace Guidewire.Core
             _33 = a33;
         }
 
-        /// <summary>The sum of w_k c_k c_k^T over three vectors, plus a diagonal.</summary>
+        /// <summary>Gives the sum of w_k c_k c_k^T over three vectors, plus a diagonal.</summary>
         public static Symmetric3 FromColumns(in Vector3d c1, double w1, in Vector3d c2, double w2, in Vector3d c3,
             double w3, in Vector3d diagonal)
         {
@@ -40,7 +40,7 @@ namespace Guidewire.Core
                 w1 * c1.Z * c1.Z + w2 * c2.Z * c2.Z + w3 * c3.Z * c3.Z + diagonal.Z);
         }
 
-        /// <summary>Sum of two matrices.</summary>
+        /// <summary>Gives the sum of two matrices.</summary>
         public static Symmetric3 operator +(in Symmetric3 a, in Symmetric3 b)
         {
             return new Symmetric3(a._11 + b._11, a._21 + b._21, a._22 + b._22, a._31 + b._31, a._32 + b._32,
@@ -73,7 +73,7 @@ namespace Guidewire.Core
                 w * c.Z * c.Z);
         }
 
-        /// <summary>w (c d^T + d c^T).</summary>
+        /// <summary>Gives w (c d^T + d c^T).</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Symmetric3 Pair(double w, in Vector3d c, in Vector3d d)
         {

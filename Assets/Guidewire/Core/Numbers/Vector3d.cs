@@ -17,7 +17,7 @@ namespace Guidewire.Core
         /// <summary>Component along the z axis, along which a wire lies at the start.</summary>
         public readonly double Z;
 
-        /// <summary>The vector (x, y, z).</summary>
+        /// <summary>Makes the vector (x, y, z).</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d(double x, double y, double z)
         {
@@ -134,7 +134,7 @@ namespace Guidewire.Core
             return (a - b).Length;
         }
 
-        /// <summary>(1 - t) a + t b.</summary>
+        /// <summary>Gives (1 - t) a + t b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d Lerp(in Vector3d a, in Vector3d b, double t)
         {

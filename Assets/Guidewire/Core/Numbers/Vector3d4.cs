@@ -18,7 +18,7 @@ namespace Guidewire.Core
         /// <summary>Components along the z axis.</summary>
         public readonly Vector256<double> Z;
 
-        /// <summary>The vectors (x, y, z).</summary>
+        /// <summary>Makes the vectors (x, y, z).</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public Vector3d4(Vector256<double> x, Vector256<double> y, Vector256<double> z)
         {
@@ -66,7 +66,7 @@ namespace Guidewire.Core
             return new Vector3d4(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
         }
 
-        /// <summary>v / |v|; a zero vector stays zero.</summary>
+        /// <summary>Gives v / |v|; a zero vector stays zero.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d4 Normalize(Vector3d4 a)
         {
@@ -75,7 +75,7 @@ namespace Guidewire.Core
             return new Vector3d4(a.X / length & hasLength, a.Y / length & hasLength, a.Z / length & hasLength);
         }
 
-        /// <summary>Four successive vectors in memory.</summary>
+        /// <summary>Gives four successive vectors in memory.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector3d4 Load(ref Vector3d first)
         {

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// matter.</summary>
     public sealed class DriveTable
     {
-        /// <summary>A table of both.</summary>
+        /// <summary>Makes a table of both.</summary>
         /// <param name="insertion">m.</param>
         /// <param name="rotation">rad; more than one turn counts.</param>
         /// <exception cref="ArgumentException">A hub that jumps.</exception>

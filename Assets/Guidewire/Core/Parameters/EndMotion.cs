@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _displacements;    // m
         private readonly Vector3d[] _rotations;        // rad
 
-        /// <summary>A motion of two rows or more.</summary>
+        /// <summary>Makes a motion of two rows or more.</summary>
         /// <param name="times">s, from 0 on, increasing.</param>
         /// <param name="displacements">m, the first 0.</param>
         /// <param name="rotations">rad, the first 0; more than half a turn counts.</param>
@@ -42,19 +42,19 @@ namespace Guidewire.Core
         /// <summary>Whether there is a rotation.</summary>
         public bool Turns { get; }
 
-        /// <summary>Displacement at this time, m.</summary>
+        /// <summary>Gives the displacement at this time, m.</summary>
         public Vector3d DisplacementAt(double time)
         {
             return At(_displacements, time);
         }
 
-        /// <summary>Velocity at this time, of two at a row that after it, m/s.</summary>
+        /// <summary>Gives the velocity at this time, of two at a row that after it, m/s.</summary>
         public Vector3d VelocityAt(double time)
         {
             return RateOf(_displacements, time);
         }
 
-        /// <summary>Rotation of the frame at this time, relative to the start.</summary>
+        /// <summary>Gives the rotation of the frame at this time, relative to the start.</summary>
         public Quaterniond RotationAt(double time)
         {
             return RotationVector.Exp(At(_rotations, time));

@@ -7,16 +7,16 @@ namespace Guidewire.Core
     /// along the wire, which are in units of length.</summary>
     public sealed class MaterialParameters
     {
-        /// <summary>E, Pa.</summary>
+        /// <summary>Young's modulus E, Pa.</summary>
         public double YoungsModulus { get; set; } = 60e9;
 
-        /// <summary>G, Pa.</summary>
+        /// <summary>The shear modulus G, Pa.</summary>
         public double ShearModulus { get; set; } = 23e9;
 
         /// <summary>EA, N, instead of E times the area; null: none.</summary>
         public double? AxialStiffness { get; set; }
 
-        /// <summary>rho, kg/m^3.</summary>
+        /// <summary>The density rho, kg/m^3.</summary>
         public double Density { get; set; } = 6450.0;
 
         /// <summary>Radius of the wire, m.</summary>

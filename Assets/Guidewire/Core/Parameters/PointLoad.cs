@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>A force of constant direction at a point of the wire.</summary>
     public readonly struct PointLoad
     {
-        /// <summary>A force at a point of the wire.</summary>
+        /// <summary>Makes a force at a point of the wire.</summary>
         /// <param name="at">Length along the wire at rest from sphere 0, units.</param>
         /// <param name="force">N.</param>
         public PointLoad(double at, in Vector3d force)

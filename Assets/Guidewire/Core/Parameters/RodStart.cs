@@ -10,7 +10,7 @@ namespace Guidewire.Core
         /// a wire shears by less than a degree.</summary>
         public const double LargestShear = 45.0;
 
-        /// <summary>A start for a wire of n = <c>orientations.Length</c> elements.</summary>
+        /// <summary>Makes a start for a wire of n = <c>orientations.Length</c> elements.</summary>
         /// <param name="positions">n + 1 sphere positions in units.</param>
         /// <param name="orientations">n orientations; normalised on use.</param>
         /// <param name="velocities">n + 1 velocities in unit/s, or null for rest.</param>

@@ -7,7 +7,7 @@ namespace Guidewire.Core
         /// <summary>Where it ends, units; null: one element inside the vessel's inlet.</summary>
         public Vector3d? Exit { get; set; }
 
-        /// <summary>Where it leads, of any length; null: along the wire.</summary>
+        /// <summary>The direction in which it leads, of any length; null: along the wire.</summary>
         public Vector3d? Direction { get; set; }
     }
 }

@@ -12,7 +12,7 @@ namespace Guidewire.Core
         private readonly double[] _values;
         private readonly double[] _jumps;  // times, s
 
-        /// <summary>A table of k rows.</summary>
+        /// <summary>Makes a table of k rows.</summary>
         /// <param name="times">s, increasing, at least one; two may be the same, three not.</param>
         /// <param name="values">The value at each time.</param>
         /// <exception cref="ArgumentException">No rows, not as many of both, or times that do not increase
@@ -65,7 +65,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The values of the rows from time 0 up to a time, s, and that at the time.</summary>
+        /// <summary>Gives the values of the rows from time 0 up to a time, s, and that at the time.</summary>
         internal IEnumerable<double> ValuesUntil(double time)
         {
             for (int i = 0; i < _times.Length; i++)
@@ -78,7 +78,7 @@ namespace Guidewire.Core
             yield return At(time);
         }
 
-        /// <summary>The value at this time, s.</summary>
+        /// <summary>Gives the value at this time, s.</summary>
         public double At(double time)
         {
             int next = FirstFrom(time);

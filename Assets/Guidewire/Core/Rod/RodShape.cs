@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// and the frames to which its two ends may be clamped.</summary>
     internal sealed class RodShape
     {
-        /// <summary>A rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>
+        /// <summary>Makes a rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>
         /// <param name="innerCount">Instruments inside it.</param>
         public RodShape(int elementCount, int innerCount = 0)
         {
@@ -62,7 +62,7 @@ namespace Guidewire.Core
             DistalFrame = snapshot.Serialize(DistalFrame);
         }
 
-        /// <summary>A straight rod along d3 of <paramref name="frame"/>.</summary>
+        /// <summary>Makes this a straight rod along d3 of <paramref name="frame"/>.</summary>
         /// <param name="start">Position of node 0.</param>
         /// <param name="frame">Orientation of every element.</param>
         /// <param name="stations">Distance of each of the n + 1 nodes from node 0.</param>

@@ -42,39 +42,39 @@ namespace Guidewire.Core
             _frame = frame;
         }
 
-        /// <summary>The last node at this time, m.</summary>
+        /// <summary>Gives the position of the last node at this time, m.</summary>
         public Vector3d PositionAt(double time)
         {
             Vector3d position = _position + (Ramp(time) * _displacement) * _frame.Director3;
             return _motion == null ? position : position + _motion.DisplacementAt(time);
         }
 
-        /// <summary>Velocity of the last node's support at this time, m/s.</summary>
+        /// <summary>Gives the velocity of the last node's support at this time, m/s.</summary>
         public Vector3d VelocityAt(double time)
         {
             return _motion != null ? _motion.VelocityAt(time)
                 : time < _rampTime ? (_displacement / _rampTime) * _frame.Director3 : Vector3d.Zero;
         }
 
-        /// <summary>Turn of the frame at this time, radians.</summary>
+        /// <summary>Gives the turn of the frame at this time, radians.</summary>
         public double TurnAt(double time)
         {
             return Ramp(time) * _rotation;
         }
 
-        /// <summary>Turning of the frame about its own d3 at this time, rad/s.</summary>
+        /// <summary>Gives the turning of the frame about its own d3 at this time, rad/s.</summary>
         public double TwistRateAt(double time)
         {
             return time < _rampTime ? _rotation / _rampTime : 0.0;
         }
 
-        /// <summary>The frame at this time.</summary>
+        /// <summary>Gives the frame at this time.</summary>
         public Quaterniond FrameAt(double time)
         {
             return FrameTurned(TurnAt(time));
         }
 
-        /// <summary>The frame turned by an angle, radians.</summary>
+        /// <summary>Gives the frame turned by an angle, radians.</summary>
         public Quaterniond FrameTurned(double turn)
         {
             return _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private const int MaxElements = 1_000_000;
         private const double Rounding = 1e-9;  // of L: pieces shorter than this are rounding errors
 
-        /// <summary>The number of elements of the whole wire.</summary>
+        /// <summary>Gives the number of elements of the whole wire.</summary>
         /// <exception cref="ArgumentException">As <see cref="ParameterConflict"/> has it.</exception>
         public static int Count(SimulationParameters parameters)
         {

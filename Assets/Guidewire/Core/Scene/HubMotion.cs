@@ -47,7 +47,7 @@ namespace Guidewire.Core
         /// <summary>The motion in six degrees of freedom, or null.</summary>
         public EndMotion? Motion => _motion;
 
-        /// <summary>Velocity of node 0 at this time, of two at a jump that after it, m/s.</summary>
+        /// <summary>Gives the velocity of node 0 at this time, of two at a jump that after it, m/s.</summary>
         public Vector3d VelocityAt(double time)
         {
             return _motion == null ? _velocity : _motion.VelocityAt(time);
@@ -62,14 +62,14 @@ namespace Guidewire.Core
         /// <summary>Turning of the frame to which the first element is clamped, rad/s.</summary>
         public double FrameTwistRate => _heldTurn.HasValue ? 0.0 : _twistRate;
 
-        /// <summary>Node 0 at this time, m.</summary>
+        /// <summary>Gives the position of node 0 at this time, m.</summary>
         public Vector3d PositionAt(double time)
         {
             Vector3d position = _position + (time - _positionTime) * _velocity;
             return _motion == null ? position : position + _motion.DisplacementAt(time);
         }
 
-        /// <summary>Turn of the hub at this time, radians.</summary>
+        /// <summary>Gives the turn of the hub at this time, radians.</summary>
         public double TurnAt(double time)
         {
             return _turnOrigin + _twistRate * (time - _turnOriginTime);
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             return _heldTurn.HasValue ? TurnAt(time) - _heldTurn.Value : 0.0;
         }
 
-        /// <summary>The clamp's frame turned by an angle, radians.</summary>
+        /// <summary>Gives the clamp's frame turned by an angle, radians.</summary>
         public Quaterniond FrameTurned(double turn)
         {
             return _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);

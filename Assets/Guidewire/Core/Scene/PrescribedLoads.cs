@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private readonly TimeTable? _axialForceTable;
         private readonly TimeTable[] _tables;         // of all loads, of those that turn with the tip among them
 
-        /// <summary>The loads of a scene.</summary>
+        /// <summary>Makes the loads of a scene.</summary>
         /// <param name="unitLength">Length of one unit, m.</param>
         /// <param name="proximalForce">Force on node 0 where it is free, N.</param>
         public PrescribedLoads(SceneParameters scene, double unitLength, in Vector3d proximalForce)
@@ -51,13 +51,13 @@ namespace Guidewire.Core
         /// <summary>Whether there is a force per length.</summary>
         public bool HasDistributedForce => _distributedForce != Vector3d.Zero;
 
-        /// <summary>Acceleration of gravity at this time, m/s^2.</summary>
+        /// <summary>Gives the acceleration of gravity at this time, m/s^2.</summary>
         public Vector3d GravityAt(double time)
         {
             return Factor(_gravityTable, time) * _gravity;
         }
 
-        /// <summary>Force on the last node at this time, N.</summary>
+        /// <summary>Gives the force on the last node at this time, N.</summary>
         /// <param name="axis">Direction of a pull on a sliding distal end, a unit vector.</param>
         public Vector3d DistalForceAt(double time, in Vector3d axis)
         {
@@ -66,7 +66,7 @@ namespace Guidewire.Core
             return time <= _releaseTime ? tip + axial : axial;
         }
 
-        /// <summary>Force per length at rest at this time, N/m.</summary>
+        /// <summary>Gives the force per length at rest at this time, N/m.</summary>
         public Vector3d DistributedForceAt(double time)
         {
             return Factor(_distributedForceTable, time) * _distributedForce;
@@ -75,7 +75,7 @@ namespace Guidewire.Core
         /// <summary>Point loads on the wire, at arc lengths in m, without their factor.</summary>
         public ReadOnlySpan<PointLoad> PointLoads => _pointLoads;
 
-        /// <summary>Factor on them at this time.</summary>
+        /// <summary>Gives the factor on them at this time.</summary>
         public double PointLoadsFactor(double time)
         {
             return Factor(_pointLoadsTable, time);

@@ -27,7 +27,7 @@ namespace Guidewire.Core
         /// <summary>The motion of the distal end, where it is held.</summary>
         public DistalMotion Distal { get; }
 
-        /// <summary>Force on the last node at this time, N.</summary>
+        /// <summary>Gives the force on the last node at this time, N.</summary>
         public Vector3d DistalForceAt(double time)
         {
             return Loads.DistalForceAt(time, Distal.Frame.Director3);
@@ -118,7 +118,7 @@ namespace Guidewire.Core
             return SpinOf(Hub.Motion, Hub.FrameTurned(Hub.FrameTurnAt(time)), Hub.FrameTwistRate, time);
         }
 
-        /// <summary>The same for the distal frame.</summary>
+        /// <summary>Gives the same for the distal frame.</summary>
         public Vector3d DistalSpinAt(double time)
         {
             return SpinOf(Distal.Motion, Distal.FrameAt(time), Distal.TwistRateAt(time), time);

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>The line on which a straight wire starts, instead of z.</summary>
     public sealed class StartAxis
     {
-        /// <summary>The line through a point along a direction.</summary>
+        /// <summary>Makes the line through a point along a direction.</summary>
         /// <param name="origin">From which guidewireOffset is measured, units.</param>
         /// <param name="direction">Of the wire, of any length but 0.</param>
         public StartAxis(in Vector3d origin, in Vector3d direction)

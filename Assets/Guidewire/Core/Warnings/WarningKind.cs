@@ -40,7 +40,7 @@ namespace Guidewire.Core
         /// <summary>The line with names in place of its values, such as *k*.</summary>
         public string Line => Placeholder.Replace(_line, "*${name}*");
 
-        /// <summary>The line of one run.</summary>
+        /// <summary>Gives the line of one run.</summary>
         /// <param name="values">One for each placeholder, in order.</param>
         /// <exception cref="ArgumentException">There are more or fewer.</exception>
         public string Text(params object[] values)

@@ -168,7 +168,7 @@ namespace Guidewire.Core
         /// <summary>All of them, in the order of the docs.</summary>
         public static IReadOnlyList<WarningKind> All => Kinds;
 
-        /// <summary>The kind of a name.</summary>
+        /// <summary>Gives the kind of a name.</summary>
         internal static WarningKind Find(string name)
         {
             return Kinds.Find(kind => kind.Name == name)!;

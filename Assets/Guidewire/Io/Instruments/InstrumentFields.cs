@@ -65,7 +65,7 @@ namespace Guidewire.Io
             throw Wrong(name, "one of \"" + string.Join("\", \"", words) + "\"");
         }
 
-        /// <summary>A number above zero with its unit, basis and source, in SI.</summary>
+        /// <summary>Gives a number above zero with its unit, basis and source, in SI.</summary>
         /// <param name="name">The member.</param>
         /// <param name="dimension">What it measures.</param>
         /// <param name="mayBeZero">Whether 0 is allowed.</param>

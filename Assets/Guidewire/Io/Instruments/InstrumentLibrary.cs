@@ -18,7 +18,7 @@ namespace Guidewire.Io
 
         private const string Ending = ".json";
 
-        /// <summary>The file of an instrument.</summary>
+        /// <summary>Gives the file of an instrument.</summary>
         /// <param name="name">Its name: that of the file without its ending.</param>
         /// <param name="source">Who names it: a parameter file, or "command line".</param>
         /// <param name="parameterFile">The run's parameter file, or null.</param>

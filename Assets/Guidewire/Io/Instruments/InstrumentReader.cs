@@ -12,7 +12,7 @@ namespace Guidewire.Io
         private static readonly string[] Profiles = { "uniform", "linear" };
         private const double Largest = 100.0;   // m, of any length: beyond it a unit is wrong
 
-        /// <summary>The instrument of a file.</summary>
+        /// <summary>Gives the instrument of a file.</summary>
         /// <exception cref="ParameterException">It cannot be read, or holds no instrument.</exception>
         public static Instrument Read(string file)
         {

@@ -54,7 +54,7 @@ namespace Guidewire.Io
             ("", Dimension.Number, 1.0),
         };
 
-        /// <summary>The value of a text such as "0.035 in", in SI.</summary>
+        /// <summary>Gives the value of a text such as "0.035 in", in SI.</summary>
         /// <param name="text">A number, a space and a unit; a number alone where it has no dimension.</param>
         /// <param name="dimension">What it must measure.</param>
         /// <param name="value">The value in SI; finite.</param>
@@ -82,7 +82,7 @@ namespace Guidewire.Io
             return Words(dimension).Noun + " in a known unit, not '" + unit + "': allowed are " + Of(dimension);
         }
 
-        /// <summary>The size of a unit in SI.</summary>
+        /// <summary>Finds the size of a unit in SI.</summary>
         /// <param name="dimension">What it must measure.</param>
         /// <returns>False where it is no unit of that.</returns>
         public static bool TrySize(string unit, Dimension dimension, out double size)
@@ -92,7 +92,7 @@ namespace Guidewire.Io
             return known.Unit != null && known.Of == dimension;
         }
 
-        /// <summary>The SI unit of a dimension.</summary>
+        /// <summary>Gives the SI unit of a dimension.</summary>
         public static string SIUnitOf(Dimension dimension)
         {
             return Array.Find(Units, one => one.Of == dimension && one.Size == 1.0).Unit;

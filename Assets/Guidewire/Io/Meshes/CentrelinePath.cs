@@ -84,7 +84,7 @@ namespace Guidewire.Io
         /// <summary>The distance of each point of the centreline from the inlet along it, units.</summary>
         public double[] Distances { get; }
 
-        /// <summary>The point of the centreline whose sphere a point of the lumen belongs to.</summary>
+        /// <summary>Gives the point of the centreline whose sphere a point of the lumen belongs to.</summary>
         public int Locate(in Vector3d point)
         {
             int best = 0;
@@ -119,7 +119,8 @@ namespace Guidewire.Io
             return Distances[near] + Math.Max(-most, Math.Min(most, ahead));
         }
 
-        /// <summary>Distance of a point along the centreline to the target, negative beyond it; not a number without a
+        /// <summary>Gives the distance of a point along the centreline to the target, negative beyond it; not a number
+        /// without a
         /// target.</summary>
         public double LeftFrom(in Vector3d point, int near)
         {
@@ -151,7 +152,7 @@ namespace Guidewire.Io
             return false;
         }
 
-        /// <summary>The branch of a point of the centreline, from 0.</summary>
+        /// <summary>Gives the branch of a point of the centreline, from 0.</summary>
         public int BranchOf(int near)
         {
             return _anatomy.Branches[near];

@@ -104,7 +104,7 @@ namespace Guidewire.Io
             return items;
         }
 
-        /// <summary>A list of vectors.</summary>
+        /// <summary>Gives a list of vectors.</summary>
         public Vector3d[] Vectors(string name)
         {
             var vectors = new List<Vector3d>();
@@ -188,7 +188,7 @@ namespace Guidewire.Io
             return IsSmall(vector.X) && IsSmall(vector.Y) && IsSmall(vector.Z);
         }
 
-        /// <summary>The line for something that Core refused.</summary>
+        /// <summary>Gives the line for something that Core refused.</summary>
         public ParameterException Refused(string reason)
         {
             return new ParameterException(_sourceOf(_key) + ": " + _key + ": " + reason);

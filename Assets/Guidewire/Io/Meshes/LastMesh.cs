@@ -21,7 +21,7 @@ namespace Guidewire.Io
         /// <summary>SHA-256 of what was read, in hex.</summary>
         internal string Sha256 { get; private set; } = "";
 
-        /// <summary>The wall in a file, placed.</summary>
+        /// <summary>Gives the wall in a file, placed.</summary>
         /// <param name="file">As of <see cref="MeshFile.Read"/>.</param>
         /// <param name="scale">Units of the scene per unit of the file.</param>
         /// <param name="rims">A point near the middle of each rim that may be open, in the file's own units.</param>

@@ -28,7 +28,7 @@ namespace Guidewire.Io
         /// <summary>Words of the current line.</summary>
         public string[] Words { get; private set; } = Array.Empty<string>();
 
-        /// <summary>True where the bytes look like text: no zero byte among the first thousand.</summary>
+        /// <summary>Is true where the bytes look like text: no zero byte among the first thousand.</summary>
         public static bool IsText(byte[] bytes)
         {
             return Array.IndexOf(bytes, (byte)0, 0, Math.Min(bytes.Length, 1000)) < 0;

@@ -112,7 +112,7 @@ namespace Guidewire.Io
             return false;
         }
 
-        /// <summary>The default with this method, as JSON text.</summary>
+        /// <summary>Gives the default with this method, as JSON text.</summary>
         public string Default(Solver method)
         {
             return Write(new RunParameters(method)).ToString(Formatting.None);
@@ -171,7 +171,7 @@ namespace Guidewire.Io
         /// <summary>The object among the parameters whose properties the group's keys are.</summary>
         private protected Func<RunParameters, object> GroupOf { get; private set; } = parameters => parameters;
 
-        /// <summary>"a number &gt; 0 (s)": the noun with the unit behind it.</summary>
+        /// <summary>Gives "a number &gt; 0 (s)": the noun with the unit behind it.</summary>
         private protected string WithUnit(string noun)
         {
             string unit = Unit + (MaterialUnit == null ? "" : "; with a material " + MaterialUnit);

@@ -11,7 +11,7 @@ namespace Guidewire.Io
     /// <summary>SHA-256 of all effective values but output paths: for files their contents, not their names.</summary>
     internal static class ParameterHash
     {
-        /// <summary>The hash, in hex.</summary>
+        /// <summary>Gives the hash, in hex.</summary>
         /// <param name="values">The effective values.</param>
         /// <param name="taken">The keys that the method takes.</param>
         public static string Of(RunParameters values, IEnumerable<ParameterEntry> taken)

@@ -31,7 +31,7 @@ namespace Guidewire.Io
         /// <summary>Keeps the vessel's mesh for the next run; null where nothing does.</summary>
         internal LastMesh? Mesh { get; }
 
-        /// <summary>A file on disk.</summary>
+        /// <summary>Gives a file on disk.</summary>
         /// <param name="file">Its name; null for the defaults.</param>
         /// <param name="mesh">Keeps the vessel's mesh where one run follows another.</param>
         public static ParameterSource OfFile(string? file, LastMesh? mesh = null)
@@ -50,7 +50,7 @@ namespace Guidewire.Io
             };
         }
 
-        /// <summary>The text of a parameter file.</summary>
+        /// <summary>Gives the text of a parameter file.</summary>
         /// <param name="name">What error lines call it.</param>
         /// <param name="text">A flat JSON object.</param>
         /// <exception cref="ParameterException">It is no JSON object.</exception>
@@ -65,7 +65,7 @@ namespace Guidewire.Io
             return new ParameterSource(Name, _content, walls, Mesh);
         }
 
-        /// <summary>Its keys and values; null without any.</summary>
+        /// <summary>Gives its keys and values; null without any.</summary>
         /// <exception cref="ParameterException">The file cannot be read.</exception>
         internal JObject? Read()
         {

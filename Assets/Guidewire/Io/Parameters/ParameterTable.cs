@@ -41,7 +41,7 @@ namespace Guidewire.Io
         /// <summary>All keys, group by group.</summary>
         public static IReadOnlyList<ParameterEntry> Entries { get; }
 
-        /// <summary>The entry of a key, or null.</summary>
+        /// <summary>Gives the entry of a key, or null.</summary>
         public static ParameterEntry? Find(string key)
         {
             return ByKey.TryGetValue(key, out ParameterEntry? entry) ? entry : null;

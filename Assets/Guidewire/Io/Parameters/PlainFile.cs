@@ -14,7 +14,7 @@ namespace Guidewire.Io
         private const int SmallestChunk = 1 << 12;    // bytes
         private const int LargestChunk = 1 << 20;
 
-        /// <summary>All bytes of a file.</summary>
+        /// <summary>Gives all bytes of a file.</summary>
         /// <param name="file">Its name.</param>
         /// <param name="needed">What is needed where the name is a folder's, as a noun phrase.</param>
         /// <exception cref="ParameterException">It cannot be read, is a folder, or is too large.</exception>
@@ -45,7 +45,7 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>The text of a file, by its byte order mark or else as UTF-8.</summary>
+        /// <summary>Gives the text of a file, by its byte order mark or else as UTF-8.</summary>
         /// <exception cref="ParameterException">As <see cref="ReadBytes"/>.</exception>
         public static string ReadText(string file, string needed)
         {

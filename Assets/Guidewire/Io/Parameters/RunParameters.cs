@@ -29,7 +29,7 @@ namespace Guidewire.Io
     /// <summary>All that a parameter file says: what is simulated, and what is written of it.</summary>
     public sealed class RunParameters
     {
-        /// <summary>The defaults of a method.</summary>
+        /// <summary>Makes the defaults of a method.</summary>
         public RunParameters(Solver solver)
         {
             Simulation = SimulationParameters.DefaultsOf(solver);

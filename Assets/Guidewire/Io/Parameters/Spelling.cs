@@ -5,7 +5,8 @@ namespace Guidewire.Io
     /// <summary>How far two words are apart.</summary>
     internal static class Spelling
     {
-        /// <summary>Levenshtein's distance: insertions, deletions and replacements that turn one word into the other.
+        /// <summary>Gives Levenshtein's distance: insertions, deletions and replacements that turn one word into the
+        /// other.
         /// </summary>
         public static int Distance(string a, string b)
         {

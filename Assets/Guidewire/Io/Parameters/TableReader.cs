@@ -12,7 +12,7 @@ namespace Guidewire.Io
     {
         private static readonly char[] Separators = { ';', '\t', ' ' };
 
-        /// <summary>The columns asked for, each with a number for every row, in SI.</summary>
+        /// <summary>Gives the columns asked for, each with a number for every row, in SI.</summary>
         /// <param name="file">Its full name.</param>
         /// <param name="where">Parameter file and key, for what is refused; ends in ": ".</param>
         /// <exception cref="ParameterException">The file cannot be read, or a line holds something else.</exception>

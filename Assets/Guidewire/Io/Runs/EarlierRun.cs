@@ -36,7 +36,7 @@ namespace Guidewire.Io
         /// <summary>Says how the run ended.</summary>
         public Outcome Outcome { get; }
 
-        /// <summary>Why, in one line.</summary>
+        /// <summary>The reason for its outcome, in one line.</summary>
         public string Reason => (string?)_summary["reason"] ?? "";
 
         /// <summary>Whether its result can be trusted, as far as the run could tell.</summary>

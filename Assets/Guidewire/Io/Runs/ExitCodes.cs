@@ -12,7 +12,7 @@ namespace Guidewire.Io
         /// <summary>An error of the program itself.</summary>
         public const int Internal = 70;
 
-        /// <summary>The code of an outcome.</summary>
+        /// <summary>Gives the code of an outcome.</summary>
         /// <exception cref="ArgumentOutOfRangeException">A run that has not ended has none.</exception>
         public static int Of(Outcome outcome)
         {

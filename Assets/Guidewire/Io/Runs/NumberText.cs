@@ -40,7 +40,7 @@ namespace Guidewire.Io
             return Encoding.ASCII.GetBytes(text, 0, text.Length, target, start);
         }
 
-        /// <summary>JSON on one line, its numbers by this rule.</summary>
+        /// <summary>Gives JSON on one line, its numbers by this rule.</summary>
         public static string Write(JToken token)
         {
             using var text = new StringWriter(CultureInfo.InvariantCulture);
@@ -50,7 +50,7 @@ namespace Guidewire.Io
             return text.ToString();
         }
 
-        /// <summary>The rule itself, from formats that every runtime rounds correctly.</summary>
+        /// <summary>Gives the rule itself, from formats that every runtime rounds correctly.</summary>
         internal static string Shortest(double value)
         {
             string sign = BitConverter.DoubleToInt64Bits(value) < 0 ? "-" : "";

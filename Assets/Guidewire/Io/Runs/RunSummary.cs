@@ -19,7 +19,7 @@ namespace Guidewire.Io
         // Changes with every change of the code that simulates, and with nothing else.
         internal static string CoreBuild => typeof(Simulation).Module.ModuleVersionId.ToString("N");
 
-        /// <summary>The summary as text.</summary>
+        /// <summary>Gives the summary as text.</summary>
         /// <param name="simulation">The run at its end.</param>
         /// <param name="handler">Its parameters.</param>
         /// <param name="times">Its step times.</param>
@@ -225,7 +225,7 @@ namespace Guidewire.Io
             return BitConverter.ToString(digest, 0, 16).Replace("-", "").ToLowerInvariant();
         }
 
-        /// <summary>The outcome's one word.</summary>
+        /// <summary>Gives the outcome's one word.</summary>
         internal static string Word(Outcome outcome)
         {
             return outcome.ToString().ToLowerInvariant();

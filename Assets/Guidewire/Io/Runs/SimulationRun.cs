@@ -12,7 +12,7 @@ namespace Guidewire.Io
         private readonly string _folder;
         private readonly int? _repeat;
 
-        /// <summary>A run into a folder.</summary>
+        /// <summary>Makes a run into a folder.</summary>
         /// <param name="handler">The parameters.</param>
         /// <param name="folder">The folder of the results; made where it is missing. Null or empty:
         /// logFilePath.</param>

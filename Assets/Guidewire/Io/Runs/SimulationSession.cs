@@ -122,7 +122,7 @@ namespace Guidewire.Io
                 isSteered ?? (traits.TakesSteering && !traits.TakesMaterial));
         }
 
-        /// <summary>A run at its start.</summary>
+        /// <summary>Gives a run at its start.</summary>
         /// <param name="file">Parameter file.</param>
         /// <param name="overrides">KEY=VALUE each: parameters that count instead of the file's.</param>
         /// <param name="logFolder">Folder that takes the results; empty for a run that is not logged.</param>
@@ -261,13 +261,13 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>The value of a parameter, as in a file.</summary>
+        /// <summary>Gives the value of a parameter, as in a file.</summary>
         public JToken Get(string key)
         {
             return Get(_handler, key);
         }
 
-        /// <summary>The same as JSON text.</summary>
+        /// <summary>Gives the same as JSON text.</summary>
         public string Text(string key)
         {
             return Get(key).ToString(Newtonsoft.Json.Formatting.None);

@@ -18,7 +18,7 @@ namespace Guidewire.Io
                 : (StateLog)new ArrayLogger(file, parameters);
         }
 
-        /// <summary>Name of the log of a complete run.</summary>
+        /// <summary>Gives the name of the log of a complete run.</summary>
         public static string NameOf(LogFormat format)
         {
             return format == LogFormat.Json ? "positions.json" : "positions.npz";

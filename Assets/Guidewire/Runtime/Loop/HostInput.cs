@@ -135,7 +135,7 @@ namespace Guidewire.Runtime
 #endif
         }
 
-        /// <summary>Whether a key went down in this frame.</summary>
+        /// <summary>Says whether a key went down in this frame.</summary>
         public bool WasPressed(KeyCode key)
         {
 #if ENABLE_LEGACY_INPUT_MANAGER

@@ -12,7 +12,7 @@ namespace Guidewire.Runtime
         [SerializeField] private KeyCode _down;
         [SerializeField] private KeyCode _alsoDown;
 
-        /// <summary>Two keys for each direction; None for none.</summary>
+        /// <summary>Makes two keys for each direction; None for none.</summary>
         public KeyAxis(KeyCode up, KeyCode alsoUp, KeyCode down, KeyCode alsoDown)
         {
             _up = up;

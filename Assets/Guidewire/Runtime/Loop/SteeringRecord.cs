@@ -58,7 +58,7 @@ namespace Guidewire.Runtime
             return _command == 0 ? default : _commands[_command - 1].Command;
         }
 
-        /// <summary>The next change before a step, or null.</summary>
+        /// <summary>Gives the next change before a step, or null.</summary>
         internal Action<SimulationSession>? ChangeAt(int step)
         {
             return _change < _changes.Count && _changes[_change].Step <= step ? _changes[_change++].Change : null;

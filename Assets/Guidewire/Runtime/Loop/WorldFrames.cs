@@ -17,7 +17,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        /// <summary>Orientations of all elements.</summary>
+        /// <summary>Gets the orientations of all elements.</summary>
         /// <exception cref="ArgumentException">The array has another length.</exception>
         public static void GetOrientations(Transform place, WireState? state, Quaternion[] orientations)
         {

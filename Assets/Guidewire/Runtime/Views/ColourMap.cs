@@ -11,7 +11,7 @@ namespace Guidewire.Runtime
 
         private const int Width = 256;
 
-        /// <summary>The texture coordinate of a value.</summary>
+        /// <summary>Gives the texture coordinate of a value.</summary>
         /// <param name="value">Any number; beyond the range it takes the end's colour.</param>
         /// <param name="range">The value of the last colour, positive.</param>
         public static float Coordinate(double value, float range)

@@ -60,7 +60,7 @@ namespace Guidewire.Runtime
         /// <summary>Three indices a triangle, clockwise from outside as Unity has it.</summary>
         public int[] Triangles { get; }
 
-        /// <summary>Index of the first vertex of the ring around a sphere.</summary>
+        /// <summary>Gives the index of the first vertex of the ring around a sphere.</summary>
         public int RingOf(int sphere)
         {
             return (Cap + sphere * _perElement) * _sides;

@@ -6,19 +6,19 @@ namespace Guidewire.Runtime
     /// <summary>Translates between Core's doubles and Unity's floats, at the edge and nowhere else.</summary>
     internal static class UnityVectors
     {
-        /// <summary>The same vector in float.</summary>
+        /// <summary>Gives the same vector in float.</summary>
         public static Vector3 ToUnity(this Vector3d v)
         {
             return new Vector3((float)v.X, (float)v.Y, (float)v.Z);
         }
 
-        /// <summary>The same orientation in float.</summary>
+        /// <summary>Gives the same orientation in float.</summary>
         public static Quaternion ToUnity(this Quaterniond q)
         {
             return new Quaternion((float)q.X, (float)q.Y, (float)q.Z, (float)q.W);
         }
 
-        /// <summary>The same vector in double.</summary>
+        /// <summary>Gives the same vector in double.</summary>
         public static Vector3d ToCore(this Vector3 v)
         {
             return new Vector3d(v.x, v.y, v.z);

@@ -77,7 +77,7 @@ namespace Guidewire.Core
             High += border;
         }
 
-        /// <summary>True where two boxes share a point.</summary>
+        /// <summary>Is true where two boxes share a point.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool Overlaps(in BvhNode other)
         {

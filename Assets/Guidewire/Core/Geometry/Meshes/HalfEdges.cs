@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// with the same two ends are one edge.</summary>
     internal static class HalfEdges
     {
-        /// <summary>The next half-edge around the same triangle.</summary>
+        /// <summary>Gives the next half-edge around the same triangle.</summary>
         public static int Next(int halfEdge)
         {
             return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
@@ -71,7 +71,7 @@ namespace Guidewire.Core
             return valence[i] < valence[j] || (valence[i] == valence[j] && i < j) ? i : j;
         }
 
-        /// <summary>An array of -1.</summary>
+        /// <summary>Gives an array of -1.</summary>
         public static int[] Unset(int count)
         {
             var values = new int[count];

@@ -37,7 +37,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Half-edges of the convex edges.</summary>
+        /// <summary>Gives the half-edges of the convex edges.</summary>
         public int[] Edges()
         {
             var edges = new List<int>();

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>A mesh that cannot be a vessel. The message is one line and names what is wrong, by count.</summary>
     public sealed class MeshException : Exception
     {
-        /// <summary>The exception with this line.</summary>
+        /// <summary>Makes the exception with this line.</summary>
         public MeshException(string message)
             : base(message)
         {

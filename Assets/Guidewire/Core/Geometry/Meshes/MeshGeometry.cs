@@ -18,7 +18,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _vertexNormals;
         private bool _mirrored;
 
-        /// <summary>The mesh, with a fan over each open rim or without.</summary>
+        /// <summary>Makes the mesh, with a fan over each open rim or without.</summary>
         public MeshGeometry(TriangleMesh mesh, bool closeRims, in Placement placement)
         {
             var vertices = new List<Vector3d>(mesh.Vertices);
@@ -77,7 +77,7 @@ namespace Guidewire.Core
             return _halfEdgeOfVertex[vertex];
         }
 
-        /// <summary>True for a vertex of an open rim.</summary>
+        /// <summary>Is true for a vertex of an open rim.</summary>
         public bool IsRimVertex(int vertex)
         {
             return _isRimVertex[vertex];
@@ -90,13 +90,13 @@ namespace Guidewire.Core
             return _twin[halfEdge] < 0 ? halfEdge : Math.Min(halfEdge, _twin[halfEdge]);
         }
 
-        /// <summary>True for an edge of an open rim.</summary>
+        /// <summary>Is true for an edge of an open rim.</summary>
         public bool IsRimEdge(int edge)
         {
             return _twin[edge] < 0;
         }
 
-        /// <summary>Unit normal of an edge: the sum of its faces' normals, of a rim's edge that of its one
+        /// <summary>Gives the unit normal of an edge: the sum of its faces' normals, of a rim's edge that of its one
         /// face.</summary>
         public Vector3d NormalOfEdge(int edge)
         {

@@ -151,7 +151,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same for a segment and the convex edges.</summary>
+        /// <summary>Does the same for a segment and the convex edges.</summary>
         public void ImpactOfSegment(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance,
             double resolution, FeatureRange among, ref double impact)
         {

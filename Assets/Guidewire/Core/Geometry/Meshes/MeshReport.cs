@@ -37,7 +37,7 @@ namespace Guidewire.Core
         /// <summary>Volume of the lumen, open rims closed by a fan, units^3.</summary>
         public double Volume { get; internal set; }
 
-        /// <summary>One line with every count.</summary>
+        /// <summary>Gives one line with every count.</summary>
         public override string ToString()
         {
             return string.Format(

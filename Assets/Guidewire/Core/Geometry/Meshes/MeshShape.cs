@@ -120,7 +120,8 @@ namespace Guidewire.Core
                 : Nearby.FindEdgeContacts(a, b, range, features);
         }
 
-        /// <summary>Edges that bulge into the lumen, and those of open rims; see <see cref="MeshEdges"/>.</summary>
+        /// <summary>Finds edges that bulge into the lumen, and those of open rims; see <see
+        /// cref="MeshEdges"/>.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
             StructList<EdgeContact> edgeContacts)
         {

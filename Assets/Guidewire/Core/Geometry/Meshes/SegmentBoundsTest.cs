@@ -62,7 +62,7 @@ namespace Guidewire.Core
             return (uint)Avx.MoveMask(Vector256.LessThan(least, Vector256.Create(_squared)));
         }
 
-        /// <summary>A field of eight children.</summary>
+        /// <summary>Gives a field of eight children.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public static Vector256<float> Bounds(ref float bounds, int field)
         {

@@ -27,7 +27,7 @@ namespace Guidewire.Core
                 new TriangleBody(v0, v1, v2), middle, ball, a0, b0, a1, b1, clearance, resolution, motion, ref impact);
         }
 
-        /// <summary>The same for any convex body in a ball.</summary>
+        /// <summary>Gives the same for any convex body in a ball.</summary>
         public static double WithBody<TBody>(in TBody body, in Vector3d middle, double ball, in Vector3d a0,
             in Vector3d b0, in Vector3d a1, in Vector3d b1, double clearance, double resolution, double motion,
             ref double impact)

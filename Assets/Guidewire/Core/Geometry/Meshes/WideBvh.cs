@@ -32,7 +32,7 @@ namespace Guidewire.Core
         private readonly int[] _stack = new int[StackSize];    // of a search: a local one would be cleared each time
         private double _slack;                      // of what is at the origin, units
 
-        /// <summary>The same tree as that of binary nodes, children side by side behind their parent.</summary>
+        /// <summary>Makes the same tree as that of binary nodes, children side by side behind their parent.</summary>
         public WideBvh(BvhNode[] nodes)
         {
             int most = nodes.Length / 2 + 1; // binary nodes with children, at least the root
@@ -78,7 +78,7 @@ namespace Guidewire.Core
             return Rounding * distance + _slack;
         }
 
-        /// <summary>Upper bound of a vector's length, without a square root.</summary>
+        /// <summary>Gives the upper bound of a vector's length, without a square root.</summary>
         public static double LengthBound(in Vector3d of)
         {
             return Math.Abs(of.X) + Math.Abs(of.Y) + Math.Abs(of.Z);

@@ -27,7 +27,7 @@ namespace Guidewire.Core
         private readonly double[] _slide;       // of each instrument at the nodes, m
         private readonly double[] _compliance;  // of the chain, m/N
 
-        /// <summary>Of a chain without loads.</summary>
+        /// <summary>Makes one of a chain without loads.</summary>
         public AxialForces(CoaxialJoints joints)
         {
             _joints = joints;
@@ -106,7 +106,7 @@ namespace Guidewire.Core
             return compliance;
         }
 
-        /// <summary>A derivative of that.</summary>
+        /// <summary>Gives a derivative of that.</summary>
         /// <param name="axial">Of the compliance of all in the element, held together.</param>
         /// <param name="own">Of that of each from its hub to the element's end.</param>
         /// <param name="before">Of that of all elements before it.</param>
@@ -127,7 +127,7 @@ namespace Guidewire.Core
             return rate / (stiffness * stiffness) - before;
         }
 
-        /// <summary>Sum of N on an element, N.</summary>
+        /// <summary>Gives the sum of N on an element, N.</summary>
         public double LoadOn(int element)
         {
             return _force[element];
@@ -148,7 +148,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Rest length of element j of the chain, m.</summary>
+        /// <summary>Gives the rest length of element j of the chain, m.</summary>
         public double RestLengthOf(int j)
         {
             return _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j];

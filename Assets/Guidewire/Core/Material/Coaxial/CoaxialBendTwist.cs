@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private RodBlock _clampBlock;          // what falls on the hub's frame, which does not move
         private RodVector _clampVector;
 
-        /// <summary>The energy of the joints of a rod, clamped at the hub and free at the tip.</summary>
+        /// <summary>Makes the energy of the joints of a rod, clamped at the hub and free at the tip.</summary>
         public CoaxialBendTwist(CoaxialRod rod)
         {
             _rod = rod;
@@ -49,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>Angle from the outermost hub to each, radians, without limit; 0 of the first.</summary>
         public double[] HubTwist { get; }
 
-        /// <summary>Torque of an inner hub on its instrument, N m: dE/dz of the hub.</summary>
+        /// <summary>Gives the torque of an inner hub on its instrument, N m: dE/dz of the hub.</summary>
         public double InnerTorque(RodShape shape, int instrument = 1)
         {
             Evaluate(shape, 0, out CoaxialJointState s);
@@ -87,7 +87,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Angle of an instrument from the frame of another one on an element, radians.</summary>
+        /// <summary>Gives the angle of an instrument from the frame of another one on an element, radians.</summary>
         /// <param name="element">-1: at the hubs.</param>
         public double AngleAt(RodShape shape, int element, int instrument, int frame)
         {
@@ -114,7 +114,8 @@ namespace Guidewire.Core
                 turn.Z + after - before);
         }
 
-        /// <summary>Even twist of an inner instrument from its own hub to the middle of the outermost one's first
+        /// <summary>Gives the even twist of an inner instrument from its own hub to the middle of the outermost one's
+        /// first
         /// element, rad/m.</summary>
         public Vector3d LeadTwist(RodShape shape, int instrument)
         {

@@ -9,7 +9,7 @@ namespace Guidewire.Core
     {
         private readonly double[] _oldStation;   // m, by the new leads
 
-        /// <summary>From one chain to another.</summary>
+        /// <summary>Makes the change from one chain to another.</summary>
         /// <param name="isOther">Which instruments are not those of the old chain; null: none.</param>
         /// <param name="shift">How far the outermost hub is behind that of the old chain, m.</param>
         public CoaxialChange(CoaxialJoints old, CoaxialJoints joints, bool[]? isOther = null, double shift = 0.0)

@@ -28,13 +28,13 @@ namespace Guidewire.Core
         /// <summary>Those of the others.</summary>
         public HubMotion[] Inner { get; }
 
-        /// <summary>Distance of one behind the outermost one at a time, m.</summary>
+        /// <summary>Gives the distance of one behind the outermost one at a time, m.</summary>
         public double LeadAt(int instrument, double time)
         {
             return Vector3d.Dot(_hub[0].PositionAt(time) - _hub[instrument].PositionAt(time), _axis);
         }
 
-        /// <summary>Distance of all behind the outermost one at a time, m.</summary>
+        /// <summary>Gives the distance of all behind the outermost one at a time, m.</summary>
         public double[] LeadsAt(double time)
         {
             var leads = new double[_hub.Length];
@@ -45,19 +45,20 @@ namespace Guidewire.Core
             return leads;
         }
 
-        /// <summary>Axial speed of one relative to another, m/s.</summary>
+        /// <summary>Gives the axial speed of one relative to another, m/s.</summary>
         public double SlideOf(int instrument, int other)
         {
             return Vector3d.Dot(_hub[instrument].Velocity - _hub[other].Velocity, _axis);
         }
 
-        /// <summary>Distance of the outermost one from the exit of a sheath at a time, m; 0 without one.</summary>
+        /// <summary>Gives the distance of the outermost one from the exit of a sheath at a time, m; 0 without
+        /// one.</summary>
         public double SheathedAt(double time)
         {
             return _sheath == null ? 0.0 : Math.Max(0.0, -_sheath.Outside(Outer.PositionAt(time)));
         }
 
-        /// <summary>Rotation of one relative to the outermost one, radians.</summary>
+        /// <summary>Gives the rotation of one relative to the outermost one, radians.</summary>
         public double TwistAt(int instrument, double time)
         {
             return _hub[instrument].TurnAt(time) - _hub[0].TurnAt(time);

@@ -112,7 +112,7 @@ namespace Guidewire.Core
         /// <summary>The joint at node k, 0 at the hub.</summary>
         public ref readonly CoaxialJoint this[int k] => ref _joint[k];
 
-        /// <summary>The outermost instrument on an element.</summary>
+        /// <summary>Gives the outermost instrument on an element.</summary>
         public int CarrierOf(int element)
         {
             return _carrier[element];
@@ -138,7 +138,7 @@ namespace Guidewire.Core
             AddSide(ref joint, k, k + 1, FrameOf(k), sides);
         }
 
-        /// <summary>Nodes of an instrument in the chain, from its tip on.</summary>
+        /// <summary>Gives the nodes of an instrument in the chain, from its tip on.</summary>
         public int BeyondOf(int instrument)
         {
             return _beyond[instrument];
@@ -150,7 +150,7 @@ namespace Guidewire.Core
             return _tip[instrument];
         }
 
-        /// <summary>Distance of an instrument's hub behind the outermost one's, m.</summary>
+        /// <summary>Gives the distance of an instrument's hub behind the outermost one's, m.</summary>
         public double LeadOf(int instrument)
         {
             return Hubs.Leads[instrument];
@@ -170,7 +170,7 @@ namespace Guidewire.Core
             return Hubs.Ends[instrument];
         }
 
-        /// <summary>Distance of an instrument's tip beyond that of another, m; negative inside.</summary>
+        /// <summary>Gives the distance of an instrument's tip beyond that of another, m; negative inside.</summary>
         public double ExtensionOf(int instrument, int outer)
         {
             return _instrument[instrument].Profile.Length - Hubs.Leads[instrument] - Hubs.Ends[outer];
@@ -188,13 +188,13 @@ namespace Guidewire.Core
             return _stretch[instrument * _carrier.Length + element];
         }
 
-        /// <summary>The same of its length before the chain.</summary>
+        /// <summary>Gives the same of its length before the chain.</summary>
         public double LeadStretchOf(int instrument)
         {
             return _leadStretch[instrument];
         }
 
-        /// <summary>The same of all in an element, held together, m/N.</summary>
+        /// <summary>Gives the same of all in an element, held together, m/N.</summary>
         public double AxialOf(int element)
         {
             return _axial[element];
@@ -236,7 +236,7 @@ namespace Guidewire.Core
             return beyond / (before + after);
         }
 
-        /// <summary>The joint at node k of an instrument alone.</summary>
+        /// <summary>Gives the joint at node k of an instrument alone.</summary>
         public Joint AloneAt(int k)
         {
             ref readonly CoaxialJoint joint = ref _joint[k];
@@ -269,7 +269,7 @@ namespace Guidewire.Core
             return next;
         }
 
-        /// <summary>The element at a place along the chain, m, from one before it on.</summary>
+        /// <summary>Gives the element at a place along the chain, m, from one before it on.</summary>
         public int ElementAt(double at, int from)
         {
             while (from < ElementCount - 1 && at > _station[from + 1])

@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private double[] _stationSpeeds = null!;
         private double _workRate;                 // N
 
-        /// <summary>Loads of each instrument of a rod, the outermost one first.</summary>
+        /// <summary>Makes the loads of each instrument of a rod, the outermost one first.</summary>
         public CoaxialLoads(CoaxialRod rod, CoaxialInstrument[] instruments, PrescribedLoads[] loads)
         {
             _joints = rod.Joints;

@@ -59,7 +59,7 @@ namespace Guidewire.Core
         /// <summary>Where their joints are and what these are made of.</summary>
         public CoaxialJoints Joints { get; }
 
-        /// <summary>What stretches each.</summary>
+        /// <summary>The axial forces that stretch each instrument.</summary>
         public AxialForces Axial { get; }
 
         /// <summary>All as one rod.</summary>
@@ -149,7 +149,7 @@ namespace Guidewire.Core
             LumenDrag[at] = profile.Integral(from, to, piece => DragOf(piece, lumen));
         }
 
-        /// <summary>The next instrument around one on an element.</summary>
+        /// <summary>Gives the next instrument around one on an element.</summary>
         public int AroundOf(int instrument, int element)
         {
             return instrument == 2 && element < Joints.ActiveCountOf(1) ? 1 : Joints.CarrierOf(element);

@@ -5,7 +5,8 @@ namespace Guidewire.Core
     /// <summary>Frames and angles of coaxial instruments on a chain.</summary>
     internal static class CoaxialShape
     {
-        /// <summary>Angle on an element from one instrument's frame to another's, radians; beyond the tip of one of
+        /// <summary>Gives the angle on an element from one instrument's frame to another's, radians; beyond the tip of
+        /// one of
         /// them, at that tip.</summary>
         /// <param name="values">Angles of the chain, or their rates.</param>
         public static double Angle(RodShape shape, double[] values, CoaxialJoints joints, int element, int instrument,
@@ -40,7 +41,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The frame of an instrument in an element.</summary>
+        /// <summary>Gives the frame of an instrument in an element.</summary>
         public static Quaterniond FrameOf(RodShape shape, CoaxialJoints joints, int element, int instrument)
         {
             int carrier = joints.CarrierOf(element);

@@ -16,7 +16,7 @@ namespace Guidewire.Core
             _piece = pieces;
         }
 
-        /// <summary>That of a wire.</summary>
+        /// <summary>Makes that of a wire.</summary>
         /// <param name="metres">Metres in one of the profile's units.</param>
         public InstrumentProfile(WireProfile profile, double metres)
             : this(Array.ConvertAll(profile.Borders, position => metres * position), profile.Pieces)

@@ -37,7 +37,8 @@ namespace Guidewire.Core
             to.F31 += c * from.F31 - s * from.F32; to.F32 += s * from.F31 + c * from.F32; to.F33 += from.F33;
         }
 
-        /// <summary>T v with T = (1 - c |phi|^2) 1 + c phi phi^T + [phi]/2 (<see cref="RotationVectorLaw"/>), or T^T v
+        /// <summary>Gives T v with T = (1 - c |phi|^2) 1 + c phi phi^T + [phi]/2 (<see cref="RotationVectorLaw"/>), or
+        /// T^T v
         /// with half negative.</summary>
         public static Vector3d TimesT(in Vector3d phi, in Vector3d v, double half)
         {

@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// where an end has no joint.</summary>
         public abstract void Measure(RodShape shape, Vector3d[] turns);
 
-        /// <summary>The same for joint k alone.</summary>
+        /// <summary>Gives the same for joint k alone.</summary>
         public abstract Vector3d TurnOf(RodShape shape, int k);
 
         /// <summary>A joint in a shape: its law, its turn and, of several instruments, their angles.</summary>
@@ -25,7 +25,7 @@ namespace Guidewire.Core
         /// world's axes; 0 where an end has no joint.</summary>
         public abstract void Couples(RodShape shape, Vector3d[] couples);
 
-        /// <summary>The term of these n+1 joints under the supports' law.</summary>
+        /// <summary>Gives the term of these n+1 joints under the supports' law.</summary>
         public static BendTwistTerm Create(Joint[] joints, RodSupports supports)
         {
             if (supports.Bend == BendLaw.Darboux)
@@ -53,7 +53,7 @@ namespace Guidewire.Core
         /// frame has turned so far.</summary>
         public abstract void TurnProximal(double turn);
 
-        /// <summary>dE/dturn of <see cref="TurnProximal"/>, N m.</summary>
+        /// <summary>Gives dE/dturn of <see cref="TurnProximal"/>, N m.</summary>
         public abstract double TurnCouple(RodShape shape);
 
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>

@@ -9,7 +9,7 @@ namespace Guidewire.Core
         private readonly RodMass _mass;
         private readonly double[] _length;  // of the elements, m
 
-        /// <summary>No load on any of the n+1 nodes.</summary>
+        /// <summary>Makes loads of 0 on each of the n+1 nodes.</summary>
         public DeadLoads(RodMass mass, double[] length)
         {
             _mass = mass;

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Sums over a list of energy terms: value, gradient, blocks, largest step.</summary>
     internal static class EnergySum
     {
-        /// <summary>The sum of the energies, J.</summary>
+        /// <summary>Gives the sum of the energies, J.</summary>
         /// <param name="magnitude">Sum of their magnitudes, J: what rounding goes with.</param>
         public static double Value(EnergyTerm[] terms, RodShape shape, out double magnitude)
         {
@@ -20,7 +20,7 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>The same, term by term.</summary>
+        /// <summary>Gives the same, term by term.</summary>
         /// <param name="values">Receives the energy of each term, J.</param>
         public static double Value(EnergyTerm[] terms, RodShape shape, double[] values, out double magnitude)
         {
@@ -71,7 +71,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The largest fraction of a step, at most 1, that no term forbids.</summary>
+        /// <summary>Gives the largest fraction of a step, at most 1, that no term forbids.</summary>
         public static double MaxStep(EnergyTerm[] terms, RodShape shape, RodVector[] direction, double scale)
         {
             double fraction = 1.0;

@@ -16,7 +16,7 @@ namespace Guidewire.Core
         /// <summary>Whether the value is energy that rod and loads have; else only its slope counts, a force.</summary>
         public virtual bool StoresEnergy => true;
 
-        /// <summary>The energy in J of the whole rod in this shape.</summary>
+        /// <summary>Gives the energy in J of the whole rod in this shape.</summary>
         public abstract double Value(RodShape shape);
 
         /// <summary>Of the value, J, what the shape stores.</summary>

@@ -136,7 +136,7 @@ namespace Guidewire.Core
             blockA.F33 -= d.Z * r.Z;
         }
 
-        /// <summary>T^T m on b and -T m on a.</summary>
+        /// <summary>Adds T^T m on b and -T m on a.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static void AddCouple(double tb, double cs, in Vector3d theta, in Vector3d m, in Vector3d w,
             ref RodVector a, ref RodVector b)

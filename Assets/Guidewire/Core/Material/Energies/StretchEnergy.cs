@@ -18,7 +18,7 @@ namespace Guidewire.Core
 
         private bool _dropsGeometricStiffness;
 
-        /// <summary>The energy of a rod with these elements.</summary>
+        /// <summary>Makes the energy of a rod with these elements.</summary>
         /// <param name="rest">p at which each element has no stress, or null for e3.</param>
         public StretchEnergy(MaterialRod rod, Vector3d[]? rest = null)
         {

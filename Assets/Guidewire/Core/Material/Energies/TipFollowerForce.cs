@@ -22,7 +22,7 @@ namespace Guidewire.Core
         /// <summary>True of no force.</summary>
         public override bool HasPotential => Force == Vector3d.Zero && !Varies;
 
-        /// <summary>0: no work yet.</summary>
+        /// <summary>Gives 0: no work yet.</summary>
         public override double AnchoredValue(double before)
         {
             return 0.0;
@@ -74,7 +74,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The columns of R [f]/2: R (f x e_k)/2.</summary>
+        /// <summary>Gives the columns of R [f]/2: R (f x e_k)/2.</summary>
         public void HalfTangent(RodShape shape, out Vector3d first, out Vector3d second, out Vector3d third)
         {
             Quaterniond q = shape.Q[shape.ElementCount - 1];

@@ -20,7 +20,7 @@ namespace Guidewire.Core
         /// <summary>True of no couple.</summary>
         public override bool HasPotential => Moment == Vector3d.Zero && !Varies;
 
-        /// <summary>0: no work yet.</summary>
+        /// <summary>Gives 0: no work yet.</summary>
         public override double AnchoredValue(double before)
         {
             return 0.0;

@@ -200,7 +200,7 @@ namespace Guidewire.Core
             y.T3 = block.C33 * z3;
         }
 
-        /// <summary>One block of z := L^-T z, from the last block to the first.</summary>
+        /// <summary>Computes one block of z := L^-T z, from the last block to the first.</summary>
         public static void Backward(in RodBlock block, ref RodVector z, in RodVector nextZ)
         {
             double x1 = nextZ.X1, x2 = nextZ.X2, x3 = nextZ.X3;

@@ -25,7 +25,7 @@ namespace Guidewire.Core
         private readonly int _entryCount;   // of vectors, behind the placeholder
         private int _twistCount;            // elements with an angle that is unknown
 
-        /// <summary>A system for this rod between these supports.</summary>
+        /// <summary>Makes a system for this rod between these supports.</summary>
         public BlockTridiagonal(MaterialRod rod, RodSupports supports)
         {
             _count = rod.ElementCount + 1;
@@ -137,7 +137,7 @@ namespace Guidewire.Core
             return negative;
         }
 
-        /// <summary>y := -gradient with the supports removed; gradient itself retains the reactions.</summary>
+        /// <summary>Gives y := -gradient with the supports removed; gradient itself retains the reactions.</summary>
         /// <returns>What the terms measured in passing.</returns>
         public GradientMeasures Gradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y)
         {
@@ -161,7 +161,7 @@ namespace Guidewire.Core
             return measured;
         }
 
-        /// <summary>y := A^-1 y with the current factorisation.</summary>
+        /// <summary>Computes y := A^-1 y with the current factorisation.</summary>
         public void Solve(RodVector[] y)
         {
             y[_count] = default;
@@ -182,7 +182,7 @@ namespace Guidewire.Core
             Back(y);
         }
 
-        /// <summary>The second half of <see cref="Solve"/>, after a <see cref="Factorise"/> that took y
+        /// <summary>Does the second half of <see cref="Solve"/>, after a <see cref="Factorise"/> that took y
         /// along.</summary>
         public void Back(RodVector[] y)
         {
@@ -246,7 +246,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>a . b over all free directions, weighted by the metric: l on theta, l/L^2 on x.</summary>
+        /// <summary>Gives a . b over all free directions, weighted by the metric: l on theta, l/L^2 on x.</summary>
         public double MetricDot(RodVector[] a, RodVector[] b)
         {
             double sum = 0.0;

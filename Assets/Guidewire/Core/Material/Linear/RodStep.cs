@@ -42,7 +42,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Element j and the node after it, of <see cref="Apply"/>.</summary>
+        /// <summary>Moves element j and the node after it, as part of <see cref="Apply"/>.</summary>
         /// <param name="old">In and out: the last node before the step, m.</param>
         /// <param name="x">In and out: the last node after it.</param>
         public static void MoveElement(RodShape shape, RodVector[] direction, double scale, RodShape to, int j,
@@ -151,7 +151,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The size of a direction: the largest turn of an element in radians or shift of a node over
+        /// <summary>Gives the size of a direction: the largest turn of an element in radians or shift of a node over
         /// L.</summary>
         /// <param name="relative">The largest difference between the turns of two successive elements, radians.</param>
         public static double Size(RodVector[] direction, int elementCount, double length, out double relative)

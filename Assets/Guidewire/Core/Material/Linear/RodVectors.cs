@@ -17,7 +17,7 @@ namespace Guidewire.Core
             return sum;
         }
 
-        /// <summary>The largest sum of the forces on nodes 0 to k, over all k.</summary>
+        /// <summary>Gives the largest sum of the forces on nodes 0 to k, over all k.</summary>
         /// <param name="couples">Sum of the magnitudes of all components of the couples.</param>
         public static double LargestPartialForce(RodVector[] v, out double couples)
         {
@@ -37,7 +37,7 @@ namespace Guidewire.Core
             return Math.Sqrt(largest);
         }
 
-        /// <summary>to += scale v.</summary>
+        /// <summary>Adds: to += scale v.</summary>
         public static void AddScaled(RodVector[] to, double scale, RodVector[] v)
         {
             for (int i = 0; i < to.Length; i++)
@@ -65,7 +65,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The largest force of all nodes, or couple of all elements over a length.</summary>
+        /// <summary>Gives the largest force of all nodes, or couple of all elements over a length.</summary>
         public static double Largest(RodVector[] v, double length)
         {
             double largest = 0.0;

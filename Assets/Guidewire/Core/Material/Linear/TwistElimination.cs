@@ -85,7 +85,7 @@ namespace Guidewire.Core
             v.T3 += turn.Z;
         }
 
-        /// <summary>to += scale v.</summary>
+        /// <summary>Adds: to += scale v.</summary>
         public static void AddScaled(ref RodVector to, double scale, in RodVector v)
         {
             to.X1 += scale * v.X1;
@@ -96,7 +96,7 @@ namespace Guidewire.Core
             to.T3 += scale * v.T3;
         }
 
-        /// <summary>block += scale b b^T.</summary>
+        /// <summary>Adds: block += scale b b^T.</summary>
         public static void AddSquare(ref RodBlock block, in RodVector b, double scale)
         {
             double x1 = scale * b.X1;

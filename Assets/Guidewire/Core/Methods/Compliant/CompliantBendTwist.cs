@@ -15,7 +15,7 @@ namespace Guidewire.Core
         private readonly bool _hasProximal;
         private readonly bool _hasDistal;
 
-        /// <summary>The constraints of a rod's joints.</summary>
+        /// <summary>Makes the constraints of a rod's joints.</summary>
         public CompliantBendTwist(MaterialRod rod, RodSupports supports, Vector3d[] inverseInertia)
         {
             _joint = rod.Joints(supports);
@@ -65,7 +65,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One Gauss-Seidel iteration over all joints.</summary>
+        /// <summary>Makes one Gauss-Seidel iteration over all joints.</summary>
         /// <param name="shape">The wire, turned in place.</param>
         /// <param name="substep">h, s.</param>
         public void Iterate(RodShape shape, double substep)

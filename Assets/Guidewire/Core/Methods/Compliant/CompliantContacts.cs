@@ -398,7 +398,7 @@ namespace Guidewire.Core
                 return Couple(q, FrictionImpulse);
             }
 
-            /// <summary>The same for another f.</summary>
+            /// <summary>Gives the same for another f.</summary>
             public readonly Vector3d Couple(in Quaterniond q, in Vector3d friction)
             {
                 return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(friction, Normal));

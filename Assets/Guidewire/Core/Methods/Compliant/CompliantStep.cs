@@ -52,7 +52,7 @@ namespace Guidewire.Core
         private Vector3d _predictedTip;
         private double _time;
 
-        /// <summary>A step for this scene.</summary>
+        /// <summary>Makes a step for this scene.</summary>
         /// <param name="contactStiffness">Of a contact, N/m; 0 for rigid ones.</param>
         public CompliantStep(MaterialScene scene, RodTerms terms, MethodParameters method, SolverReport report,
             double contactStiffness)

@@ -13,7 +13,7 @@ namespace Guidewire.Core
         private readonly double[] _inverseMass;     // 1/kg
         private readonly Vector3d[] _inverseInertia;  // 1/(kg m^2)
 
-        /// <summary>The constraints of a rod.</summary>
+        /// <summary>Makes the constraints of a rod.</summary>
         public CompliantStretch(MaterialRod rod, double[] inverseMass, Vector3d[] inverseInertia)
         {
             int n = rod.ElementCount;
@@ -67,7 +67,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>One Gauss-Seidel iteration over all elements.</summary>
+        /// <summary>Makes one Gauss-Seidel iteration over all elements.</summary>
         /// <param name="shape">The wire, moved and turned in place.</param>
         /// <param name="substep">h, s.</param>
         public void Iterate(RodShape shape, double substep)

@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _shift;
         private readonly Vector3d[] _turn;
 
-        /// <summary>The measure for these constraints.</summary>
+        /// <summary>Makes the measure for these constraints.</summary>
         /// <param name="contacts">Null without walls.</param>
         public DirectionError(MaterialScene scene, NodalInertia inertia, CompliantStretch stretch,
             CompliantBendTwist bendTwist, CompliantContacts? contacts)

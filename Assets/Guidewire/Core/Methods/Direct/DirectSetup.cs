@@ -10,7 +10,7 @@ namespace Guidewire.Core
         // As many times the iterations of a stage: a wall that is pressed to its limit takes more than a rigid one.
         private const int BetweenSoftWalls = 2;
 
-        /// <summary>The motion of a scene's rod by the direct solver.</summary>
+        /// <summary>Gives the motion of a scene's rod by the direct solver.</summary>
         /// <param name="work">What the run may take; null where all of the run is this motion.</param>
         public static RodDynamics DynamicsOf(SimulationParameters parameters, MaterialScene scene, RodTerms terms,
             WorkLimit? work = null)
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice);
         }
 
-        /// <summary>The scheme of an integrator of the direct solver; null for BDF2.</summary>
+        /// <summary>Gives the scheme of an integrator of the direct solver; null for BDF2.</summary>
         public static RungeKuttaScheme? Scheme(Integrator integrator)
         {
             switch (integrator)

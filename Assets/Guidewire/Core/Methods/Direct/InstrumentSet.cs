@@ -8,7 +8,7 @@ namespace Guidewire.Core
     {
         private MonitoredRod? _rod;
 
-        /// <summary>A wire alone.</summary>
+        /// <summary>Makes a wire alone.</summary>
         public InstrumentSet(MonitoredRod rod)
             : this(new[] { rod.Drive }, new[] { new HubSlip(rod.Drive, 0.0, 0.0) }, rod.Dynamics.Work)
         {
@@ -66,7 +66,8 @@ namespace Guidewire.Core
             Rod.Write(state);
         }
 
-        /// <summary>Force of a hub on its instrument, N: of the outermost one first, of the wire last.</summary>
+        /// <summary>Gives the force of a hub on its instrument, N: of the outermost one first, of the wire
+        /// last.</summary>
         public virtual double ForceOf(int hub)
         {
             return Hub()!.Force;

@@ -30,7 +30,7 @@ namespace Guidewire.Core
         private readonly Joint[] _joints;
         private readonly double[] _jointLengths;
 
-        /// <summary>The rod of a scene.</summary>
+        /// <summary>Makes the rod of a scene.</summary>
         /// <param name="dynamics">Its motion, at its start.</param>
         /// <param name="record">Takes the support's force after each step, or null.</param>
         public MonitoredRod(MaterialScene scene, RodDynamics dynamics, MethodParameters method,
@@ -297,7 +297,7 @@ namespace Guidewire.Core
             return _stress;
         }
 
-        /// <summary>The solver's report on its own work.</summary>
+        /// <summary>Gives the solver's report on its own work.</summary>
         public SolverReport Report()
         {
             _results.Factorisations = _startFactorisations + _dynamics.Newton.Factorisations;

@@ -64,7 +64,7 @@ namespace Guidewire.Core
         private readonly double[] _values;        // of the terms in the shape evaluated last, J
         private double _shift;                    // N, kept from one iteration to the next
 
-        /// <summary>For a rod under these terms.</summary>
+        /// <summary>Makes one for a rod under these terms.</summary>
         /// <param name="rodTerms">Those of the rod, its walls among them.</param>
         /// <param name="terms">Those whose sum is minimised.</param>
         public Newton(RodTerms rodTerms, EnergyTerm[] terms)
@@ -248,7 +248,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Size of the direction: radians, or displacement over L.</summary>
+        /// <summary>Gives the size of the direction: radians, or displacement over L.</summary>
         /// <param name="relative">The largest turn of one element against the next, radians.</param>
         public double Size(out double relative)
         {

@@ -25,7 +25,7 @@ namespace Guidewire.Core
         private readonly WallTerms? _walls;
         private readonly double _thrust;      // that no wire bears without a jam, N
 
-        /// <summary>Of the motion of a scene's rod.</summary>
+        /// <summary>Makes one of the motion of a scene's rod.</summary>
         public StepFailure(MaterialScene scene, RodDynamics dynamics)
         {
             _scene = scene;

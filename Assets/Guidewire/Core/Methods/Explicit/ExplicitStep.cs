@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private readonly string _remedy;    // of a wire that has blown up
         private double _time;
 
-        /// <summary>A step for this scene.</summary>
+        /// <summary>Makes a step for this scene.</summary>
         /// <param name="record">Takes the support's force after each step, or null.</param>
         public ExplicitStep(MaterialScene scene, RodTerms terms, MethodParameters method, SolverReport report,
             ContactRecord? record)

@@ -5,7 +5,7 @@ namespace Guidewire.Core
     /// <summary>Builds a run with pbd, once, from its parameters.</summary>
     internal static class PbdSetup
     {
-        /// <summary>The wire at its start, sphere 0 displaced, and its stepper.</summary>
+        /// <summary>Gives the wire at its start, sphere 0 displaced, and its stepper.</summary>
         /// <exception cref="ArgumentException">A wire that starts outside the vessel or is too thick.</exception>
         public static MethodStart Build(SimulationParameters parameters, Scene scene)
         {

@@ -19,7 +19,7 @@ namespace Guidewire.Io
         /// <summary>Those that meet walls.</summary>
         public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
 
-        /// <summary>These methods.</summary>
+        /// <summary>Gives these methods.</summary>
         public static IReadOnlyList<Solver> Only(params Solver[] methods)
         {
             return methods;

@@ -23,7 +23,7 @@ namespace Guidewire.Core
         /// <summary>Whether a lumen has friction.</summary>
         public bool HasFriction { get; }
 
-        /// <summary>Each of them.</summary>
+        /// <summary>The records of all catheters.</summary>
         public CoaxialRecord[] All => _records;
 
         /// <summary>A step begins.</summary>

@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private CoaxialRod _rod;
         private MonitoredRod _whole = null!;
 
-        /// <summary>All at their start.</summary>
+        /// <summary>Makes all at their start.</summary>
         /// <param name="drives">Of the hubs.</param>
         /// <param name="wire">Takes the wire's shape.</param>
         /// <param name="failure">Why there is no rest shape to start from, or null.</param>
@@ -69,7 +69,7 @@ namespace Guidewire.Core
         /// <summary>All instruments as one rod.</summary>
         public CoaxialRod Rod => _rod;
 
-        /// <summary>Its motion.</summary>
+        /// <summary>The motion of the chain.</summary>
         public RodDynamics Dynamics => Whole.Dynamics;
 
         /// <summary>The same with its monitors.</summary>

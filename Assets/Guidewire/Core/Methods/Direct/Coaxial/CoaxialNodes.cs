@@ -9,7 +9,7 @@ namespace Guidewire.Core
     /// around an instrument is that of the next one around it which is beyond those around it in turn.</remarks>
     internal sealed class CoaxialNodes
     {
-        /// <summary>Of a step, or of an element's length.</summary>
+        /// <summary>The fraction of a step, or of an element's length, below which two moments are one.</summary>
         public const double SameTime = 1e-6;
 
         private const double Reached = 0.02;    // of an element's length

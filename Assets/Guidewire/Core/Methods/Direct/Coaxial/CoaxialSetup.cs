@@ -88,7 +88,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>All as one rod.</summary>
+        /// <summary>Gives all as one rod.</summary>
         /// <param name="beyond">Nodes of each beyond the tips around it.</param>
         /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
         /// <param name="first">Elements of the outermost one that are left out.</param>
@@ -131,7 +131,7 @@ namespace Guidewire.Core
             return slips;
         }
 
-        /// <summary>Results of each catheter, the outermost one first.</summary>
+        /// <summary>Gives the results of each catheter, the outermost one first.</summary>
         public CoaxialRecord[] Records()
         {
             IReadOnlyList<Catheter> catheters = _parameters.Scene.Catheters;
@@ -209,7 +209,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Energies and loads of all, which follow their hubs.</summary>
+        /// <summary>Gives the energies and loads of all, which follow their hubs.</summary>
         public RodTerms Terms(MaterialScene scene)
         {
             CoaxialJoints joints = scene.Supports.Coaxial!.Joints;
@@ -226,7 +226,7 @@ namespace Guidewire.Core
         /// <summary>What the run may take.</summary>
         public WorkLimit Work { get; }
 
-        /// <summary>The motion of all.</summary>
+        /// <summary>Gives the motion of all.</summary>
         public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
         {
             return DirectSetup.DynamicsOf(_parameters, scene, terms, Work);

@@ -17,7 +17,7 @@ namespace Guidewire.Core
         private readonly double[] _lengths;     // of wire that each stands for, m
         private readonly StressRecord _record;
 
-        /// <summary>Of the innermost instrument.</summary>
+        /// <summary>Makes one of the innermost instrument.</summary>
         /// <param name="wire">Where it is.</param>
         public WireStress(CoaxialSetup setup, InnerInstrument wire)
         {

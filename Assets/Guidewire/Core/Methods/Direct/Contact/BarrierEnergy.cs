@@ -175,7 +175,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Without what dashpots add to it in a stage.</summary>
+        /// <summary>Gives the without what dashpots add to it in a stage.</summary>
         public override double Stored(RodShape shape)
         {
             return _lag == null ? Value(shape) : Evaluate(shape) + _lag.Stored();
@@ -253,14 +253,14 @@ namespace Guidewire.Core
             _near.TakeOver(other._near, shift);
         }
 
-        /// <summary>Gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
+        /// <summary>Gives the gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
         /// distance.</summary>
         public double NodeGap(int w, int i)
         {
             return _nodeGap[w * _x.Length + i];
         }
 
-        /// <summary>The same between the interior of element j and convex edges of the wall.</summary>
+        /// <summary>Gives the same between the interior of element j and convex edges of the wall.</summary>
         public double EdgeGap(int w, int j)
         {
             return _edgeGap[w * _elementRadius.Length + j];

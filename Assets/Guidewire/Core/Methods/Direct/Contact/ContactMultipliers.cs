@@ -42,7 +42,7 @@ namespace Guidewire.Core
             return ref _own[i];
         }
 
-        /// <summary>That by nodes j + 1 and j, N/m.</summary>
+        /// <summary>Gives that by nodes j + 1 and j, N/m.</summary>
         public ref readonly Symmetric3 CouplingOf(int j)
         {
             return ref _coupling[j];
@@ -69,7 +69,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Node i with a wall.</summary>
+        /// <summary>Adds the contact of node i with a wall.</summary>
         /// <param name="w">Which wall.</param>
         /// <param name="i">Which node.</param>
         /// <param name="force">On the wire, N.</param>
@@ -88,7 +88,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The interior of element j, at s, with a wall.</summary>
+        /// <summary>Adds the contact of the interior of element j, at s, with a wall.</summary>
         public void AddElement(int w, int j, double s, in Vector3d force, double stiffness, double gap,
             in Barrier barrier)
         {

@@ -58,7 +58,7 @@ namespace Guidewire.Core
             Contacts.Clear();
         }
 
-        /// <summary>A contact of node i with wall w.</summary>
+        /// <summary>Adds a contact of node i with wall w.</summary>
         /// <param name="w">Which wall.</param>
         /// <param name="i">Which node.</param>
         /// <param name="gradient">N.</param>
@@ -78,7 +78,7 @@ namespace Guidewire.Core
             _ownBending[i] += bending;
         }
 
-        /// <summary>A contact of the interior of element j with a convex edge.</summary>
+        /// <summary>Gives a contact of the interior of element j with a convex edge.</summary>
         /// <param name="w">Which wall.</param>
         /// <param name="j">Which element.</param>
         /// <param name="edge">In units.</param>

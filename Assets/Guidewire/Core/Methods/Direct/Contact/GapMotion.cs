@@ -29,7 +29,7 @@ namespace Guidewire.Core
             _elements = _x.Length - 1;
         }
 
-        /// <summary>The fraction of the motion, 1 or less, on which gaps stay open.</summary>
+        /// <summary>Gives the fraction of the motion, 1 or less, on which gaps stay open.</summary>
         /// <param name="longestSquared">Of the nodes' displacements, units^2.</param>
         /// <param name="minGap">Of all gaps, m.</param>
         public double MaxStep(double longestSquared, double minGap)

@@ -261,7 +261,7 @@ namespace Guidewire.Core
             return clearance;
         }
 
-        /// <summary>The same from wall w.</summary>
+        /// <summary>Gives the same from wall w.</summary>
         public double ClearanceOf(int w, Vector3d[] x, int j)
         {
             int n = _range.Length;

@@ -16,7 +16,7 @@ namespace Guidewire.Core
         private readonly double _limit;      // N
         private readonly double _before;     // from the hub to node 0, at rest, m
 
-        /// <summary>The spring of a rod, without force.</summary>
+        /// <summary>Makes the spring of a rod, without force.</summary>
         /// <param name="limit">The axial force at which the hub slips, N; 0: never.</param>
         public SupportSpring(MaterialRod rod, double limit)
         {
@@ -46,7 +46,7 @@ namespace Guidewire.Core
         /// <summary>p of the hub, m.</summary>
         public Vector3d Position { get; set; }
 
-        /// <summary>Force of the support on node 0, N.</summary>
+        /// <summary>Gives the force of the support on node 0, N.</summary>
         public Vector3d Force(RodShape shape)
         {
             Vector3d behind = Behind(shape);
@@ -56,7 +56,7 @@ namespace Guidewire.Core
             return less == 0.0 ? force : force - less * Axis;
         }
 
-        /// <summary>The spring in series with a length of wire along an axis.</summary>
+        /// <summary>Gives the spring in series with a length of wire along an axis.</summary>
         /// <param name="compliance">m/N.</param>
         /// <param name="length">From the hub to node 0, at rest, m.</param>
         public SupportSpring InSeries(double compliance, in Vector3d axis, double length)

@@ -25,7 +25,7 @@ namespace Guidewire.Core
         /// <summary>By how much the wall gives way there, m.</summary>
         public readonly double Displacement;
 
-        /// <summary>A contact with these values.</summary>
+        /// <summary>Makes a contact with these values.</summary>
         public WallContact(int wall, int element, double position, in Vector3d force, bool isNode, double displacement)
         {
             Displacement = displacement;

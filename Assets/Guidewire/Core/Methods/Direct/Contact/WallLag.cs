@@ -51,7 +51,7 @@ namespace Guidewire.Core
             return Array.Exists(time, tau => tau > 0.0) ? new WallLag(laws, nodes, time) : null;
         }
 
-        /// <summary>Whether wall w follows with a delay.</summary>
+        /// <summary>Says whether wall w follows with a delay.</summary>
         public bool IsOf(int w)
         {
             return _time[w] > 0.0;

@@ -35,7 +35,7 @@ namespace Guidewire.Core
         private readonly WallRegions? _regions;
         private readonly double _stiffness;       // K where there are none, Pa
 
-        /// <summary>That of a wall on a rod.</summary>
+        /// <summary>Makes that of a wall on a rod.</summary>
         /// <param name="rod">The wire.</param>
         /// <param name="nodeRadius">Of its nodes, m.</param>
         /// <param name="wall">As it was given, in units.</param>
@@ -94,7 +94,7 @@ namespace Guidewire.Core
             return Array.ConvertAll(walls, wall => new WallLaw(rod, nodeRadius, wall, units, rigid));
         }
 
-        /// <summary>The least range of all gaps, m.</summary>
+        /// <summary>Gives the least range of all gaps, m.</summary>
         public static double MinDistanceOf(WallLaw[] laws)
         {
             double least = double.PositiveInfinity;
@@ -117,7 +117,7 @@ namespace Guidewire.Core
             return _nodeRadius[i];
         }
 
-        /// <summary>The same of element j.</summary>
+        /// <summary>Gives the same of element j.</summary>
         public double RadiusOf(int j)
         {
             return _elementRadius[j];
@@ -134,7 +134,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Of the gap of node i.</summary>
+        /// <summary>Gives the barrier of the gap of node i.</summary>
         public ref readonly Barrier OfNode(int i)
         {
             return ref _current[i];
@@ -146,20 +146,20 @@ namespace Guidewire.Core
             return ref _element[j];
         }
 
-        /// <summary>Range of the gap of element j, m.</summary>
+        /// <summary>Gives the range of the gap of element j, m.</summary>
         public double DistanceOf(int j)
         {
             return _element[j].Distance;
         }
 
-        /// <summary>Range of the gap of a contact, m: of a soft wall its limit there.</summary>
+        /// <summary>Gives the range of the gap of a contact, m: of a soft wall its limit there.</summary>
         public double DistanceAt(in WallContact contact)
         {
             int node = contact.Element + (contact.Position == 1.0 ? 1 : 0);
             return contact.IsNode ? _node[node].Distance : _element[contact.Element].Distance;
         }
 
-        /// <summary>Of the gap of element j at an edge of the wall.</summary>
+        /// <summary>Gives the barrier of the gap of element j at an edge of the wall.</summary>
         public Barrier OfEdge(int j, in EdgeContact edge)
         {
             return IsSoft ? _element[j].Times(_factor[j] * edge.TurnUnder(_length[j])) : _element[j];

@@ -10,7 +10,7 @@ namespace Guidewire.Core
     {
         private readonly Func<string?>? _advice;
 
-        /// <summary>Those of a rod.</summary>
+        /// <summary>Makes those of a rod.</summary>
         /// <param name="friction">Null where no wall has friction.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
         /// <param name="advice">See <see cref="Advice"/>.</param>

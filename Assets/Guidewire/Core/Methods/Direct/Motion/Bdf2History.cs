@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _spins;
         private bool _isComplete;
 
-        /// <summary>No history yet, of a rod of n elements.</summary>
+        /// <summary>Makes an empty history of a rod of n elements.</summary>
         public Bdf2History(int elementCount)
         {
             _positions = new Vector3d[elementCount + 1];

@@ -7,7 +7,7 @@ namespace Guidewire.Core
         private readonly Bdf2History _history;
         private double _lastStep;  // s
 
-        /// <summary>A stepper of a rod under these terms.</summary>
+        /// <summary>Makes a stepper of a rod under these terms.</summary>
         public Bdf2Stepper(RodTerms terms, RodSchedule schedule, RodMotion motion)
             : base(new ImplicitStage(terms, schedule, motion, 1, false), new StepControl(1))
         {

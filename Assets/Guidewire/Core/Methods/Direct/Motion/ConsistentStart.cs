@@ -21,7 +21,7 @@ namespace Guidewire.Core
         private readonly double[] _pivot;
         private readonly Vector3d[] _change;
 
-        /// <summary>For a rod under these terms.</summary>
+        /// <summary>Makes one for a rod under these terms.</summary>
         /// <param name="damping">Of its nodes and strains, or null.</param>
         /// <param name="inner">The spin of instruments inside.</param>
         public ConsistentStart(RodTerms terms, RodDamping? damping, InnerSpin inner)

@@ -25,7 +25,7 @@ namespace Guidewire.Core
         private readonly Vector3d[] _countedTurn;  // phi with its full turns, in the shape that was last evaluated
         private readonly Vector3d[] _keptTurn;
 
-        /// <summary>The inertia of a rod.</summary>
+        /// <summary>Makes the inertia of a rod.</summary>
         public InertiaEnergy(RodMass mass)
         {
             _diagonal = mass.Diagonal;
@@ -150,7 +150,7 @@ namespace Guidewire.Core
             return Math.Sqrt(largest);
         }
 
-        /// <summary>w_3 and w_3' of element j in this orientation.</summary>
+        /// <summary>Gives w_3 and w_3' of element j in this orientation.</summary>
         public void AxialSpin(in Quaterniond orientation, int j, out double spin, out double rate)
         {
             spin = Spin(Turn(orientation, j), j).Z;

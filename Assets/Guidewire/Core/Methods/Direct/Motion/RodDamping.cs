@@ -30,7 +30,7 @@ namespace Guidewire.Core
         private bool _hasBegun;
         private bool _hasBefore;
 
-        /// <summary>The damping of a rod.</summary>
+        /// <summary>Makes the damping of a rod.</summary>
         /// <param name="stages">Of the scheme.</param>
         public RodDamping(RodTerms terms, int stages)
         {
@@ -141,7 +141,7 @@ namespace Guidewire.Core
             return _ofMaterial > 0.0 ? _bending.ProximalCouple(shape) : Vector3d.Zero;
         }
 
-        /// <summary>The same for the distal clamp.</summary>
+        /// <summary>Gives the same for the distal clamp.</summary>
         public Vector3d DistalCouple(RodShape shape)
         {
             return _ofMaterial > 0.0 ? _bending.DistalCouple(shape) : Vector3d.Zero;

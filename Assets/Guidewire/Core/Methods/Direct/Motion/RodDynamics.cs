@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private readonly StepStart _start;   // of an interval
         private readonly WorkLimit _work;
 
-        /// <summary>A rod at rest in this shape.</summary>
+        /// <summary>Makes a rod at rest in this shape.</summary>
         /// <param name="terms">The rod's energies and loads.</param>
         /// <param name="shape">Where it starts; the rod moves it from then on.</param>
         /// <param name="scheme">A Runge-Kutta scheme, or null for BDF2.</param>

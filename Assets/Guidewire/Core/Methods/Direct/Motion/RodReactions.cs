@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private Vector3d _momentumRate;  // N
         private bool _hasStepped;
 
-        /// <summary>Of a rod at its start.</summary>
+        /// <summary>Makes one of a rod at its start.</summary>
         /// <param name="moving">Its terms and those of its motion.</param>
         /// <param name="rounding">What rounding of positions leaves in the balance.</param>
         /// <param name="damping">What resists velocities and rates of strain, or null.</param>

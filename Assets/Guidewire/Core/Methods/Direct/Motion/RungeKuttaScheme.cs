@@ -70,7 +70,7 @@ namespace Guidewire.Core
         /// <summary>Order of the embedded solution.</summary>
         public int EmbeddedOrder { get; private set; }
 
-        /// <summary>Backward Euler, order 1.</summary>
+        /// <summary>Gives backward Euler, order 1.</summary>
         public static RungeKuttaScheme ImplicitEuler()
         {
             return new RungeKuttaScheme(new[] { new[] { 1.0 } }, null);
@@ -84,7 +84,8 @@ namespace Guidewire.Core
             return new RungeKuttaScheme(new[] { new[] { g }, new[] { 1.0 - g, g } }, null);
         }
 
-        /// <summary>TR-BDF2 (Bank et al. 1985; as a Runge-Kutta scheme Hosea and Shampine 1996): order 2, embedded 3;
+        /// <summary>Gives TR-BDF2 (Bank et al. 1985; as a Runge-Kutta scheme Hosea and Shampine 1996): order 2,
+        /// embedded 3;
         /// d = 1 - 1/sqrt(2), w = sqrt(2)/4.</summary>
         public static RungeKuttaScheme TrBdf2()
         {
@@ -97,7 +98,7 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>ESDIRK3(2)4L[2]SA, the implicit part of ARK3(2)4L[2]SA (Kennedy and Carpenter 2003): order 3,
+        /// <summary>Gives ESDIRK3(2)4L[2]SA, the implicit part of ARK3(2)4L[2]SA (Kennedy and Carpenter 2003): order 3,
         /// embedded 2.</summary>
         public static RungeKuttaScheme Esdirk3()
         {
@@ -122,7 +123,7 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>ESDIRK4(3)6L[2]SA, the implicit part of ARK4(3)6L[2]SA (Kennedy and Carpenter 2003): order 4,
+        /// <summary>Gives ESDIRK4(3)6L[2]SA, the implicit part of ARK4(3)6L[2]SA (Kennedy and Carpenter 2003): order 4,
         /// embedded 3, gamma = 1/4.</summary>
         public static RungeKuttaScheme Esdirk4()
         {

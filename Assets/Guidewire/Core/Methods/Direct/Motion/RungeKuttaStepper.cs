@@ -26,7 +26,7 @@ namespace Guidewire.Core
         private Vector3d _proximalVelocity;   // of the supports in the last step, m/s
         private Vector3d _distalVelocity;
 
-        /// <summary>A stepper of a rod under these terms.</summary>
+        /// <summary>Makes a stepper of a rod under these terms.</summary>
         public RungeKuttaStepper(RungeKuttaScheme scheme, RodTerms terms, RodSchedule schedule, RodMotion motion)
             : base(new ImplicitStage(terms, schedule, motion, scheme.StageCount, scheme.IsFirstExplicit),
                 new StepControl(scheme.EmbeddedOrder))

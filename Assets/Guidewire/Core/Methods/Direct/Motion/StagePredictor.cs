@@ -7,7 +7,7 @@ namespace Guidewire.Core
         public int Second;
         public double Fraction;
 
-        /// <summary>That of one stage alone.</summary>
+        /// <summary>Gives that of one stage alone.</summary>
         public static StagePredictor Of(int stage)
         {
             return new StagePredictor { First = stage, Second = stage };

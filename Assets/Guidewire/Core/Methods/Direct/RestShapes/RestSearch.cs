@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private readonly Newton _newton;
         private readonly EquilibriumStability _stability;
 
-        /// <summary>A search under these terms.</summary>
+        /// <summary>Makes a search under these terms.</summary>
         /// <param name="rodTerms">Those of the rod.</param>
         /// <param name="terms">Those whose sum is minimised.</param>
         public RestSearch(RodTerms rodTerms, EnergyTerm[] terms)

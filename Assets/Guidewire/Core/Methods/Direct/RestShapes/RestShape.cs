@@ -20,7 +20,7 @@ namespace Guidewire.Core
         private readonly int _maxIterations;
         private readonly SolverReport _report;
 
-        /// <summary>A search in this scene.</summary>
+        /// <summary>Makes a search in this scene.</summary>
         /// <param name="tolerance">Error that the shape may have: radians, or displacement over L.</param>
         /// <param name="maxIterations">Newton iterations of a part.</param>
         /// <param name="report">Told how the rest shape was found and how good it is.</param>

@@ -19,7 +19,7 @@ namespace Guidewire.Core
         private readonly double _totalLength;
         private readonly RodVector[][] _basis = new RodVector[MaxVectors + 1][];
 
-        /// <summary>The spectrum of this rod's tangent.</summary>
+        /// <summary>Makes the spectrum of this rod's tangent.</summary>
         public ViscousSpectrum(FollowerTangent tangent, MaterialRod rod)
         {
             _tangent = tangent;
@@ -31,7 +31,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>True if every disturbance of a shape in equilibrium dies out.</summary>
+        /// <summary>Is true if every disturbance of a shape in equilibrium dies out.</summary>
         public bool IsStable(RodShape shape)
         {
             double[,] spectrum = Find(shape, out double shift);
@@ -64,7 +64,7 @@ namespace Guidewire.Core
             return 0.5 * (low + high) - shift;
         }
 
-        /// <summary>A small matrix with the eigenvalues lambda + s.</summary>
+        /// <summary>Gives a small matrix with the eigenvalues lambda + s.</summary>
         private double[,] Find(RodShape shape, out double shift)
         {
             shift = _bendForce;

@@ -10,7 +10,7 @@ namespace Guidewire.Core
         private const double LargestTurn = 0.5;   // radians a part
         private const double SmallExcess = 0.01;  // over the longest part without dividing it
 
-        /// <summary>Parts of the next step of dt, s.</summary>
+        /// <summary>Gives the parts of the next step of dt, s.</summary>
         public static int PartsOf(RodDynamics dynamics, RodSchedule schedule, double dt)
         {
             WallTerms walls = dynamics.Terms.Walls()!;

@@ -38,19 +38,19 @@ namespace Guidewire.Core
         /// <summary>a where all bits of the mask are set, b where none is.</summary>
         static abstract T Select(T mask, T a, T b);
 
-        /// <summary>One number in all lanes.</summary>
+        /// <summary>Gives one number in all lanes.</summary>
         static abstract T Fill(double value);
 
-        /// <summary>Successive numbers in memory, the first in lane 0.</summary>
+        /// <summary>Gives the successive numbers in memory, the first in lane 0.</summary>
         static abstract T Load(ref double first);
 
         /// <summary>Writes the numbers to successive positions in memory, lane 0's first.</summary>
         static abstract void Store(T a, ref double first);
 
-        /// <summary>Each lane's number in the next lane; lane 0 gets the entering one.</summary>
+        /// <summary>Gives each lane's number in the next lane; lane 0 gets the entering one.</summary>
         static abstract T Shift(T a, double entering);
 
-        /// <summary>The number in the last lane.</summary>
+        /// <summary>Gives the number in the last lane.</summary>
         static abstract double Last(T a);
     }
 }

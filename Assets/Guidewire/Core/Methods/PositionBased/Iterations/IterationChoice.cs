@@ -6,7 +6,7 @@ namespace Guidewire.Core
     {
         private const int MaxLanes = 8;
 
-        /// <summary>The iterations of least cost.</summary>
+        /// <summary>Gives the iterations of least cost.</summary>
         /// <param name="scalar">The iterations to do.</param>
         /// <param name="iterations">m, how many will be asked for at a time.</param>
         public static IIterations Fastest(ScalarIterations scalar, int iterations)

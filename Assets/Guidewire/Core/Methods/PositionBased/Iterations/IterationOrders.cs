@@ -3,7 +3,7 @@ namespace Guidewire.Core
     /// <summary>The orders of one Gauss-Seidel iteration as index lists.</summary>
     internal static class IterationOrders
     {
-        /// <summary>The indices 0 .. count - 1 in the order of the iteration.</summary>
+        /// <summary>Gives the indices 0 .. count - 1 in the order of the iteration.</summary>
         /// <param name="order">Naive: 0, 1, 2, ...; bilateral: 0, count - 1, 1, count - 2, ...</param>
         /// <param name="count">Number of constraints, 0 or more.</param>
         public static int[] Indices(SweepOrder order, int count)
