@@ -29,8 +29,8 @@ namespace Guidewire.Io
     internal sealed class ChoiceEntry<T> : ValueEntry<T>
         where T : struct, Enum
     {
-        /// <summary>Words of older files and what they mean now.</summary>
-        public IReadOnlyDictionary<string, T> OlderWords { get; internal set; } = new Dictionary<string, T>();
+        /// <summary>Words of older files and those that say the same now.</summary>
+        public IReadOnlyDictionary<string, string> OlderWords { get; internal set; } = new Dictionary<string, string>();
 
         public ChoiceEntry(string key, string help)
             : base(key, "", help)
@@ -52,14 +52,10 @@ namespace Guidewire.Io
             {
                 return false;
             }
-            if (OlderWords.TryGetValue((string)value!, out T meant))
-            {
-                Set(target, meant);
-                return true;
-            }
+            string word = NewerWord(value) ?? (string)value!;
             foreach (string name in Enum.GetNames(typeof(T)))
             {
-                if (Word(name) == (string?)value)
+                if (Word(name) == word)
                 {
                     Set(target, (T)Enum.Parse(typeof(T), name));
                     return true;
@@ -75,8 +71,8 @@ namespace Guidewire.Io
 
         internal override string? NewerWord(JToken value)
         {
-            return value.Type == JTokenType.String && OlderWords.TryGetValue((string)value!, out T meant)
-                ? Word(meant.ToString()) : null;
+            return value.Type == JTokenType.String && OlderWords.TryGetValue((string)value!, out string? newer)
+                ? newer : null;
         }
 
         /// <summary>An enumeration's name as a word in files: in camelCase.</summary>

@@ -35,7 +35,7 @@ namespace Guidewire.Io
                 "contact of rod elements, in addition to spheres: with forces by the lever rule, none, or by "
                 + "the thesis's rule")
             {
-                OlderWords = new Dictionary<string, ElementContact> { ["seed"] = ElementContact.Thesis },
+                OlderWords = new Dictionary<string, string> { ["seed"] = "thesis" },
                 Methods = Takers.Pbd,
             },
         });

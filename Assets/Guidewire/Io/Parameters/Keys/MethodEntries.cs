@@ -27,11 +27,11 @@ namespace Guidewire.Io
                 "pbd: how positions are predicted; direct: esdirk3 for most motions, esdirk4 for smooth ones, trbdf2 "
                 + "for short steps; bdf2 and implicitEuler damp more")
             {
-                OlderWords = new Dictionary<string, Integrator>
+                OlderWords = new Dictionary<string, string>
                 {
-                    ["sdirk2"] = Integrator.Trbdf2,
-                    ["sdirk3"] = Integrator.Esdirk3,
-                    ["sdirk4"] = Integrator.Esdirk4,
+                    ["sdirk2"] = "trbdf2",
+                    ["sdirk3"] = "esdirk3",
+                    ["sdirk4"] = "esdirk4",
                 },
                 Methods = Takers.Only(Solver.Pbd, Solver.Direct),
             },
