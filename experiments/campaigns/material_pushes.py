@@ -78,10 +78,14 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
 
 
 def soften(scene: dict[str, Any], seed: int) -> None:
-    """Lets every wall of a push give way: wallStiffness from 1e4 to 1e7 Pa."""
+    """Lets every wall of a push give way: wallStiffness from 1e4 to 1e7 Pa, and in half of all with a delay of 0.01 to
+    1 s."""
     random = np.random.default_rng([63, seed])
+    delay = np.random.default_rng([64, seed])
     for wall in (scene["vessel"], *scene.get("obstacles", [])):
         wall["wallStiffness"] = _between(random, 1e4, 1e7)
+        if seed % 2:
+            wall["relaxationTime"] = _between(delay, 0.01, 1.0)
 
 
 def radii_of(scene: dict[str, Any]) -> np.ndarray:

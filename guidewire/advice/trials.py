@@ -81,8 +81,9 @@ def candidates(scene: Values) -> list[Trial]:
     return list(found.values())
 
 
-_SOFTNESS = ("wallStiffness", "softLimit", "tipLength", "relaxationTime", "modulus", "wallThickness", "lumenRadius", "surroundingModulus",
-             "regions")
+_DELAY = "relaxationTime"
+_SOFTNESS = ("wallStiffness", "softLimit", "tipLength", _DELAY, "modulus", "wallThickness", "lumenRadius",
+             "surroundingModulus", "regions")
 _VARIED = ("solver", "integrator", "numberRodElements", "catheters", "timeStep", "constraintSolverSteps", "substeps",
            "elementContact", *_STIFFNESSES)
 
@@ -96,6 +97,7 @@ def parts(scene: Values) -> list[Trial]:
         ("gravity, left out", _without(scene, "gravity", [0.0, 0.0, 0.0])),
         ("friction, left out", _without_members(scene, ("frictionCoefficient", "lumenFriction"))),
         ("walls that give way, as rigid ones", _without_members(scene, _SOFTNESS)),
+        ("delay of walls that give way, left out", _without_members(scene, (_DELAY,))),
         ("twist by the drive, left out", _without(scene, "twistPerStep", 0.0)),
         ("local element size, left out", _even(scene)),
         ("catheters, left out", {"catheters": []} if scene.get("catheters") else None),

@@ -161,7 +161,7 @@ def test_parts_are_those_that_the_scene_has() -> None:
 
 
 def test_soft_walls_are_tried_as_rigid_ones() -> None:
-    soft = {"shape": "mesh", "wallStiffness": 1e5, "softLimit": 1e-4,
+    soft = {"shape": "mesh", "wallStiffness": 1e5, "softLimit": 1e-4, "relaxationTime": 0.1,
             "regions": [{"branch": "a", "wallStiffness": 1e4}]}
     scene = {"solver": "direct", "numberRodElements": 8, "timeStep": 0.1, "maxSimulationSteps": 10, "shearModulus": 2.0,
              "shearFactor": 0.9, "massDamping": 0.0, "gravity": [0.0, 0.0, 0.0], "vessel": soft,
@@ -169,6 +169,8 @@ def test_soft_walls_are_tried_as_rigid_ones() -> None:
     changed = {trial.name: trial.changed for trial in trials.parts(scene)}
     assert changed["walls that give way, as rigid ones"] == {
         "vessel": {"shape": "mesh"}, "obstacles": [{"shape": "sphere", "frictionCoefficient": 0.1}]}
+    delay = changed["delay of walls that give way, left out"]["vessel"]
+    assert delay == {key: value for key, value in soft.items() if key != "relaxationTime"}
 
 
 def test_elements_of_a_catheter_change_with_those_of_the_wire() -> None:
