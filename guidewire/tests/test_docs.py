@@ -12,9 +12,10 @@ import sys
 import numpy as np
 import pytest
 
+from guidewire.commands.arguments import value_of
 from guidewire.commands.commands import parse
 from guidewire.prepare import ROOT
-from guidewire.runs.runner import Request
+from guidewire.runs.runner import Checked, Request
 from guidewire.sessions.session import State
 from guidewire.studies.study_file import KEYS
 from guidewire.studies.table import Axis, Grid, Study
@@ -34,6 +35,7 @@ def blocks(text, language):
 def commands(text):
     """Command lines of guidewire.py, in blocks and in running text, with [...] written out and comments left out."""
     in_blocks = [re.split(r"\s{2,}|\s#", line)[0] for block in blocks(text, "") for line in block.splitlines()]
+    in_blocks = [re.sub(r"^guidewire (?=[a-z])", "python3 guidewire.py ", line) for line in in_blocks]    # of the wheel
     in_text = [" ".join(line.split()) for line in re.findall(r"(?<!`)`([^`]+)`(?!`)", text)]
     for line in (*in_blocks, *in_text):
         if line.startswith("python3 guidewire.py "):
@@ -94,6 +96,16 @@ def test_every_command_that_a_page_shows_can_be_typed(page):
             parse(words)
         except SystemExit as end:
             assert end.code == 0, f"{page.name}: {words}"
+
+
+@pytest.mark.parametrize("page", PAGES, ids=lambda page: page.name)
+def test_every_run_that_a_page_shows_of_a_scene_of_ours_can_be_made(page, live):
+    for words in commands(page.read_text(encoding="utf-8")):
+        if words[0] == "run" and (ROOT / words[1]).is_file():
+            arguments = parse(words)
+            changes = {key: value_of(text) for key, text in arguments.overrides}
+            checked = live.check(Request("shown", ROOT / arguments.file, None, changes))
+            assert isinstance(checked, Checked), f"{page.name}: {words}: {checked.message}"
 
 
 def test_every_module_that_a_page_runs_is_there_and_every_script_compiles():

@@ -5,6 +5,7 @@
     worker.js, run.js, channels.js, steered.js      what steps a scene in the browser
     framework/                                      the core for browsers, packed but for three modules
     texts.json.gz, files/                           parameter files, tables, instruments; meshes
+    LICENSE, THIRD-PARTY-NOTICES.md                 of the program, and of what is in the folder beside it
 
 Packed files are unpacked by the page, so no server has to compress.
 """
@@ -35,6 +36,7 @@ from guidewire.viewer.server import page_files
 _WORKER = ("worker.js", "run.js", "channels.js", "steered.js")
 _PLAIN = (".js",)    # of the framework: a browser loads modules as they are
 _SHOW = "show.json"
+_NOTICES = ("LICENSE", "THIRD-PARTY-NOTICES.md")
 _TEXTS = (".json", ".csv")
 _PIXELS = 320
 _PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what belongs to the vessel of a scene
@@ -101,6 +103,8 @@ def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]]
     (folder / "page.json.gz").write_bytes(modules_of(page_files(three(_say))))
     for name in ("boot.js", "style.css", *_WORKER):
         shutil.copyfile(PAGE / name, folder / name)
+    for name in _NOTICES:
+        shutil.copyfile(ROOT / name, folder / name)
     for file in framework.iterdir():
         _put(folder / "framework" / file.name, file, file.suffix in _PLAIN)
     texts = {f"instruments/{file.name}": file for file in sorted((ROOT / "instruments").glob("*.json"))}
