@@ -7,6 +7,29 @@ namespace Guidewire.Core.Tests
     /// shares no code with Core.</summary>
     internal sealed class RandomWallPushTests
     {
+        /// <summary>An obstacle's face under a parallel element; edges that hardly bulge under the tip's element; a way
+        /// of one and a half elements a step out of an open rim.</summary>
+        [TestCase(39)]
+        [TestCase(1603)]
+        [TestCase(1754)]
+        [TestCase(1135)]
+        public void PushesThatOnceWentWrong_Finish(int seed)
+        {
+            if (seed != 1754)
+            {
+                Rods.OnlyInFull("1754, and the pushes of test_random_pushes.py");
+            }
+            AssertGoesWell(new RandomWallPush(seed));
+        }
+
+        /// <summary>A wire that comes out of a mesh tube, whose tip bends back and meets the tube from
+        /// outside.</summary>
+        [TestCase(120599)]
+        public void PushesWithASoftBentTipThatOnceWentWrong_Finish(int seed)
+        {
+            AssertGoesWell(new RandomWallPush(seed, scene => WithSoftTip(scene, seed)));
+        }
+
         // The last 5 to 30 % of the wire down to 1/200 as stiff as the rest, bent at rest to a radius of 7 mm or more,
         // in elements of 3 mm, because it folds.
         private static SimulationParameters WithSoftTip(SimulationParameters scene, int seed)
@@ -30,29 +53,6 @@ namespace Guidewire.Core.Tests
                 },
             };
             return scene;
-        }
-
-        /// <summary>An obstacle's face under a parallel element; edges that hardly bulge under the tip's element; a way
-        /// of one and a half elements a step out of an open rim.</summary>
-        [TestCase(39)]
-        [TestCase(1603)]
-        [TestCase(1754)]
-        [TestCase(1135)]
-        public void PushesThatOnceWentWrong_Finish(int seed)
-        {
-            if (seed != 1754)
-            {
-                Rods.OnlyInFull("1754, and the pushes of test_random_pushes.py");
-            }
-            AssertGoesWell(new RandomWallPush(seed));
-        }
-
-        /// <summary>A wire that comes out of a mesh tube, whose tip bends back and meets the tube from
-        /// outside.</summary>
-        [TestCase(120599)]
-        public void PushesWithASoftBentTipThatOnceWentWrong_Finish(int seed)
-        {
-            AssertGoesWell(new RandomWallPush(seed, scene => WithSoftTip(scene, seed)));
         }
 
         private static void AssertGoesWell(RandomWallPush push)
