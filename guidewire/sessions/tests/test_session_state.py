@@ -55,7 +55,7 @@ class StandIn(session_hosts.Library):
 @pytest.fixture(name="stand_in")
 def _stand_in(monkeypatch):
     host = StandIn()
-    monkeypatch.setattr(sessions, "_host", lambda native: host)
+    monkeypatch.setattr(sessions, "host_of", lambda native: host)
     return host
 
 
