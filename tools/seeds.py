@@ -1,5 +1,7 @@
-"""Seeds of random tests: where campaigns run in full those of the day, elsewhere a fraction that stays; and first of all
-those that broke a claim the last time."""
+"""Seeds of random tests: where campaigns run in full those of the day, elsewhere a fraction that stays.
+
+Those that broke a claim the last time go first.
+"""
 
 from __future__ import annotations
 

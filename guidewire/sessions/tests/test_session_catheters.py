@@ -1,4 +1,4 @@
-"""Sessions of a wire with catheters: whose hub the hand moves, pictures of all, another instrument for a withdrawn one."""
+"""Sessions of a wire with catheters: whose hub the hand moves, pictures, another instrument for a withdrawn one."""
 
 import json
 import math
