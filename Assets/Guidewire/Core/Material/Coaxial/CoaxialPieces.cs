@@ -134,7 +134,11 @@ namespace Guidewire.Core
             for (int i = carrier; i < _piece.Length; i++)
             {
                 double[] borders = _borders[i];
-                int p = 0;
+                int p = _piece[i];    // where the last joint ended: mostly the same
+                while (p > 0 && borders[p] - hubs.Leads[i] >= from)
+                {
+                    p--;
+                }
                 while (p < borders.Length - 2 && borders[p + 1] - hubs.Leads[i] < from)
                 {
                     p++;

@@ -158,6 +158,11 @@ namespace Guidewire.Core
             rate.Twist = _before.Compliance[frame] + _after.Compliance[frame];
             rate.RestTwist = _before.Rest[frame] + _after.Rest[frame];
             ref readonly CoaxialJoint joint = ref _joints[k];
+            if (k > 0 && (joint.First.Twist != 0.0 || joint.Second.Twist != 0.0))
+            {
+                _shared.Clear();
+                _joints.AddSides(k, _shared);
+            }
             bool isFirst = true;
             for (int i = 0; i < _joints.Count; i++)
             {
@@ -187,8 +192,6 @@ namespace Guidewire.Core
                 rate.Weight = -0.5 * part.Twist * (own - 2.0 * (1.0 - part.Weight) * rate.Twist);
                 return;
             }
-            _shared.Clear();
-            _joints.AddSides(k, _shared);
             double shared = _shared.Shared[instrument];
             double after = _after.Shared[instrument];
             rate.Weight = shared > 0.0
