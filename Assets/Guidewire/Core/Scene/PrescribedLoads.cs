@@ -73,7 +73,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Point loads on the wire, at arc lengths in m, without their factor.</summary>
-        public ReadOnlySpan<PointLoad> PointLoads => _pointLoads;
+        public PointLoad[] PointLoads => _pointLoads;
 
         /// <summary>Gives the factor on them at this time.</summary>
         public double PointLoadsFactor(double time)

@@ -216,7 +216,7 @@ namespace Guidewire.Io
             Array.Clear(_motion, 0, _motion.Length);
             _motion[2 * hub] = push;
             _motion[2 * hub + 1] = turn;
-            Step(_motion);
+            StepByMotion();
         }
 
         /// <summary>One step of all hubs. A run that is not steered takes no notice of their motion.</summary>
@@ -226,13 +226,20 @@ namespace Guidewire.Io
         public void Step(ReadOnlySpan<double> motion)
         {
             CheckHub((motion.Length - 1) / 2);
+            Array.Clear(_motion, 0, _motion.Length);
+            motion.CopyTo(_motion);
+            StepByMotion();
+        }
+
+        private void StepByMotion()
+        {
             if (_steering != null)
             {
                 for (int hub = 0; hub < InstrumentCount; hub++)
                 {
                     Steering steering = hub == 0 ? _steering : Parameters.Scene.Catheters[hub - 1].Drive.Steering!;
-                    steering.Push = 2 * hub < motion.Length ? motion[2 * hub] : 0.0;
-                    steering.Turn = 2 * hub < motion.Length ? motion[2 * hub + 1] : 0.0;
+                    steering.Push = _motion[2 * hub];
+                    steering.Turn = _motion[2 * hub + 1];
                 }
             }
             long before = Stopwatch.GetTimestamp();
