@@ -24,10 +24,10 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void M_TakesTheMaterialInPlaceOfGains_AndBack()
         {
-            Assert.That((string?)Stage.Loop.Session!.Get("solver"), Is.EqualTo("direct"), Stage.Loop.Problem);
+            Assert.That(Stage.Loop.Session!.Text("solver"), Is.EqualTo("direct"), Stage.Loop.Problem);
             Assert.That(Stage.Loop.Session.IsSteered, Is.True);
             Stage.Tap(KeyCode.M);
-            Assert.That((string?)Stage.Loop.Session!.Get("solver"), Is.EqualTo("pbd"), Stage.Loop.Problem);
+            Assert.That(Stage.Loop.Session!.Text("solver"), Is.EqualTo("pbd"), Stage.Loop.Problem);
         }
 
         [Test]

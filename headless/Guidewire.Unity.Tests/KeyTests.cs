@@ -232,7 +232,7 @@ namespace Guidewire.Unity.Tests
             Stage.Tap(KeyCode.Space);
             Engine.Click = "solver";
             Stage.Frames(1);
-            Assert.That((string?)Stage.Loop.Session!.Get("solver"), Is.EqualTo("pbd"),
+            Assert.That(Stage.Loop.Session!.Text("solver"), Is.EqualTo("pbd"),
                 "gains do not go on as a material");
             Assert.That(Stage.Loop.Problem, Is.EqualTo(""));
         }
@@ -252,7 +252,7 @@ namespace Guidewire.Unity.Tests
             Vector3d tip = Stage.State.Positions[12];
             Engine.Click = "solver";
             Stage.Tap(KeyCode.Space);
-            Assert.That((string?)Stage.Loop.Session.Get("solver"), Is.EqualTo("explicit"));
+            Assert.That(Stage.Loop.Session.Text("solver"), Is.EqualTo("explicit"));
             Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.GreaterThanOrEqualTo(steps));
             Assert.That(Vector3d.Distance(Stage.State.Positions[12], tip), Is.LessThan(1.0));
         }
@@ -267,7 +267,7 @@ namespace Guidewire.Unity.Tests
             int steps = Stage.Loop.Session!.Simulation.StepCount;
             Engine.Click = key;
             Stage.Frames(1);
-            Assert.That((string?)Stage.Loop.Session.Get(key), Is.EqualTo(expected));
+            Assert.That(Stage.Loop.Session.Text(key), Is.EqualTo(expected));
             Assert.That(Stage.Loop.Session.Simulation.StepCount, Is.EqualTo(steps));
             Assert.That(Vector3d.Distance(Stage.State.Positions[30], tip), Is.LessThan(1.0));
             Stage.Tap(KeyCode.Space);

@@ -53,9 +53,10 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void NoPublicMember_NamesATypeOfAnotherLibrary()
+        public void NoPublicMember_NamesATypeOfAnotherLibrary(
+            [Values(typeof(SimulationLoop), typeof(Io.SimulationSession), typeof(Simulation))] Type one)
         {
-            foreach (Type type in typeof(SimulationLoop).Assembly.GetExportedTypes())
+            foreach (Type type in one.Assembly.GetExportedTypes())
             {
                 foreach (MemberInfo member in type.GetMembers(Own))
                 {

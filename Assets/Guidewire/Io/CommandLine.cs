@@ -19,6 +19,7 @@ namespace Guidewire.Io
         public bool Force { get; internal set; }
 
         /// <summary>Parameters that count instead of the file's, in the order given.</summary>
-        public List<KeyValuePair<string, JToken>> Overrides { get; } = new List<KeyValuePair<string, JToken>>();
+        internal List<KeyValuePair<string, JToken>> Overrides { get; } =
+            new List<KeyValuePair<string, JToken>>();
     }
 }

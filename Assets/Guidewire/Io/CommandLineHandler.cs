@@ -109,7 +109,7 @@ namespace Guidewire.Io
 
         /// <summary>Reads parameters that stand as KEY=VALUE, as in an Inspector's list.</summary>
         /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>
-        public static List<KeyValuePair<string, JToken>> ReadAssignments(IEnumerable<string> assignments)
+        internal static List<KeyValuePair<string, JToken>> ReadAssignments(IEnumerable<string> assignments)
         {
             var arguments = new List<string>();
             foreach (string assignment in assignments)

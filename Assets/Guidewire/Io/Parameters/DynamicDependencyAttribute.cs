@@ -22,6 +22,7 @@ namespace System.Diagnostics.CodeAnalysis
     internal enum DynamicallyAccessedMemberTypes
     {
         PublicProperties = 0x0200,
+        NonPublicProperties = 0x0400,
     }
 }
 #endif

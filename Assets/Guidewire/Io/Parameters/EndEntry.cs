@@ -13,7 +13,7 @@ namespace Guidewire.Io
 
         public override string Allowed => "null, a name in double quotes, a number from 1, or a point [x, y, z]";
 
-        public override JToken Write(RunParameters source)
+        internal override JToken Write(RunParameters source)
         {
             return Get(source)?.DeepClone() ?? JValue.CreateNull();
         }

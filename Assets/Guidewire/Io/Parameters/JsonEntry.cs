@@ -16,7 +16,7 @@ namespace Guidewire.Io
 
         public override string Allowed { get; }
 
-        public override JToken Write(RunParameters source)
+        internal override JToken Write(RunParameters source)
         {
             return Get(source)?.DeepClone() ?? JValue.CreateNull();
         }

@@ -7,13 +7,13 @@ namespace Guidewire.Io
 {
     /// <summary>Reads JSON that <see cref="StrictJson"/> has passed: no dates made of strings, numbers as
     /// doubles.</summary>
-    public static class JsonText
+    internal static class JsonText
     {
         /// <summary>May hold a text for readers in any object of any file; nothing else takes notice of it.</summary>
         public const string NoteKey = "note";
 
         /// <summary>The value that a text holds.</summary>
-        internal static JToken Parse(string text)
+        public static JToken Parse(string text)
         {
             using var reader = new JsonTextReader(new StringReader(text));
             reader.DateParseHandling = DateParseHandling.None;

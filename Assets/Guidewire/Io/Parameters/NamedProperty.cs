@@ -17,7 +17,8 @@ namespace Guidewire.Io
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(ContactParameters))]
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(DriveParameters))]
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(WireSection))]
-        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(RunParameters))]
+        [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties
+            | DynamicallyAccessedMemberTypes.NonPublicProperties, typeof(RunParameters))]
         public static string Of(string key)
         {
             return char.ToUpperInvariant(key[0]) + key.Substring(1);

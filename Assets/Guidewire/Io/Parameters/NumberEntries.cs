@@ -110,7 +110,7 @@ namespace Guidewire.Io
         public override string Allowed =>
             WithUnit("three numbers [x, y, z] or {\"x\", \"y\", \"z\"}" + (_mayBeZero ? "" : ", not all 0"));
 
-        public override JToken Write(RunParameters source)
+        internal override JToken Write(RunParameters source)
         {
             Vector3d v = Get(source);
             return new JArray(v.X, v.Y, v.Z);

@@ -136,7 +136,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>The value in a set of parameters, as JSON.</summary>
-        public abstract JToken Write(RunParameters source);
+        internal abstract JToken Write(RunParameters source);
 
         /// <summary>Takes over a value; false where the value is not allowed.</summary>
         internal abstract bool TryRead(RunParameters target, JToken value);

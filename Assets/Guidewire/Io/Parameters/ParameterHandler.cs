@@ -51,21 +51,22 @@ namespace Guidewire.Io
 
         /// <summary>The parameters of a file with overrides on top.</summary>
         /// <param name="file">A JSON file, or null for the defaults (thesis table 4.1).</param>
-        /// <param name="overrides">Keys and values that count instead of the file's.</param>
+        /// <param name="overrides">KEY=VALUE each: parameters that count instead of the file's.</param>
         /// <param name="isSteered">Whether a user steers the wire instead of the drive.</param>
         /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is
         /// not allowed, two keys that disagree.</exception>
-        public static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
+        public static ParameterHandler Load(string? file, IEnumerable<string> overrides, bool isSteered = false)
+        {
+            return Load(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
+        }
+
+        internal static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool isSteered = false)
         {
             return Load(ParameterSource.OfFile(file), overrides, isSteered);
         }
 
-        /// <summary>The parameters of a source with overrides on top; errors as of the other.</summary>
-        /// <param name="from">A file, or what stands in its place.</param>
-        /// <param name="overrides">Keys and values that count instead of the source's.</param>
-        /// <param name="isSteered">Whether a user steers the wire instead of the drive.</param>
-        public static ParameterHandler Load(ParameterSource from, IEnumerable<KeyValuePair<string, JToken>> overrides,
+        internal static ParameterHandler Load(ParameterSource from, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool isSteered)
         {
             var handler = new ParameterHandler(from) { _isSteered = isSteered };
@@ -122,7 +123,7 @@ namespace Guidewire.Io
 
         /// <summary>All effective values of the keys that the method takes; a parameter file that repeats the
         /// run.</summary>
-        public JObject ToJson()
+        internal JObject ToJson()
         {
             var json = new JObject();
             foreach (ParameterEntry entry in Taken())

@@ -45,13 +45,13 @@ namespace Guidewire.Io
         public string StartFile { get; set; } = "";
 
         /// <summary>The same as given by its key, or null.</summary>
-        public JToken? Start { get; set; }
+        internal JToken? Start { get; set; }
 
         /// <summary>When the run ends, s, instead of its largest number of steps; null once that is known.</summary>
         public double? Duration { get; set; }
 
         /// <summary>The point loads as given by their key, or null.</summary>
-        public JToken? PointLoads { get; set; }
+        internal JToken? PointLoads { get; set; }
 
         /// <summary>Name of the instrument that the wire is; empty for none.</summary>
         public string Instrument { get; set; } = "";
@@ -75,25 +75,25 @@ namespace Guidewire.Io
         public Vector3d Rotation { get; set; }
 
         /// <summary>The vessel as given by its key, or null.</summary>
-        public JToken? Vessel { get; set; }
+        internal JToken? Vessel { get; set; }
 
         /// <summary>The obstacles as their key has them, or null.</summary>
-        public JToken? Obstacles { get; set; }
+        internal JToken? Obstacles { get; set; }
 
         /// <summary>The sheath as given by its key, or null.</summary>
-        public JToken? Sheath { get; set; }
+        internal JToken? Sheath { get; set; }
 
         /// <summary>The catheters as their key has them, or null.</summary>
-        public JToken? Catheters { get; set; }
+        internal JToken? Catheters { get; set; }
 
         /// <summary>Of all that makes the catheters, a line each.</summary>
         internal string CatheterHashes { get; set; } = "";
 
         /// <summary>The end at which the wire starts as given by its key, or null.</summary>
-        public JToken? Inlet { get; set; }
+        internal JToken? Inlet { get; set; }
 
         /// <summary>Where the tip is to come as given by its key, or null.</summary>
-        public JToken? Target { get; set; }
+        internal JToken? Target { get; set; }
 
         /// <summary>Ends and centreline of the vessel as it is placed, or null where no file says them.</summary>
         internal Anatomy? Anatomy { get; set; }
@@ -108,7 +108,7 @@ namespace Guidewire.Io
         public string PatientAxes { get; set; } = "";
 
         /// <summary>The files of loads over time as their key has them, or null.</summary>
-        public JToken? LoadTables { get; set; }
+        internal JToken? LoadTables { get; set; }
 
         /// <summary>The file with the hub's displacement and turn over time; empty for none.</summary>
         public string DriveFile { get; set; } = "";

@@ -59,7 +59,7 @@ namespace Guidewire.Io
             }
         }
 
-        public override JToken Write(RunParameters source)
+        internal override JToken Write(RunParameters source)
         {
             var list = new JArray();
             foreach (WireSection section in Get(source))

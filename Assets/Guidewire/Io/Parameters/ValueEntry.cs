@@ -23,7 +23,7 @@ namespace Guidewire.Io
         public Action<RunParameters, T>? Setter { get; internal set; }
 
         /// <inheritdoc/>
-        public override JToken Write(RunParameters source)
+        internal override JToken Write(RunParameters source)
         {
             return new JValue((object?)Get(source));
         }

@@ -41,7 +41,7 @@ namespace Guidewire.Io
 
         public override IReadOnlyList<string> Choices => Array.ConvertAll(Enum.GetNames(typeof(T)), Word);
 
-        public override JToken Write(RunParameters source)
+        internal override JToken Write(RunParameters source)
         {
             return new JValue(Word(Get(source).ToString()));
         }

@@ -152,7 +152,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>What is read off at the hub and the tip, as summaries and answers have it.</summary>
-        public static JObject Hub(HubRecord hub, RodState state)
+        internal static JObject Hub(HubRecord hub, RodState state)
         {
             return new JObject
             {
@@ -180,7 +180,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Results of a catheter in the format of summaries and answers.</summary>
-        public static JObject Catheter(CoaxialRecord catheter)
+        internal static JObject Catheter(CoaxialRecord catheter)
         {
             Vector3d[] nodes = catheter.Positions;
             return new JObject

@@ -70,7 +70,7 @@ namespace Guidewire.Io
         public double StepTime { get; private set; }
 
         /// <summary>All effective values of the keys that the method takes.</summary>
-        public JObject EffectiveParameters => _handler.ToJson();
+        internal JObject EffectiveParameters => _handler.ToJson();
 
         /// <summary>Whether the user holds the first element, instead of the drive.</summary>
         public bool IsSteered => _steering != null;
@@ -88,7 +88,7 @@ namespace Guidewire.Io
 
         /// <summary>The centreline from the inlet to the target, as <see cref="CentrelinePath.RouteToTarget"/> has it;
         /// null where the run has no target.</summary>
-        public JObject? RouteToTarget()
+        internal JObject? RouteToTarget()
         {
             CentrelinePath? path = _handler.Values.Path;
             return path == null || path.Target < 0 ? null : path.RouteToTarget();
@@ -100,11 +100,16 @@ namespace Guidewire.Io
         /// <summary>A run at its start that is not logged, and states contact forces and reactions wherever its method
         /// has them.</summary>
         /// <param name="file">Parameter file, or null for the defaults.</param>
-        /// <param name="overrides">Parameters that count instead of the file's.</param>
+        /// <param name="overrides">KEY=VALUE each: parameters that count instead of the file's.</param>
         /// <param name="isSteered">Whether the user holds the first element, instead of the drive; null: with
         /// pbd.</param>
         /// <exception cref="ParameterException">The file or a value cannot be used.</exception>
-        public static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
+        public static SimulationSession Open(string? file, IEnumerable<string> overrides, bool? isSteered)
+        {
+            return Open(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
+        }
+
+        internal static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool? isSteered)
         {
             var given = new List<KeyValuePair<string, JToken>>(overrides);
@@ -268,16 +273,11 @@ namespace Guidewire.Io
             }
         }
 
-        /// <summary>Gives the value of a parameter, as in a file.</summary>
-        public JToken Get(string key)
-        {
-            return Get(_handler, key);
-        }
-
-        /// <summary>Gives the same as JSON text.</summary>
+        /// <summary>Gives the value of a parameter, as it stands behind KEY=.</summary>
         public string Text(string key)
         {
-            return Get(key).ToString(Newtonsoft.Json.Formatting.None);
+            JToken value = Get(_handler, key);
+            return value.Type == JTokenType.String ? (string)value! : value.ToString(Newtonsoft.Json.Formatting.None);
         }
 
         private static bool CanStateReactions(MethodParameters method)
@@ -359,22 +359,15 @@ namespace Guidewire.Io
         }
 
         /// <summary>Changes a parameter; the wire continues from its current state.</summary>
+        /// <param name="value">As it stands behind KEY=.</param>
         /// <exception cref="ParameterException">The value is not allowed; nothing has changed.</exception>
-        public void Set(string key, JToken value)
-        {
-            Set(new[] { new KeyValuePair<string, JToken>(key, value) });
-        }
-
-        /// <summary>The same, of a value as it stands behind KEY=.</summary>
+        /// <exception cref="ArgumentException">This wire cannot go on with it; nothing has changed.</exception>
         public void Set(string key, string value)
         {
             Set(CommandLineHandler.ReadAssignments(new[] { key + "=" + value }));
         }
 
-        /// <summary>Changes parameters; the wire continues from its current state.</summary>
-        /// <exception cref="ParameterException">A value is not allowed; nothing has changed.</exception>
-        /// <exception cref="ArgumentException">This wire cannot go on with them; nothing has changed.</exception>
-        public void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)
+        internal void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)
         {
             var changed = new List<KeyValuePair<string, JToken>>(_overrides);
             foreach (KeyValuePair<string, JToken> value in values)
@@ -450,7 +443,7 @@ namespace Guidewire.Io
         public bool Switch(string key)
         {
             IReadOnlyList<string> choices = ParameterTable.Find(key)!.Choices;
-            string now = (string?)Get(key) ?? "";
+            string now = Text(key);
             int index = 0;
             while (index < choices.Count && choices[index] != now)
             {

@@ -32,7 +32,7 @@ namespace Guidewire.Runtime
             Warnings = session.Warnings;
             foreach (string key in Switchable)
             {
-                Switches.Add((key, key + ": " + session.Get(key)));
+                Switches.Add((key, key + ": " + session.Text(key)));
             }
         }
 

@@ -105,7 +105,8 @@ namespace Guidewire.Core.Tests
             byte[] begun = session.Save();
             foreach (ParameterEntry entry in ParameterTable.Entries.Where(key => key.IsTakenBy(TakerOf(solver))))
             {
-                JToken now = session.Get(entry.Key);
+                JToken now = entry.FromText(session.Text(entry.Key))!;
+                Assert.That(JToken.DeepEquals(now, session.EffectiveParameters[entry.Key]), Is.True, entry.Key);
                 foreach (JToken other in Others(entry, now))
                 {
                     if (JToken.DeepEquals(other, now) || !TrySet(session, entry.Key, other))
@@ -133,7 +134,7 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < RandomChanges; k++)
             {
                 ParameterEntry entry = keys[random.Next(keys.Length)];
-                JToken[] others = Others(entry, session.Get(entry.Key)).ToArray();
+                JToken[] others = Others(entry, entry.FromText(session.Text(entry.Key))!).ToArray();
                 changed += others.Length > 0 && TrySet(session, entry.Key, others[random.Next(others.Length)]) ? 1 : 0;
                 Step(session);
             }
@@ -146,7 +147,7 @@ namespace Guidewire.Core.Tests
             var before = (Vector3d[])session.Simulation.State.Positions.Clone();
             try
             {
-                session.Set(key, value);
+                session.Set(new[] { new KeyValuePair<string, JToken>(key, value) });
                 return true;
             }
             catch (Exception refused) when (refused is ParameterException || refused is ArgumentException)

@@ -34,11 +34,11 @@ namespace Guidewire.Core.Tests
         {
             using SimulationSession session = Open("", false, "bendStiffness=0.3");
             session.Step(0.0, 0.0);
-            session.Set("stretchStiffness", 0.2);
+            session.Set("stretchStiffness", "0.2");
             Assert.That(session.Parameters.Pbd.StretchStiffness, Is.EqualTo(0.2));
             Assert.That(session.Parameters.Pbd.BendStiffness, Is.EqualTo(0.3), "the override");
             Assert.That(session.Parameters.Method.ConstraintSolverSteps, Is.EqualTo(20), "the file");
-            session.Set("damping", 0.1);
+            session.Set("damping", "0.1");
             Assert.That(session.Parameters.Pbd.StretchStiffness, Is.EqualTo(0.2), "the earlier change");
             Assert.That(session.Simulation.StepCount, Is.EqualTo(1));
         }
@@ -115,7 +115,7 @@ namespace Guidewire.Core.Tests
         {
             using SimulationSession session = Open("", false);
             Simulation before = session.Simulation;
-            Assert.Throws<ParameterException>(() => session.Set("timeStep", 0.0));
+            Assert.Throws<ParameterException>(() => session.Set("timeStep", "0"));
             Assert.That(session.Simulation, Is.SameAs(before));
             Assert.That(session.Parameters.Method.TimeStep, Is.EqualTo(0.01));
         }
@@ -125,9 +125,9 @@ namespace Guidewire.Core.Tests
         {
             using SimulationSession session = Open("", false);
             Assert.That(session.Switch("sweepOrder"), Is.True);
-            Assert.That((string?)session.Get("sweepOrder"), Is.EqualTo("bilateral"));
+            Assert.That(session.Text("sweepOrder"), Is.EqualTo("bilateral"));
             Assert.That(session.Switch("sweepOrder"), Is.True);
-            Assert.That((string?)session.Get("sweepOrder"), Is.EqualTo("naive"));
+            Assert.That(session.Text("sweepOrder"), Is.EqualTo("naive"));
         }
 
         [Test]
