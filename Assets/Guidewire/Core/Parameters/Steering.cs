@@ -9,5 +9,8 @@ namespace Guidewire.Core
 
         /// <summary>Turn of element 0 about its own axis in the next step, rad.</summary>
         public double Turn { get; set; }
+
+        /// <summary>Strain of an element at which a pbd wire slips in the hand; infinite: never.</summary>
+        public double SlipStrain { get; set; } = double.PositiveInfinity;
     }
 }

@@ -13,6 +13,16 @@ namespace Guidewire.Io
     {
         private const double Elastic = 0.01;    // strain
 
+        // Of an element of a pbd wire, which has no force: half of that which loses a run where it stays. A wire that
+        // is pushed freely through an arch has 0.04.
+        private const double Slip = 0.1;
+
+        /// <summary>A hand, whose pbd wire slips before it is lost if it is limited.</summary>
+        public static Steering Hand(bool isLimited)
+        {
+            return new Steering { SlipStrain = isLimited ? Slip : double.PositiveInfinity };
+        }
+
         /// <summary>Sets the hubForceLimit of each hub that has none, where the method takes one.</summary>
         public static void Set(SimulationParameters parameters)
         {

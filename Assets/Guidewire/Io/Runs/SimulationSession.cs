@@ -39,7 +39,7 @@ namespace Guidewire.Io
             _cancellation = cancellation;
             _limitsHubs = limitsHubs && isSteered;
             Prepare(handler);
-            _steering = isSteered ? new Steering() : null;
+            _steering = isSteered ? HandLimit.Hand(_limitsHubs) : null;
             _statesReactions = handler.Values.Simulation.Method.StatesReactions;
             handler.Values.Simulation.Drive.Steering = _steering;
             _from = from;

@@ -18,7 +18,8 @@ namespace Guidewire.Core
                 parameters.Pbd.TotalMass, parameters.Scene.GuidewireOffset);
             state.Start(scene.Shape, scene.Velocities, scene.Spins);
             Vector3d asked = state.Positions[0] + scene.Displacement;
-            IDriveMotion? drive = CreateDrive(parameters, scene, state);
+            SteeredDrive? hand = scene.Steering == null ? null : new SteeredDrive(scene.Steering);
+            IDriveMotion? drive = CreateDrive(parameters, scene, state, hand);
             IPositionPrediction prediction = CreatePrediction(parameters);
             IOrientationPrediction orientationPrediction = CreateOrientationPrediction(parameters);
             IConstraintSolver solver = CreateSolver(parameters, scene, state, out ContactRecord? contacts);
@@ -26,6 +27,10 @@ namespace Guidewire.Core
             {
                 contacts.AddDrive(Math.Abs(parameters.Drive.Displacement),
                     Vector3d.Distance(state.Positions[0], asked));
+            }
+            if (hand != null)
+            {
+                hand.Record = contacts;
             }
             MethodParameters method = parameters.Method;
             var step = new PositionBasedStep(method.TimeStep, prediction, orientationPrediction, drive, solver,
@@ -82,7 +87,8 @@ namespace Guidewire.Core
                 : new OrientationEulerPrediction();
         }
 
-        private static IDriveMotion? CreateDrive(SimulationParameters parameters, Scene scene, RodState state)
+        private static IDriveMotion? CreateDrive(SimulationParameters parameters, Scene scene, RodState state,
+            SteeredDrive? hand)
         {
             IDriveMotion? drive = null;
             bool isFree = parameters.Drive.Kind == Drive.Force;
@@ -112,11 +118,11 @@ namespace Guidewire.Core
                 state.OrientationWeights[0] = 0.0;
                 drive = new TwistDrive(drive, parameters.Drive.TwistPerStep);
             }
-            if (scene.Steering != null)
+            if (hand != null)
             {
                 state.InverseMasses[0] = 0.0;
                 state.OrientationWeights[0] = 0.0;
-                drive = new SteeredDrive(scene.Steering);
+                drive = hand;
             }
             if (parameters.Scene.DistalEnd == DistalEnd.Clamped)
             {

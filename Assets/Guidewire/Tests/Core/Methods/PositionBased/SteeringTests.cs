@@ -7,12 +7,13 @@ namespace Guidewire.Core.Tests
     {
         private readonly Steering _hand = new Steering();
 
-        private Simulation Create()
+        private Simulation Create(DistalEnd end = DistalEnd.Free)
         {
             _hand.Push = 0.0;
             _hand.Turn = 0.0;
             return Simulation.Create(new SimulationParameters
             {
+                Scene = { DistalEnd = end },
                 Drive = { Displacement = 0.0, Steering = _hand },
                 Method =
                 {
@@ -44,6 +45,29 @@ namespace Guidewire.Core.Tests
             Assert.That(simulation.State.Positions[0].Z - start, Is.EqualTo(10.0).Within(1e-9), "held where it is");
             Assert.That(simulation.State.Positions[30].Z - tip, Is.EqualTo(10.0).Within(1e-3),
                 "a straight wire at rest");
+        }
+
+        [TestCase(1.0)]
+        [TestCase(-1.0)]
+        public void WireWhoseTipIsHeld_SlipsInALimitedHand_AndFollowsItBack(double sign)
+        {
+            _hand.SlipStrain = 0.1;
+            Simulation simulation = Create(DistalEnd.Clamped);
+            double start = simulation.State.Positions[0].Z;
+            _hand.Push = sign * 0.4;
+            Wires.Step(simulation, 3000);
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running), "1,200 units, four times its length");
+            Assert.That(sign * (simulation.State.Positions[0].Z - start), Is.InRange(1.0, 0.11 * 300.0));
+            for (int j = 1; j <= 30; j++)
+            {
+                Vector3d[] x = simulation.State.Positions;
+                Assert.That(Vector3d.Distance(x[j], x[j - 1]), Is.EqualTo(10.0).Within(0.2 * 10.0));
+            }
+            double slipped = simulation.State.Positions[0].Z;
+            _hand.Push = -sign * 0.4;
+            Wires.Step(simulation, 5);
+            Assert.That(simulation.State.Positions[0].Z - slipped, Is.EqualTo(-sign * 2.0).Within(1e-9));
+            _hand.SlipStrain = double.PositiveInfinity;
         }
 
         [Test]
