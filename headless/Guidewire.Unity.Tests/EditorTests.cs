@@ -89,18 +89,27 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
+        public void Inspector_OfSeveralLoops_HasTheirFieldsAlone()
+        {
+            Engine.Labels.Clear();
+            UnityEditor.Editor.Make<LoopInspector>(Made("params/catheter.json"), Made("params/sheath.json"))
+                .OnInspectorGUI();
+            Assert.That(Engine.Labels, Is.Empty, "instruments and keys are those of one loop");
+        }
+
+        [Test]
         public void TooltipOfAKey_NamesUnitAndRange()
         {
             string tooltip = LoopInspector.Tooltip("timeStep");
             Assert.That(tooltip, Does.Contain("> 0").And.Contain("(s)").And.Contain("0.01"));
         }
 
-        private static void Call(Type type, string method, params object?[] arguments)
+        internal static void Call(Type type, string method, params object?[] arguments)
         {
             type.GetMethod(method, BindingFlags.Static | BindingFlags.NonPublic)!.Invoke(null, arguments);
         }
 
-        private static readonly Type Menu = typeof(LoopInspector).Assembly.GetType("Guidewire.Editor.CreateMenu")!;
+        internal static readonly Type Menu = typeof(LoopInspector).Assembly.GetType("Guidewire.Editor.CreateMenu")!;
 
         [Test]
         public void MenuMakesAWire_BelowWhatIsSelected_ThatRuns()

@@ -1,4 +1,5 @@
 using System;
+using System.Reflection;
 using UnityEngine.InputSystem;
 using UnityEngine.Rendering;
 
@@ -255,24 +256,56 @@ namespace Guidewire.Unity.Tests
             return view.Meshes.Count > 0 ? view.Meshes[0] : null;
         }
 
+        // The package below Packages, under its name, as the Package Manager resolves it.
         [Test]
-        public void AnInstalledPackage_FindsItsPrefab_BelowItsOwnFolder()
+        public void APackageByPath_FindsItsPrefabAndItsManual_BelowItsOwnFolder()
         {
+            string project = Path.Combine(TestContext.CurrentContext.WorkDirectory, "by-path");
+            string manual = Path.Combine(project, "Packages/org.guidewire.simulation/Documentation~");
+            Directory.CreateDirectory(manual);
+            File.Copy(Path.Combine(Stage.Root, "Assets/Guidewire/Documentation~/index.md"),
+                Path.Combine(manual, "index.md"), true);
+            string before = Directory.GetCurrentDirectory();
             UnityEditor.PackageManager.PackageInfo.Installed = new UnityEditor.PackageManager.PackageInfo
             {
-                assetPath = "Assets/Guidewire", resolvedPath = "/somewhere/org.guidewire.simulation",
+                assetPath = "Packages/org.guidewire.simulation",
             };
             try
             {
-                SimulationLoop loop = Made();
-                Engine.Click = "Manual";
-                UnityEditor.Editor.Make<Guidewire.Editor.LoopInspector>(loop).OnInspectorGUI();
-                Assert.That(Application.Opened,
-                    Is.EqualTo("file:///somewhere/org.guidewire.simulation/Documentation~/index.md"));
+                Directory.SetCurrentDirectory(project);
+                Assert.That(typeof(WireView).GetCustomAttribute<HelpURLAttribute>()!.URL,
+                    Is.EqualTo("file://" + manual + "/index.md#views"));
+                EditorTests.Call(EditorTests.Menu, "CreateWire", new UnityEditor.MenuCommand(null));
+                Assert.That(Engine.Find<SimulationLoop>(), Is.Not.Null);
             }
             finally
             {
+                Directory.SetCurrentDirectory(before);
                 UnityEditor.PackageManager.PackageInfo.Installed = null;
+                Directory.Delete(project, true);
+            }
+        }
+
+        [Test]
+        public void EveryComponent_HasHelp_InASectionOfTheManual()
+        {
+            string before = Directory.GetCurrentDirectory();
+            Directory.SetCurrentDirectory(Stage.Root);
+            try
+            {
+                foreach (Type type in typeof(SimulationLoop).Assembly.GetExportedTypes())
+                {
+                    if (typeof(MonoBehaviour).IsAssignableFrom(type) && !type.IsAbstract)
+                    {
+                        string[] url = type.GetCustomAttribute<HelpURLAttribute>()!.URL.Split('#');
+                        string page = File.ReadAllText(new Uri(url[0]).LocalPath).ToLowerInvariant();
+                        Assert.That(page, Does.Contain("\n## " + url[1].Replace('-', ' ') + "\n"), type.Name);
+                    }
+                }
+            }
+            finally
+            {
+                Directory.SetCurrentDirectory(before);
             }
         }
 

@@ -17,6 +17,17 @@ namespace UnityEngine
         }
     }
 
+    [AttributeUsage(AttributeTargets.Class)]
+    public class HelpURLAttribute : Attribute
+    {
+        public HelpURLAttribute(string url)
+        {
+            URL = url;
+        }
+
+        public virtual string URL { get; }
+    }
+
     [AttributeUsage(AttributeTargets.Class, AllowMultiple = true)]
     public sealed class RequireComponent : Attribute
     {

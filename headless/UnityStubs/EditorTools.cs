@@ -243,8 +243,6 @@ namespace UnityEditor.PackageManager
         /// <summary>Of the test's package; null where its sources stand below Assets.</summary>
         internal static PackageInfo Installed;
 
-        public string resolvedPath { get; internal set; }
-
         public string assetPath { get; internal set; }
 
         public static PackageInfo FindForAssembly(Assembly assembly) => Installed;

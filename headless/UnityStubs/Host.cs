@@ -27,11 +27,6 @@ namespace UnityEngine
 
         public static int targetFrameRate { get; set; } = -1;
 
-        /// <summary>What a page was asked for last.</summary>
-        internal static string Opened;
-
-        public static void OpenURL(string url) => Opened = url;
-
         public static void Quit(int exitCode)
         {
             UnityStubs.Engine.ExitCode = exitCode;

@@ -68,7 +68,9 @@ namespace UnityEditor
             where T : UnityEngine.Object
         {
             string root = System.IO.Path.GetDirectoryName(UnityEngine.Application.dataPath);
-            return UnityStubs.SceneFile.Prefab(root, assetPath) as T;
+            string place = PackageManager.PackageInfo.Installed?.assetPath ?? "Assets/Guidewire";
+            return assetPath.StartsWith(place + "/", System.StringComparison.Ordinal) ? UnityStubs.SceneFile.Prefab(root,
+                "Assets/Guidewire" + assetPath.Substring(place.Length)) as T : null;
         }
     }
 }

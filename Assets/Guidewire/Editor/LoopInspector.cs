@@ -1,6 +1,5 @@
 using System;
 using System.Collections.Generic;
-using System.IO;
 using System.Linq;
 using Guidewire.Io;
 using Guidewire.Runtime;
@@ -17,7 +16,6 @@ namespace Guidewire.Editor
     public sealed class LoopInspector : UnityEditor.Editor
     {
         private const string Overrides = "_overrides";
-        private const string Manual = "Documentation~/index.md";
 
         private readonly HashSet<string> _open = new HashSet<string>();    // groups of keys
 
@@ -50,10 +48,6 @@ namespace Guidewire.Editor
             DrawInstruments(check.Last);
             DrawKeys(loop, check.Last);
             EditorGUILayout.PropertyField(serializedObject.FindProperty(Overrides), true);
-            if (GUILayout.Button("Manual"))
-            {
-                OpenManual();
-            }
             serializedObject.ApplyModifiedProperties();
             if (check.IsAtWork)
             {
@@ -166,14 +160,6 @@ namespace Guidewire.Editor
                 }
                 list.GetArrayElementAtIndex(place).stringValue = key + "=" + value;
             }
-        }
-
-        private static void OpenManual()
-        {
-            UnityEditor.PackageManager.PackageInfo? package =
-                UnityEditor.PackageManager.PackageInfo.FindForAssembly(typeof(SimulationLoop).Assembly);
-            string folder = package == null ? Path.Combine(Application.dataPath, "Guidewire") : package.resolvedPath;
-            Application.OpenURL("file://" + Path.Combine(folder, Manual));
         }
     }
 }

@@ -4,7 +4,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>Steers the loop of its object by keys, with whatever input the project has.</summary>
     [RequireComponent(typeof(SimulationLoop))]
-    [AddComponentMenu("Guidewire/Key Input")]
+    [AddComponentMenu("Guidewire/Key Input"), Manual("input")]
     public sealed class KeyInput : MonoBehaviour, IWireInput
     {
         [SerializeField]

@@ -3,7 +3,7 @@ using UnityEngine;
 namespace Guidewire.Runtime
 {
     /// <summary>Keys that steer the wire and the loop. <see cref="Help"/> lists them all.</summary>
-    [AddComponentMenu("Guidewire/Keyboard Control")]
+    [AddComponentMenu("Guidewire/Keyboard Control"), Manual("input")]
     [DefaultExecutionOrder(-100)]    // before the loop, so that a key acts in the frame in which it goes down
     public sealed class KeyboardControl : MonoBehaviour
     {

@@ -6,7 +6,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>A vessel for wires: the mesh of this object's MeshCollider, or else of its MeshFilter, as it stands
     /// when a wire is built. It is one closed surface, or open at the rims that are named.</summary>
-    [AddComponentMenu("Guidewire/Scene Vessel")]
+    [AddComponentMenu("Guidewire/Scene Vessel"), Manual("vessels")]
     public sealed class SceneVessel : MonoBehaviour
     {
         [Tooltip("Coulomb's coefficient of friction with the wire, dimensionless.")]

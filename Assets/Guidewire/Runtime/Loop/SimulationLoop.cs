@@ -12,7 +12,7 @@ namespace Guidewire.Runtime
     /// <remarks>A thread makes the steps, and opens the run: a frame waits for neither. Where it is late the wire slows
     /// down (<see cref="Speed"/>). What goes wrong stops the loop and stands in <see cref="Problem"/> and in the
     /// console; <see cref="Load"/> starts anew.</remarks>
-    [AddComponentMenu("Guidewire/Simulation Loop")]
+    [AddComponentMenu("Guidewire/Simulation Loop"), Manual("the-loop")]
     public sealed class SimulationLoop : MonoBehaviour
     {
         private const int Patience = 100;          // ms, for the thread at the end

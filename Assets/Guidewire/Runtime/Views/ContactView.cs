@@ -6,7 +6,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>Shows where the wire touches a wall (balls) and the walls' force on each sphere (sticks). The longest
     /// stick has a fixed length; what it stands for is the largest force of late.</summary>
-    [AddComponentMenu("Guidewire/Contact View")]
+    [AddComponentMenu("Guidewire/Contact View"), Manual("views")]
     public sealed class ContactView : LoopView
     {
         private const double Fading = 0.99;    // fraction of the largest force that is left a frame later

@@ -8,7 +8,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>Times, forces and outcome as text, and buttons for what can be switched while the wire goes on. The
     /// text is made a few times a second, because each making leaves garbage.</summary>
-    [AddComponentMenu("Guidewire/Hud")]
+    [AddComponentMenu("Guidewire/Hud"), Manual("views")]
     public sealed class Hud : LoopView
     {
         private const float Every = 0.2f;     // s between two texts

@@ -5,7 +5,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>A camera that circles a point of a loop's frame: right mouse button turns, wheel zooms. Lengths are the
     /// wire's units, wherever the loop's object stands and however it is scaled.</summary>
-    [AddComponentMenu("Guidewire/Orbit Camera")]
+    [AddComponentMenu("Guidewire/Orbit Camera"), Manual("views")]
     public sealed class OrbitCamera : LoopView
     {
         [Tooltip("Point at the centre of the view, in units.")]

@@ -8,7 +8,7 @@ namespace Guidewire.Runtime
     /// <summary>Shows the walls, translucent; one without bounds up to half the wire's length from its middle. From
     /// outside the far wall is seen through the near one, because a wall's front is the side that the wire
     /// sees.</summary>
-    [AddComponentMenu("Guidewire/Vessel View")]
+    [AddComponentMenu("Guidewire/Vessel View"), Manual("views")]
     public sealed class VesselView : LoopView
     {
         private static readonly Color Flesh = new Color(0.85f, 0.35f, 0.3f, 0.25f);

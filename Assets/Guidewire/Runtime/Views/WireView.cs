@@ -7,7 +7,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>Shows the wire as one tube, its catheters as others, and where asked for its spheres and directors.
     /// Meshes are made when a wire is built and rewritten after that.</summary>
-    [AddComponentMenu("Guidewire/Wire View")]
+    [AddComponentMenu("Guidewire/Wire View"), Manual("views")]
     public sealed class WireView : LoopView
     {
         private const double ThinnestOfLength = 1.0 / 300.0;
