@@ -286,3 +286,27 @@ def test_a_console_program_is_built_against_the_nuget_packages(tmp_path):
         for _ in range(100):
             state = session.step(push=0.5, turn=0.01)
     np.testing.assert_allclose([float(text) for text in done.stdout.split()[3:]], state.positions[-1], atol=6e-4)
+
+
+@pytest.mark.long("1 min: a publish; the native library of every test is stripped with Core and Io kept whole")
+def test_stripped_as_a_player_of_unity_every_parameter_file_runs(tmp_path):
+    project = tmp_path / "stripped.csproj"
+    project.write_text(
+        '<Project Sdk="Microsoft.NET.Sdk"><PropertyGroup><OutputType>Exe</OutputType><TargetFramework>net10.0'
+        "</TargetFramework><RuntimeIdentifier>linux-x64</RuntimeIdentifier><LangVersion>9.0</LangVersion><Nullable>enable"
+        "</Nullable><PublishTrimmed>true</PublishTrimmed><TrimMode>full</TrimMode><InvariantGlobalization>true"
+        "</InvariantGlobalization><NoWarn>IL2026;IL2075;IL2104</NoWarn><AssemblyName>Guidewire.Cli</AssemblyName>"
+        f'</PropertyGroup><ItemGroup><Compile Include="{building.HEADLESS}/Guidewire.Cli/*.cs" />'
+        f'<ProjectReference Include="{building.HEADLESS}/Guidewire.Io/Guidewire.Io.csproj" /></ItemGroup></Project>\n',
+        encoding="utf-8")
+    subprocess.run([building.dotnet()[0], "publish", project, "-c", "Release", "-o", tmp_path / "out"], check=True,
+                   capture_output=True)
+    for name in ("Guidewire.Core", "Guidewire.Io"):
+        whole = building.HEADLESS / name / "bin" / "Release" / "net10.0" / f"{name}.dll"
+        assert (tmp_path / "out" / whole.name).stat().st_size < whole.stat().st_size, "it was stripped"
+    files = sorted((ROOT / "params").glob("*.json"))
+    assert len(files) > 15
+    for file in files:
+        done = subprocess.run([tmp_path / "out" / "Guidewire.Cli", "-parameters", file, "-maxSimulationSteps", "3",
+                               "-out", tmp_path / "runs" / file.stem], cwd=ROOT, capture_output=True, text=True)
+        assert done.returncode == 0, f"{file.name}: {done.stdout}{done.stderr}"
