@@ -393,11 +393,16 @@ namespace Guidewire.Io
         /// <summary>Puts another instrument in the place of one that is withdrawn: its tip is where that one's was, and
         /// the rest goes on.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
-        /// <param name="values">Parameters of it, such as its name, length and elements.</param>
+        /// <param name="values">KEY=VALUE each: parameters of it, such as its name, length and elements.</param>
         /// <exception cref="ParameterException">It is in the vessel, or a value is not allowed; nothing has
         /// changed.</exception>
         /// <exception cref="ArgumentException">It does not fit the others; nothing has changed.</exception>
-        public void Exchange(int instrument, IReadOnlyCollection<KeyValuePair<string, JToken>> values)
+        public void Exchange(int instrument, IEnumerable<string> values)
+        {
+            Exchange(instrument, CommandLineHandler.ReadAssignments(values));
+        }
+
+        internal void Exchange(int instrument, IReadOnlyCollection<KeyValuePair<string, JToken>> values)
         {
             CheckHub(instrument);
             string? problem = Simulation.FindInVessel(instrument);
