@@ -92,7 +92,7 @@ class Wire:
 
 def wire_of(parameters: Mapping[str, Any]) -> Wire:
     """The wire of a run whose sections, if any, follow each other up to its end, as an instrument's do."""
-    sections = parameters["wireSections"]
+    sections = [section for section in parameters["wireSections"] if "bendingStiffness1" in section]    # no markers
     start = sections[0]["from"] if sections else parameters["guidewireLength"]
     ends = np.array([0.0, start, *(section["to"] for section in sections)]) * 1e-3
     bending = [parameters["bendingStiffness"], *(section["bendingStiffness1"] for section in sections)]

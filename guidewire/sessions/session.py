@@ -216,8 +216,9 @@ class Session:
     def describe(self) -> dict[str, Any]:
         """What a picture needs to know: "millimetresPerUnit"; "instruments", a list of objects, the wire first:
         "title", "name" (of its file, or ""), "key" that names it, "choices" of other names, and with a number for each
-        element "radii", "innerRadii" (units) and "attenuations" (1/unit), and of a material "tipLoad" and "shaftLoad"
-        (N), at which the last 10 mm and 50 mm of the shaft bow out; "cells" of the vessel's tree, through which
+        element "radii", "innerRadii" (units) and "attenuations" (1/unit), "bands" of markers (element, from and to in
+        parts of it, and 1/unit by which it attenuates more), and of a material "tipLoad" and "shaftLoad" (N), at which
+        the last 10 mm and 50 mm of the shaft bow out; "cells" of the vessel's tree, through which
         contrast agent goes: "middles" (x, y, z of each) and "radii" (units), None without a centreline; "target", the
         centreline from the inlet to it: "name", "reach" (units before it from which on it is reached), "indices" (of
         the centreline's points in anatomy.json), "points" (units), "radii", "distances"; None where the run has none;

@@ -253,6 +253,8 @@ namespace Guidewire.Cli
                     ["radii"] = new JArray(instrument.Radii),
                     ["innerRadii"] = new JArray(instrument.InnerRadii),
                     ["attenuations"] = new JArray(instrument.Attenuations),
+                    ["bands"] = new JArray(instrument.Bands.Select(band => new JArray(band.Element, band.From, band.To,
+                        band.Attenuation))),
                 };
                 AddLoads(session.Parameters, k, described);
                 instruments.Add(described);

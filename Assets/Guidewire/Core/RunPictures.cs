@@ -7,8 +7,8 @@ namespace Guidewire.Core
     /// their material.</summary>
     /// <remarks>At an effective energy of 60 keV iron has a mass attenuation coefficient of 0.1205 m^2/kg and nitinol
     /// (56 % nickel, 0.1512; 44 % titanium, 0.0766) of 0.118 (NIST, tables of Hubbell and Seltzer, 2004): both are
-    /// taken as 0.12, and polymers of catheters too, which are filled with salts of barium or bismuth. The wire of pbd
-    /// has no material: its optical depth across is 1, and its unit is a mm.</remarks>
+    /// taken as 0.12, and polymers of catheters too, which are filled with salts of barium or bismuth. Markers take more
+    /// (<see cref="WireSection.Attenuation"/>). The wire of pbd has no material: its optical depth across is 1, and its unit is a mm.</remarks>
     public sealed class RunPictures
     {
         private const double MassAttenuation = 0.12;   // m^2/kg
@@ -22,6 +22,7 @@ namespace Guidewire.Core
         private readonly PatientAxes? _axes;
         private readonly ImagedInstrument[] _instruments;
         private readonly double[] _lengths;   // of the wire's elements, units
+        private readonly ImagedInstrument _markers;   // of the wire, without the rest of it
         private ImagedInstrument[] _drawn;
         private double? _attenuation;
         private ContrastFlow? _contrast;
@@ -55,6 +56,7 @@ namespace Guidewire.Core
                 SimulationParameters own = parameters.OfCatheter(parameters.Scene.Catheters[k - 1], Vector3d.UnitZ);
                 _instruments[k] = InstrumentOf(own, isMaterial, metres);
             }
+            _markers = WithAttenuation(_instruments[0], 0.0);
             _drawn = _instruments;
             _lengths = ElementLayout.Lengths(parameters, 1.0, out _);
         }
@@ -104,8 +106,12 @@ namespace Guidewire.Core
                 Blur = asked.Blur / _perUnit,
             };
             Place(centrelines, view.Attenuation);
-            var shown = (ImagedInstrument[])_drawn.Clone();
-            shown[0] = shown.Length > 1 ? ThroughTips(shown[0], centrelines) : shown[0];
+            var shown = new List<ImagedInstrument>(_drawn);
+            if (shown.Count > 1)
+            {
+                shown[0] = ThroughTips(shown[0], centrelines);
+                shown.Add(_markers);
+            }
             _fluoroscopy.Draw(shown, Arm(centrelines[0], view), settings, grey,
                 _contrast != null ? _contrast.Parts : default);
         }
@@ -132,7 +138,30 @@ namespace Guidewire.Core
                 innerRadii[j] = inner / metres;
                 attenuations[j] = MassAttenuation * here.LineDensity / area * metres;
             }
-            return new ImagedInstrument(new Vector3d[lengths.Length + 1], radii, innerRadii, attenuations);
+            return new ImagedInstrument(new Vector3d[lengths.Length + 1], radii, innerRadii, attenuations)
+            {
+                Bands = isMaterial ? BandsOf(parameters.Material, stations, metres) : Array.Empty<OpaqueBand>(),
+            };
+        }
+
+        // stations: of the nodes, units.
+        private static OpaqueBand[] BandsOf(MaterialParameters material, double[] stations, double metres)
+        {
+            var bands = new List<OpaqueBand>();
+            foreach (WireSection section in material.Sections)
+            {
+                for (int j = 0; j + 1 < stations.Length && section.Attenuation.HasValue; j++)
+                {
+                    double length = stations[j + 1] - stations[j];
+                    double from = Math.Max(section.From - stations[j], 0.0) / length;
+                    double to = Math.Min(section.To - stations[j], length) / length;
+                    if (to - from > Stretch)
+                    {
+                        bands.Add(new OpaqueBand(j, from, to, section.Attenuation.Value / Millimetre * metres));
+                    }
+                }
+            }
+            return bands.ToArray();
         }
 
         private void Place(IReadOnlyList<Vector3d[]> centrelines, double? attenuation)
@@ -147,6 +176,7 @@ namespace Guidewire.Core
             {
                 _drawn[k].Positions = centrelines[k];
             }
+            _markers.Positions = centrelines[0];
         }
 
         // The wire with the tips that it comes out of: the chord of an element there would cut the corner.
@@ -188,7 +218,7 @@ namespace Guidewire.Core
         {
             var attenuations = new double[one.Radii.Length];
             Array.Fill(attenuations, perMillimetre * _perUnit);
-            return new ImagedInstrument(one.Positions, one.Radii, one.InnerRadii, attenuations);
+            return new ImagedInstrument(one.Positions, one.Radii, one.InnerRadii, attenuations) { Bands = one.Bands };
         }
 
         private CArm Arm(Vector3d[] positions, PictureView view)

@@ -70,7 +70,7 @@ def wire_sections(draw, scene: Mapping[str, Any]) -> list[dict]:
            "axialStiffness": log_uniform(1.0, 1e6), "shearStiffness": log_uniform(1.0, 1e6),
            "bendingStiffness1": log_uniform(1e-7, 1e-2), "bendingStiffness2": log_uniform(1e-7, 1e-2),
            "torsionalStiffness": log_uniform(1e-7, 1e-2), "massPerLength": log_uniform(1e-5, 0.1),
-           "rotaryInertia": log_uniform(1e-12, 1e-7)}
+           "rotaryInertia": log_uniform(1e-12, 1e-7), "attenuation": log_uniform(0.1, 10.0)}
     sections = []
     for _ in range(draw(whole(0, 3))):
         start, part = draw(st.floats(0.0, 1.0)), draw(log_uniform(1e-3, 1.5))

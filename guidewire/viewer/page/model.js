@@ -131,8 +131,8 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
   imagedWire(wire) {
     const { points, along } = this.wirePath();
     const of = (/** @type {number[]} */ values) => along.slice(0, -1).map((place) => values[Math.floor(place)]);
-    return [{ ...wire, radii: of(wire.radii), innerRadii: of(wire.innerRadii), attenuations: of(wire.attenuations) },
-      points];
+    return [{ ...wire, radii: of(wire.radii), innerRadii: of(wire.innerRadii), attenuations: of(wire.attenuations),
+      bands: [] }, points];
   }
 
   /** The place of the wire's last sphere, units. */

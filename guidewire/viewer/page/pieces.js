@@ -7,6 +7,7 @@
  * @property {number[]} radii of each element, units
  * @property {number[]} innerRadii units
  * @property {number[]} attenuations 1/unit
+ * @property {number[][]} [bands] what is more opaque, such as markers: element, from and to in parts of it, 1/unit
  * @property {number} [tipLoad] N: where its last 10 mm bow out, pressed at the tip
  * @property {number} [shaftLoad] N: where 50 mm of its shaft bow out between fingers and valve
  */
@@ -53,6 +54,24 @@ export class Pieces {
         }
       }
       from = end;
+    }
+    for (const band of instrument.bands ?? []) this._addBand(instrument, band, x, arm);
+  }
+
+  /** @param {Instrument} instrument @param {number[]} band @param {ArrayLike<number>} x
+   * @param {import("./carm.js").CArm} arm */
+  _addBand(instrument, [j, first, last, attenuation], x, arm) {
+    const isBent = isBentAt(x, j) || isBentAt(x, j + 1);
+    const at = (/** @type {number} */ t) => arm.project(isBent ? curve(x, j, t)
+      : [0, 1, 2].map((part) => x[3 * j + part] + t * (x[3 * j + 3 + part] - x[3 * j + part])), 0, [0, 0, 0]);
+    const r = instrument.radii[j] * arm.scale;
+    let start = at(first);
+    if (isOutside(start, at(last), r, arm)) return;
+    const pieces = isBent ? PER_BENT_ELEMENT : 1;
+    for (let k = 1; k <= pieces; k++) {
+      const to = at(first + ((last - first) * k) / pieces);
+      this._push(start, to, r, instrument.innerRadii[j] * arm.scale, attenuation / arm.scale, 0, 0);
+      start = to;
     }
   }
 

@@ -66,6 +66,7 @@ namespace Guidewire.Core
             for (int k = 0; k < instruments.Count; k++)
             {
                 _shadow.Add(instruments[k], arm);
+                _shadow.AddBands(instruments[k], arm);
             }
             for (int i = 0; i < _picture.Length; i++)
             {

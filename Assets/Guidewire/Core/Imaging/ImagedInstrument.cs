@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -37,5 +38,8 @@ namespace Guidewire.Core
 
         /// <summary>Linear attenuation coefficient of each element's material, 1/unit.</summary>
         public double[] Attenuations { get; }
+
+        /// <summary>What in its wall is more opaque, such as markers.</summary>
+        public IReadOnlyList<OpaqueBand> Bands { get; set; } = Array.Empty<OpaqueBand>();
     }
 }

@@ -62,6 +62,32 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Adds what is more opaque in the wall of an instrument.</summary>
+        public void AddBands(ImagedInstrument instrument, CArm arm)
+        {
+            Vector3d[] x = instrument.Positions;
+            foreach (OpaqueBand band in instrument.Bands)
+            {
+                int j = band.Element;
+                double r = instrument.Radii[j] * arm.Scale;
+                bool isBent = CentrelinePieces.IsBent(x, j);
+                Vector3d At(double t) => arm.ToDetector(isBent ? CentrelinePieces.At(x, j, t)
+                    : Vector3d.Lerp(x[j], x[j + 1], t));
+                Vector3d from = At(band.From);
+                if (IsOutside(from, At(band.To), r))
+                {
+                    continue;
+                }
+                int pieces = isBent ? CentrelinePieces.PerBentElement : 1;
+                for (int k = 1; k <= pieces; k++)
+                {
+                    Vector3d to = At(band.From + (band.To - band.From) * k / pieces);
+                    AddPiece(from, to, r, instrument.InnerRadii[j] * arm.Scale, band.Attenuation / arm.Scale, 0.0, 0.0);
+                    from = to;
+                }
+            }
+        }
+
         /// <summary>Adds a straight piece; all lengths are in pixels.</summary>
         /// <param name="from">Its one end, as of <see cref="CArm.ToDetector"/>.</param>
         /// <param name="to">Its other end.</param>

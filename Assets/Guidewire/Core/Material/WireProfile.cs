@@ -25,8 +25,11 @@ namespace Guidewire.Core
             var borders = new List<double> { 0.0, length };
             foreach (WireSection section in material.Sections)
             {
-                AddBorder(borders, section.From, length);
-                AddBorder(borders, section.To, length);
+                if (!section.IsMarker)
+                {
+                    AddBorder(borders, section.From, length);
+                    AddBorder(borders, section.To, length);
+                }
             }
             borders.Sort();
             _border = borders.ToArray();

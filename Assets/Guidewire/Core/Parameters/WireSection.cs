@@ -57,6 +57,16 @@ namespace Guidewire.Core
         /// <summary>rho I about d1 and d2, the mean of both, kg m.</summary>
         public double? RotaryInertia { get; set; }
 
+        /// <summary>Attenuation of X-rays beyond that of its density, 1/mm, as of a marker of platinum in its wall; only
+        /// pictures depend on it.</summary>
+        public double? Attenuation { get; set; }
+
+        /// <summary>Whether it is a marker alone: nothing else of the wire is another here.</summary>
+        public bool IsMarker => Attenuation.HasValue && !NumberRodElements.HasValue && !RestCurvature.HasValue
+            && !(YoungsModulus ?? ShearModulus ?? Density ?? WireRadius ?? InnerRadius ?? ShearFactor ?? AxialStiffness
+                ?? ShearStiffness ?? BendingStiffness1 ?? BendingStiffness2 ?? TorsionalStiffness ?? MassPerLength
+                ?? RotaryInertia).HasValue;
+
         /// <summary>Adds what another section that lies over this one says. A new material or radius puts stiffness and
         /// mass that were given directly out of force.</summary>
         internal void TakeOver(WireSection over)

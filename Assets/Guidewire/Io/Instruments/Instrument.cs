@@ -37,6 +37,9 @@ namespace Guidewire.Io
         /// <summary>Bends of the tip at rest, the last one nearest to the tip, all in one plane.</summary>
         public List<TipBend> Bends { get; } = new List<TipBend>();
 
+        /// <summary>What in its wall X-rays see better.</summary>
+        public List<Marker> Markers { get; } = new List<Marker>();
+
         /// <summary>Length of all distal sections, m.</summary>
         public double DistalLength
         {
@@ -63,6 +66,19 @@ namespace Guidewire.Io
 
         /// <summary>Whether EI changes linearly from that of the section before; else it is uniform.</summary>
         public bool IsTapered;
+    }
+
+    /// <summary>A band or coil of platinum in the wall of an instrument.</summary>
+    internal struct Marker
+    {
+        /// <summary>Length between its distal end and the tip, m.</summary>
+        public double FromTip;
+
+        /// <summary>Its length, m.</summary>
+        public double Length;
+
+        /// <summary>Thickness of solid platinum at the surface that takes as much from X-rays, m.</summary>
+        public double Thickness;
     }
 
     /// <summary>An arc of the wire at rest and the straight piece behind it.</summary>

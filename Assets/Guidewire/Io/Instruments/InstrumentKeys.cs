@@ -7,13 +7,15 @@ namespace Guidewire.Io
     /// <summary>The parameter keys that an instrument sets.</summary>
     /// <remarks>The tip stands at the end of the wire, whatever its length: a shorter wire has a shorter shaft. Each
     /// piece of a taper is a section of one element, whose EI has the compliance of the taper over it: for EI linear
-    /// from a to b its mean is 1/EI = ln(b/a)/(b - a). Bends are rest curvatures about d1.</remarks>
+    /// from a to b its mean is 1/EI = ln(b/a)/(b - a). Bends are rest curvatures about d1. The
+    /// attenuation of platinum is that of NIST's tables (Hubbell and Seltzer, 2004).</remarks>
     internal static class InstrumentKeys
     {
         private const double ShaftElement = 5e-3;   // m, about the length of elements of the shaft and of tapers
         private const double SoftElement = 2.5e-3;  // m, of uniform distal sections
         private const double LargestTurn = 0.35;    // rad, at most, of an arc per element
         private const double Rounding = 1e-9;       // m: shorter pieces are rounding errors
+        private const double Platinum = 1e-3 * 0.4339 * 21450.0;    // attenuation, 1/mm: m^2/kg at 60 keV, kg/m^3
         private const double SameNumber = 1e-6;     // relative difference below which EI is uniform
 
         /// <summary>All keys, with values in the parameter file's units.</summary>
@@ -39,12 +41,37 @@ namespace Guidewire.Io
                 ["restCurvature"] = new JArray(0.0, 0.0, 0.0),
             };
             var sections = new JArray();
+            foreach (Marker marker in instrument.Markers)
+            {
+                AddMarker(instrument, marker, metresPerUnit, whole, sections);
+            }
             foreach (Piece piece in pieces)
             {
                 sections.Add(Section(instrument, piece, metresPerUnit, whole));
             }
             keys["wireSections"] = sections;
             return keys;
+        }
+
+        // Of the platinum, spread over the wall that is there.
+        private static void AddMarker(Instrument instrument, in Marker marker, double metresPerUnit, double whole,
+            JArray sections)
+        {
+            double to = whole - marker.FromTip;
+            if (to <= Rounding)
+            {
+                return;
+            }
+            double radius = instrument.Radius;
+            double inside = radius - marker.Thickness;
+            double part = (radius * radius - inside * inside)
+                / (radius * radius - instrument.InnerRadius * instrument.InnerRadius);
+            sections.Add(new JObject
+            {
+                ["from"] = Math.Max(0.0, to - marker.Length) / metresPerUnit,
+                ["to"] = to / metresPerUnit,
+                ["attenuation"] = Platinum * part,
+            });
         }
 
         private static double AxialStiffness(Instrument instrument, double bendingStiffness)

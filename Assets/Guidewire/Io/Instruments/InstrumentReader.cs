@@ -18,7 +18,7 @@ namespace Guidewire.Io
         {
             var fields = new InstrumentFields(file, "", JsonText.ReadObject(file), "title", "kind", "diameter",
                 "innerDiameter", "length", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density",
-                "friction", "distalSections", "tip");
+                "friction", "distalSections", "tip", "radiopaque");
             fields.Text("title");
             bool isHollow = fields.Word("kind", Kinds) == "catheter";
             if (isHollow != fields.Has("innerDiameter"))
@@ -46,7 +46,33 @@ namespace Guidewire.Io
             instrument.BendingStiffness = ReadStiffness(fields, instrument);
             ReadSections(fields, instrument);
             ReadTip(fields, instrument);
+            ReadMarkers(fields, instrument);
             return instrument;
+        }
+
+        private static void ReadMarkers(InstrumentFields fields, Instrument instrument)
+        {
+            foreach (InstrumentFields marker in fields.List("radiopaque", "fromTip", "length", "platinum", "basis",
+                "source"))
+            {
+                marker.CheckOrigin();
+                var read = new Marker
+                {
+                    FromTip = marker.Bare("fromTip", Dimension.Length, mayBeZero: true),
+                    Length = marker.Bare("length", Dimension.Length),
+                    Thickness = marker.Bare("platinum", Dimension.Length),
+                };
+                if (read.FromTip + read.Length > instrument.Length)
+                {
+                    throw marker.Wrong("length", "a marker within the instrument's length");
+                }
+                if (read.Thickness > instrument.Radius - instrument.InnerRadius)
+                {
+                    throw marker.Wrong("platinum", "at most the thickness of the wall, "
+                        + Millimetres(instrument.Radius - instrument.InnerRadius) + " mm");
+                }
+                instrument.Markers.Add(read);
+            }
         }
 
         // A flexural modulus is that of the solid or hollow section of the given diameters: EI = E pi (d^4 - a^4)/64.

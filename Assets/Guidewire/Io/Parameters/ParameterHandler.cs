@@ -424,7 +424,7 @@ namespace Guidewire.Io
                 {
                     AddWarning(WarningTable.SectionBeyond, k, sections[k].From, sections[k].To);
                 }
-                else if (fraction < 0.5)
+                else if (fraction < 0.5 && !sections[k].IsMarker)
                 {
                     AddWarning(WarningTable.SectionShort, k, sections[k].From, sections[k].To, fraction);
                 }

@@ -25,6 +25,7 @@ namespace Guidewire.Io
             new Number("torsionalStiffness", "GJ, N m^2"),
             new Number("massPerLength", "kg/m"),
             new Number("rotaryInertia", "rho I about d1 and d2 alike, kg m"),
+            new Number("attenuation", "of X-rays beyond that of the density, 1/mm"),
         };
 
 

@@ -25,6 +25,19 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void Band_CastsWhatItsWallHoldsMore_WhereverItEnds([Values(20.0, 70.0, 90.0)] double fromRays,
+            [Values(0.7, 3.0)] double radius)
+        {
+            const double Length = 60.0;
+            ImagedInstrument wire = Straight(Length, fromRays, 30.0, radius, Weak);
+            ImagedInstrument tube = Of(wire.Positions, radius, 0.5 * radius, Weak);
+            double without = Depths(tube).Sum(depth => (double)depth);
+            tube.Bands = new[] { new OpaqueBand(0, 0.3, 0.55, 3.0 * Weak) };
+            double more = 3.0 * Weak * Math.PI * 0.75 * radius * radius * 0.25 * Length;
+            Assert.That(Depths(tube).Sum(depth => (double)depth) - without, Is.EqualTo(more).Within(OnePercent * more));
+        }
+
+        [Test]
         public void Ray_GoesThroughTheMiddleOfAWire_ByTheClosedForm([Values(30.0, 60.0, 90.0)] double fromRays)
         {
             const double Radius = 8.0;
@@ -165,7 +178,9 @@ namespace Guidewire.Core.Tests
         private static float[] Depths(ImagedInstrument wire)
         {
             var depths = new float[Pixels * Pixels];
-            new InstrumentShadow(depths, Pixels).Add(wire, new CArm(0.0, 0.0, Vector3d.Zero, Pixels, Pixels));
+            var shadow = new InstrumentShadow(depths, Pixels);
+            shadow.Add(wire, new CArm(0.0, 0.0, Vector3d.Zero, Pixels, Pixels));
+            shadow.AddBands(wire, new CArm(0.0, 0.0, Vector3d.Zero, Pixels, Pixels));
             return depths;
         }
 

@@ -56,6 +56,42 @@ namespace Guidewire.Core.Tests
             Assert.That((string?)handler.ToJson()["instrument"], Is.EqualTo("own"));
         }
 
+        // A ring of 0.1 mm in a wall from 0.5 to 1 mm; 9.307/mm of solid platinum.
+        [Test]
+        public void Marker_IsASectionThatOnlyPicturesSee()
+        {
+            const string Marker = "'radiopaque': [{'fromTip': '2 mm', 'length': '1 mm', 'platinum': '0.1 mm',"
+                + " 'basis': 'assumed', 'source': 'here'}], ";
+            SimulationParameters without = Load("'instrument': 'own'").Values.Simulation;
+            Write("own", Own.Replace("'tip'", Marker + "'tip'"));
+            ParameterHandler handler = Load("'instrument': 'own'");
+            MaterialParameters material = handler.Values.Simulation.Material;
+            WireSection section = material.Sections[0];
+            Assert.That((section.From, section.To), Is.EqualTo((997.0, 998.0)).Within(1e-9));
+            Assert.That(section.Attenuation, Is.EqualTo(9.307 * (1.0 - 0.81) / 0.75).Within(1e-3));
+            Assert.That(section.IsMarker && handler.Warnings.Count == 0, Is.True);
+            Assert.That(new WireProfile(material, 1000.0).Borders,
+                Is.EqualTo(new WireProfile(without.Material, 1000.0).Borders));
+            var seen = new RunPictures(handler.Values.Simulation);
+            double length = 0.0;
+            foreach (OpaqueBand band in seen.Instruments[0].Bands)
+            {
+                length += (band.To - band.From) * ElementLayout.LastLength(handler.Values.Simulation);
+            }
+            Assert.That(length, Is.EqualTo(1.0).Within(1e-9), "elements of the straight end are alike");
+        }
+
+        [TestCase("'platinum': '0.6 mm'", "radiopaque[0].platinum = \"0.6 mm\" is not allowed: needs at most the thickness")]
+        [TestCase("'platinum': '1 kg'", "radiopaque[0].platinum")]
+        [TestCase("'colour': '1 mm'", "unknown member 'radiopaque[0].colour'")]
+        public void WrongMarker_IsRefused(string member, string expected)
+        {
+            Write("own", Own.Replace("'tip'", "'radiopaque': [{'fromTip': '0 mm', 'length': '1 mm', " + member
+                + ", 'basis': 'assumed', 'source': 'here'}], 'tip'"));
+            Assert.That(() => Load("'instrument': 'own'"),
+                Throws.TypeOf<ParameterException>().With.Message.Contains(expected));
+        }
+
         // Linear from EI to b = EI/4: the integral of 1/EI over its length is l ln(4)/(EI - b).
         [Test]
         public void Taper_HasTheComplianceOfItsLinearStiffness()
