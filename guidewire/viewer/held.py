@@ -35,6 +35,13 @@ class HeldInstruments:
         self._parameters = session.parameters
         self.steered = [Steered(self._parameters) for _ in self._instruments]
 
+    def exchange(self, described: Mapping[str, Any], parameters: Mapping[str, Any]) -> None:
+        """Another instrument is in the place of one, and the run goes on: no table says that."""
+        self.aim = None
+        self._instruments = described["instruments"]
+        self._parameters = parameters
+        self.invalidate("an instrument was exchanged within the run: start anew to record")
+
     def hold(self, number: int) -> None:
         """Take another one; raises ValueError where there is none of this number."""
         if isinstance(number, bool) or not isinstance(number, int) or not 0 <= number < len(self._instruments):

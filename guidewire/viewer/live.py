@@ -12,29 +12,25 @@ import base64
 import json
 import math
 import os
-import re
 import time
 import warnings
-from collections.abc import Awaitable, Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
-import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
 
-from guidewire.logs.surfaces import Surface
 from guidewire.sessions.agent import Agent
 from guidewire.sessions.session import Session, SessionError, State
 from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.cases import title_of
 from guidewire.viewer.held import HeldInstruments
-from guidewire.viewer.recording import (
-    ENERGIES, HUB, Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, name_walls, radius_of,
-    read_off,
-    sheath_of, units_of,
-)
+from guidewire.viewer.live_frames import LiveFrames
+from guidewire.viewer.live_page import MOST_IN_FLIGHT, Page
+from guidewire.viewer.live_session import ENDLESS, REST, refusal, start, step
+from guidewire.viewer.recording import ENERGIES, HUB
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -44,11 +40,8 @@ _FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where t
 _LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
 _BEHIND = 0.1                  # s; what is lost beyond that is not made up for
 _LONGEST_WAIT = 1.0            # s of wall time between two steps, however long a step is
-_REST = (0.0, 0.0)
 _PATIENCE = 3.0                # s that a start anew waits for a step under way, before the runner is ended
-_MOST_IN_FLIGHT = 2           # pictures that a page has not shown yet; of further ones it gets the last
 _SMOOTHING = 0.1               # weight of the newest request in the step time shown
-_ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
 _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
             "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
 
@@ -60,34 +53,10 @@ def rules(choices: Mapping[str, list[str]]) -> dict[str, Any]:
     """
     return {
         "pushSpeed": PUSH_SPEED, "turnSpeed": TURN_SPEED, "paces": PACES, "frame": _FRAME, "longest": _LONGEST,
-        "behind": _BEHIND, "longestWait": _LONGEST_WAIT, "patience": _PATIENCE, "mostInFlight": _MOST_IN_FLIGHT,
-        "smoothing": _SMOOTHING, "endless": _ENDLESS, "changed": _CHANGED, "choices": choices, "hub": HUB,
+        "behind": _BEHIND, "longestWait": _LONGEST_WAIT, "patience": _PATIENCE, "mostInFlight": MOST_IN_FLIGHT,
+        "smoothing": _SMOOTHING, "endless": ENDLESS, "changed": _CHANGED, "choices": choices, "hub": HUB,
         "energies": ENERGIES, "steered": STEERED,
     }
-
-
-class _Page:
-    """A page that is open."""
-
-    def __init__(self, socket: web.WebSocketResponse) -> None:
-        self.socket = socket
-        self.on_the_way = 0
-        self.waiting: bytes | None = None    # the newest frame, where too many are on the way
-
-    async def show(self, frame: bytes) -> None:
-        """Send a frame, or the newest of several when the page has shown others."""
-        if self.on_the_way < _MOST_IN_FLIGHT:
-            self.on_the_way += 1
-            await _send(self.socket.send_bytes(frame))
-        else:
-            self.waiting = frame
-
-    async def has_shown(self) -> None:
-        """The page is ready for one more."""
-        self.on_the_way = max(0, self.on_the_way - 1)
-        frame, self.waiting = self.waiting, None
-        if frame is not None:
-            await self.show(frame)
 
 
 class LiveRun:
@@ -107,21 +76,18 @@ class LiveRun:
         self._scene = first
         self._choices = choices
         self._instruments = instruments or HeldInstruments()
-        self._pages: list[_Page] = []
-        self._hand: _Page | None = None
+        self._pages: list[Page] = []
+        self._hand: Page | None = None
         self._session: Session | None = None
-        self._walls: list[Surface] = []
-        self._sheath: np.ndarray | None = None
-        self._largest = np.zeros(0)
-        self._begun: State | None = None
+        self._frames: LiveFrames | None = None    # of the session
         self._agent: Agent | None = None    # contrast in the vessel, once some was injected
         self._named: dict[str, str] = {}  # instruments by their keys that a page has chosen
-        self._described: dict[str, Any] = {}
-        self._warnings: list[str] = []
+        self._exchanges: list[str] = []    # of instruments in this run, in words
+        self._exchanges_asked = 0
         self._opened = 0
         self._is_paused = True
         self._steps_asked = 0
-        self._hands = [_REST, _REST]    # push and turn from -1 to 1: of the held instrument, and of the next one
+        self._hands = [REST, REST]    # push and turn from -1 to 1: of the held instrument, and of the next one
         self._mark = 0
         self._problem = ""
         self._cost = 0.0  # s of wall time a step, smoothed
@@ -141,7 +107,7 @@ class LiveRun:
 
     async def recording(self) -> bytes:
         """The run as it is now and as it began, with its walls."""
-        return await self._in_thread(lambda: self._record().to_bytes())
+        return await self._in_thread(self._record)
 
     async def go(self) -> None:
         """Step while a page has the hand and does not pause; to be cancelled."""
@@ -168,7 +134,7 @@ class LiveRun:
             moves = instruments.moves(hand, other)
             began = time.monotonic()
             try:
-                state = await self._in_thread(lambda: _step(session, moves, steps, hub))
+                state = await self._in_thread(lambda: step(session, moves, steps, hub))
                 if self._agent is not None and self._agent.is_active:
                     agent = await self._in_thread(session.agent)
                     if self._session is session:
@@ -183,7 +149,7 @@ class LiveRun:
                 continue
             cost = (time.monotonic() - began) / steps
             self._cost = cost if self._cost == 0.0 else self._cost + _SMOOTHING * (cost - self._cost)
-            await self._show(mark, session, state)
+            await self._show(mark, state)
             if state.outcome is not None:
                 self._is_paused = True
                 await self._tell()
@@ -209,7 +175,7 @@ class LiveRun:
 
     async def serve(self, socket: web.WebSocketResponse) -> None:
         """Talk with a page until it goes away. The first has the hand; a page that has it and goes pauses the run."""
-        page = _Page(socket)
+        page = Page(socket)
         self._pages.append(page)
         if self._hand is None:
             self._hand = page
@@ -220,12 +186,12 @@ class LiveRun:
                     await socket.close(code=WSCloseCode.POLICY_VIOLATION, message=b"this page said what no page says")
         finally:
             if self._is_over:
-                await _say_goodbye(socket)  # before this answer ends, which would close it without a word
+                await page.say_goodbye()  # before this answer ends, which would close it without a word
             self._pages.remove(page)
             if self._hand is page:
                 self._hand = None
                 self._is_paused = True
-                self._hands = [_REST, _REST]
+                self._hands = [REST, REST]
                 self._instruments.aim = None
             await self._tell()
 
@@ -233,11 +199,11 @@ class LiveRun:
         """End the runner and let go of the pages."""
         self._is_over = True
         for page in list(self._pages):
-            await _say_goodbye(page.socket)
+            await page.say_goodbye()
         await self._in_thread(self._close_session)
         self._asking.shutdown()
 
-    async def _do(self, page: _Page, text: str) -> bool:
+    async def _do(self, page: Page, text: str) -> bool:
         """Do what a page asks; False for what no page of ours asks."""
         try:
             message = json.loads(text)
@@ -294,6 +260,25 @@ class LiveRun:
         named, by_hand = {**self._named, key: name}, self._session.hand
         await self._in_thread(lambda: self._open(self._scene, by_hand, named))
 
+    async def _do_exchange(self, message: Mapping[str, Any]) -> None:
+        number, name = message["instrument"], message["name"]
+        key = self._instruments.key_of(number, name)
+        session, former = self._session, self._instruments.status()["instruments"][number]
+        self._problem, self._exchanges_asked = "", self._exchanges_asked + 1
+        try:
+            state = await self._in_thread(lambda: session.exchange(number, name))
+        except SessionError as error:
+            if not session.is_open:
+                raise
+            self._problem = str(error)    # nothing has changed
+            return
+        await self._in_thread(self._frames.exchange)
+        self._named = {**self._named, key: name}
+        self._instruments.exchange(self._frames.described, session.parameters)
+        self._exchanges.append(f"at {state.time:.1f} s {name} in place of {former}")
+        self._opened += 1
+        self._cost = 0.0
+
     async def _do_pause(self, message: Mapping[str, Any]) -> None:
         self._is_paused = bool(message["value"])
 
@@ -307,10 +292,8 @@ class LiveRun:
             await self._in_thread(lambda: self._open(self._scene, named=self._named))
         else:
             await self._in_thread(self._session.reset)
-            self._is_paused = not self._session.hand
-            self._opened += 1
-            self._instruments.begin(self._session, self._described, self._instruments.held)
-            self._begin(self._session)
+            await self._in_thread(self._frames.begin)
+            self._begin(self._session, self._instruments.held)
         self._problem = ""
 
     async def _do_pace(self, message: Mapping[str, Any]) -> None:
@@ -339,7 +322,7 @@ class LiveRun:
         except SessionError as error:
             if not self._session.is_open:
                 raise
-            self._problem = _refusal(key, value, str(error))  # nothing has changed, and the wire goes on
+            self._problem = refusal(key, value, str(error))  # nothing has changed, and the wire goes on
             return
         self._instruments.invalidate(f"{key} was changed within the run: start anew to record")
         self._cost = 0.0
@@ -347,62 +330,31 @@ class LiveRun:
     def _open(self, scene: str, by_hand: bool = True, named: Mapping[str, str] | None = None) -> None:
         with warnings.catch_warnings(record=True) as said:
             warnings.simplefilter("always")
-            session = _start(self._scenes[scene], by_hand, named or {})
+            session = start(self._scenes[scene], by_hand, named or {})
         self._close_session()
         self._session, self._scene, self._named = session, scene, dict(named or {})
-        self._described = session.describe()
-        self._instruments.begin(session, self._described)
-        self._is_paused = not session.hand  # a wire that waits for a hand is at rest
-        self._warnings = list(dict.fromkeys(str(one.message) for one in said))
-        self._walls = session.walls()
-        self._sheath = sheath_of(session.parameters, self._numbers(session, session.state))
-        self._opened += 1
+        self._frames = LiveFrames(session, title_of(self._scenes[scene]),
+                                  dict.fromkeys(str(one.message) for one in said))
         self._cost = 0.0
-        self._begin(session)
+        self._begin(session, 0)
 
-    def _begin(self, session: Session) -> None:
+    def _begin(self, session: Session, held: int) -> None:
+        """The run is at its start, with this hub in the hand."""
+        self._is_paused = not session.hand  # a wire that waits for a hand is at rest
         self._agent = None
-        self._begun = session.state
-        self._largest = largest_shown(self._channels(session, session.state))
+        self._exchanges = []
+        self._opened += 1
+        self._instruments.begin(session, self._frames.described, held)
 
     def _close_session(self) -> None:
         session, self._session = self._session, None
         if session is not None:
             session.close()
 
-    def _record(self) -> Recording:
-        session = self._session
-        if session is None:
+    def _record(self) -> bytes:
+        if self._session is None:
             raise web.HTTPNotFound()
-        state = session.state
-        states = [state] if self._begun is None or self._begun.step == state.step else [self._begun, state]
-        return Recording(
-            title_of(self._scenes[self._scene]), "", self._warnings, facts_of(session.parameters, None),
-            radius_of(session.parameters),
-            self._channels(session, *states), name_walls(session.parameters, self._walls), self._sheath,
-            self._largest, self._described,
-        )
-
-    def _channels(self, session: Session, *states: State) -> list[Channel]:
-        numbers = [self._numbers(session, state) for state in states]
-        together = {name: None if values is None else np.concatenate([one[name] for one in numbers])
-                    for name, values in numbers[0].items()}
-        return make_channels(units_of(session.parameters), together)
-
-    def _numbers(self, session: Session, state: State) -> dict[str, Any]:
-        walls = bool(self._walls)
-        real_time = float(session.parameters["timeStep"]) / self._cost if self._cost > 0.0 else math.nan
-        return {
-            "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
-            "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
-            **{f"positions{k + 1}": one.positions[None] for k, one in enumerate(state.catheters)},
-            **{f"contact_forces{k + 1}": one.contact_forces[None] for k, one in enumerate(state.catheters) if walls},
-            "step_time": np.array([1e3 * self._cost]), "real_time": np.array([real_time]),
-            **{name: None if values is None else values[None]
-               for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
-                                    ("reaction", state.reaction))},
-            "lumen": lumen_of([state.place]), **read_off(state),
-        }
+        return self._frames.record(self._cost).to_bytes()
 
     def _may_step(self) -> bool:
         return (self._session is not None and self._hand is not None and not self._ended()
@@ -411,12 +363,8 @@ class LiveRun:
     def _ended(self) -> bool:
         return self._session is None or self._session.state.outcome is not None
 
-    async def _show(self, mark: int, session: Session, state: State) -> None:
-        channels = self._channels(session, state)
-        self._largest = np.maximum(self._largest, largest_shown(channels))
-        frame = np.concatenate([[float(mark), float(self._opened)], self._largest,
-                                *(channel.values.ravel() for channel in channels)])
-        block = frame.astype("<f8").tobytes()
+    async def _show(self, mark: int, state: State) -> None:
+        block = self._frames.frame(state, self._cost, float(mark), float(self._opened))
         for page in list(self._pages):
             await page.show(block)
 
@@ -427,13 +375,13 @@ class LiveRun:
             "parts": base64.b64encode(agent.parts.astype("<f8").tobytes()).decode("ascii"), "injected": agent.injected,
             "held": agent.held, "isActive": agent.is_active, "isInjecting": agent.is_injecting}}
         for page in list(self._pages):
-            await _send(page.socket.send_str(json.dumps(told)))
+            await page.tell(json.dumps(told))
 
     async def _tell(self) -> None:
         for page in list(self._pages):
-            await _send(page.socket.send_str(json.dumps(self._status(page))))
+            await page.tell(json.dumps(self._status(page)))
 
-    def _status(self, page: _Page) -> dict[str, Any]:
+    def _status(self, page: Page) -> dict[str, Any]:
         session = self._session
         values = {} if session is None else {key: session.parameters[key] for key in _CHANGED
                                              if key in session.parameters}
@@ -445,7 +393,7 @@ class LiveRun:
             "file": os.path.relpath(self._scenes[self._scene]), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
-            "steered": self._instruments.problem, **self._instruments.status(),
+            "exchanges": self._exchanges, "exchangesAsked": self._exchanges_asked, "steered": self._instruments.problem, **self._instruments.status(),
             "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
         }
 
@@ -476,54 +424,6 @@ class LiveRun:
 _DO: Mapping[str, Callable[[LiveRun, Mapping[str, Any]], Awaitable[None]]] = {
     "hand": LiveRun._do_hand, "aim": LiveRun._do_aim, "pause": LiveRun._do_pause, "step": LiveRun._do_step,
     "reset": LiveRun._do_reset,
-    "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name, "pace": LiveRun._do_pace,
-    "open": LiveRun._do_open, "set": LiveRun._do_set,
+    "hold": LiveRun._do_hold, "inject": LiveRun._do_inject, "name": LiveRun._do_name,
+    "exchange": LiveRun._do_exchange, "pace": LiveRun._do_pace, "open": LiveRun._do_open, "set": LiveRun._do_set,
 }
-
-
-def _start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
-    """A session that is steered without end, or where that cannot be, or is not asked for, the file's own run."""
-    if by_hand:
-        try:
-            return Session(scene, hand=True, native=False, **_ENDLESS, **named)
-        except SessionError:
-            pass  # what is wrong with the file itself is said below
-    return Session(scene, hand=False, native=False, **named)
-
-
-def _step(session: Session, moves: Sequence[tuple[float, float]], steps: int, hub: int) -> State:
-    """Steps with so much push (units) and turn (rad) of each hub in each; where one hand rests, of the held one."""
-    if all(move == _REST for k, move in enumerate(moves) if k != hub):
-        push, turn = moves[hub]
-        return session.step(push * steps, turn * steps, steps, hub)
-    return session.step([push * steps for push, _ in moves], [turn * steps for _, turn in moves], steps)
-
-
-_NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)
-
-
-def _refusal(key: str, value: Any, message: str) -> str:
-    """Why a field's new value is refused, for who typed it: which value, and what is allowed.
-
-    Parameters
-    ----------
-    key, value : of the field.
-    message : the runner's line. Where the value does not go with another key, it names that key with its file.
-    """
-    said = _NOT_ALLOWED.fullmatch(message)
-    if said is None:
-        return message.removeprefix("set: ")
-    named, needs = said.groups()
-    asked = f"{key} = {json.dumps(value)}"
-    return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"
-
-
-async def _say_goodbye(socket: web.WebSocketResponse) -> None:
-    await socket.close(code=WSCloseCode.GOING_AWAY, message=b"the server has ended")
-
-
-async def _send(sending: Awaitable[None]) -> None:
-    try:
-        await sending
-    except (ConnectionError, RuntimeError):
-        pass  # the page has been closed; its own loop reports that

@@ -44,9 +44,10 @@ export class Controls {
     };
     return [
       ...(status.isSteered ? [this._pad(), ...this._drives(),
-        ...(status.instruments.length > 1 ? [this._hold(status)] : [])] : []),
+        ...(status.instruments.length > 1 ? [this._hold(status)] : []),] : []),
       make("span", { className: "buttons" },
-        ...(status.isSteered && !isOver ? [live.injector.button, this._fine()] : []), ...(isOver ? [] : [this._button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
+        ...(status.isSteered && !isOver ? [live.injector.button, this._fine()] : []),
+        ...(live.canExchange && !isOver ? [this._exchange()] : []), ...(isOver ? [] : [this._button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
           second(this._button("step", { do: "step" }))]),
         this._button("start anew", { do: "reset" }),
         make("button", { id: "reporting", onclick: () => live.report() }, "report"),
@@ -87,6 +88,11 @@ export class Controls {
   _hold(status) {
     return make("button", { id: "hold", onclick: () => this._live.holdNext(), title: "the steered instrument" },
       status.instruments[status.held] ?? "", " ", make("kbd", {}, "I"));
+  }
+
+  _exchange() {
+    return make("button", { id: "exchange", className: "second", onclick: () => this._live.exchange(),
+      title: "another instrument over the wire" }, "exchange ", make("kbd", {}, "Q"));
   }
 
   _slider() {

@@ -31,10 +31,11 @@ export class Injector {
         make("label", {}, this._rate, " ml/s")));
   }
 
-  /** Another case: nothing is injected yet. @param {import("./recording.js").Recording} recording */
-  set(recording) {
+  /** Another case: nothing is injected yet. @param {import("./recording.js").Recording} recording
+   * @param {boolean} goesOn whether it is the same with another instrument */
+  set(recording, goesOn) {
     this._hasVessel = Boolean(recording.described?.cells);
-    this.injected = 0;
+    if (!goesOn) this.injected = 0;
     this._show();
     const places = [...recording.instruments.map(({ name }) => `tip of ${name}`), INLET];
     this._where.replaceChildren(...places.map((place) => make("option", {}, place)));

@@ -32,6 +32,8 @@ import { placeName } from "./target.js";
  * @property {string[]} instruments the wire, and the catheters over it
  * @property {number} held which of them the hand holds
  * @property {string[][]} named for each the names that can stand for it; empty where the method takes none
+ * @property {string[]} exchanges of instruments in this run, in words
+ * @property {number} exchangesAsked how many were asked for, done or refused
  * @property {string[]} chosen the name that each has; empty where it has none
  */
 
@@ -71,6 +73,8 @@ export class Live {
     this._controls = new Controls(this);
     this._steeredAt = -REMINDED; // ms: when a hand last moved a paused wire
     this._isReported = false;
+    this._exchanged = 0; // how many of the run are shown
+    this._exchangesAsked = Infinity; // as of the status that answers an exchange
     this._mark = 0;
     this._marks = new Map();
     this._newest = 0;
@@ -92,7 +96,10 @@ export class Live {
 
   /** @param {string} button of a gamepad */
   _press(button) {
-    if (button === "pause") this.pause(!this.status?.isPaused);
+    const card = byId("card");
+    if (card.open) pressCard(card, button);
+    else if (button === "exchange") this.exchange();
+    else if (button === "pause") this.pause(!this.status?.isPaused);
     else if (button === "reset") this.send({ do: "reset" });
     else if (button === "hold") this.holdNext();
     else if (button === "fine") this.refine();
@@ -117,6 +124,7 @@ export class Live {
     else if (event.key === "e") this.injector.press();
     else if (event.key === "n") this.send({ do: "step" });
     else if (event.key === "i") this.holdNext();
+    else if (event.key === "q") this.exchange();
     else if (event.key === "r") this.send({ do: "reset" });
     else return false;
     return true;
@@ -158,6 +166,35 @@ export class Live {
     this.send({ do: "hold", instrument: (held + 1) % instruments.length });
   }
 
+  /** Whether another instrument can take the place of the held one without a new run. */
+  get canExchange() {
+    return (this.status?.isSteered && this.status.instruments.length > 1 && this.status.named[this.status.held]) ?? false;
+  }
+
+  /** Exchanges the held instrument: it is withdrawn, another one is chosen, and advanced over the wire. */
+  async exchange() {
+    if (!this.status || !this.canExchange || this.status.outcome) return;
+    const { held, instruments, named, chosen, exchangesAsked } = this.status;
+    this.steering.release();
+    const select = make("select", {}, ...named[held].map((name) =>
+      make("option", { value: name, selected: name === chosen[held] }, name)));
+    select.setAttribute("aria-label", "what takes its place");
+    const answer = await ask(`exchange ${instruments[held]}`, [make("ol", {}, make("li", {}, "Withdraw it: pull (S)."),
+      make("li", {}, "Choose what takes its place: ", select), make("li", {}, "Advance that: push (W)."))],
+    ["cancel", "exchange"]);
+    if (answer !== "exchange") return;
+    this._exchangesAsked = exchangesAsked + 1;
+    this.send({ do: "exchange", instrument: held, name: select.value });
+  }
+
+  /** Says what came of an exchange. @param {Status} status */
+  _answerExchange({ problem, instruments, held, exchangesAsked }) {
+    if (exchangesAsked < this._exchangesAsked) return;
+    this._exchangesAsked = Infinity;
+    if (problem) ask("not exchanged", [make("p", {}, `${problem[0].toUpperCase()}${problem.slice(1)}.`)], ["close"]);
+    else this._panel.tell([`${instruments[held]} has its tip where the other one had it: advance it`]);
+  }
+
   /** @param {number} push @param {number} turn from -1 to 1 @param {number} otherPush of the next instrument
    * @param {number} otherTurn */
   _tell(push, turn, otherPush, otherTurn) {
@@ -196,6 +233,7 @@ export class Live {
     this._desk.hold(status.isSteered ? status.held : -1);
     this._watch(status.isSteered ? status.held : 0);
     this._panel.say([status.problem, status.outcome, ...(this.model?.recording.warnings ?? [])].filter(Boolean));
+    this._answerExchange(status);
   }
 
   /** Keeps the tip of an instrument in view. @param {number} instrument */
@@ -211,6 +249,9 @@ export class Live {
     this._opened = opened;
     for (const frame of this._early.filter(([, of]) => of === opened)) recording.append(frame.subarray(2));
     this._early = this._early.filter(([, of]) => of > opened);
+    const exchanges = this.status?.exchanges.length ?? 0;
+    const kept = this.model && exchanges > this._exchanged ? this._desk.score?.save() : null; // the run goes on
+    this._exchanged = exchanges;
     this.model?.dispose();
     const isOther = this._shownScene !== this.status?.scene;
     this._shownScene = this.status?.scene;
@@ -218,14 +259,17 @@ export class Live {
     this._stage.set([[this.model]]);
     this._panel.set([this.model], false);
     this._desk.set([recording]);
-    this.injector.set(recording);
-    this._xray.fill(null);
-    this._recall(recording);
+    this.injector.set(recording, Boolean(kept));
+    if (kept) this._desk.score?.restore(kept);
+    else {
+      this._xray.fill(null);
+      this._recall(recording);
+    }
     this._back = null;
     this._isReported = Number.isFinite(this._desk.score?.reachedAt);
     this.show();
     if (isOther) this._xray.set([this.model]);
-    else this._xray.keep([this.model]);
+    else this._xray.keep([this.model], Boolean(kept));
     if (isOther) this._stage.frameAll(true);
     this._label();
   }
@@ -268,7 +312,7 @@ export class Live {
     const isDone = Number.isFinite(score.reachedAt);
     const name = placeName(recording.described?.target?.name ?? "");
     return showReport(rowsOf(recording, score, { case: this.title, beam: this._xray.beam.seconds, pictures: this._xray.beam.pictures,
-      contrast: this.injector.injected }), isDone ? `${name} reached` : "report", isDone ? ["start anew", "go on"] : ["close"]);
+      contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }), isDone ? `${name} reached` : "report", isDone ? ["start anew", "go on"] : ["close"]);
   }
 
   /** The case as it is called. */
@@ -378,6 +422,15 @@ export class Live {
   }
 }
 
+/** What a gamepad's button does with a card: A answers, B closes, up chooses the next of its list.
+ * @param {HTMLDialogElement} card @param {string} button */
+function pressCard(card, button) {
+  const select = card.querySelector("select");
+  if (button === "pause") /** @type {HTMLElement} */ (card.querySelector("button.on")).click();
+  else if (button === "inject") card.close();
+  else if (button === "exchange" && select) select.selectedIndex = (select.selectedIndex + 1) % select.options.length;
+}
+
 /** A scene as one calls it. @param {string} file */
 function nameOf(file) {
   return file.replace(/^.*\//, "").replace(/\.json$/, "").replaceAll("-", " ");
@@ -385,6 +438,6 @@ function nameOf(file) {
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
   ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
-  ["R", "start anew"], ["I", "select the next instrument"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam"],
+  ["R", "start anew"], ["I", "select the next instrument"], ["Q", "exchange it for another one"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam; up: exchange"],
   ["round pad", "up pushes, down pulls, sideways turns"],
 ]);

@@ -9,7 +9,8 @@ import { placeName } from "./target.js";
 /**
  * What a case came to, row by row.
  * @param {import("./recording.js").Recording} recording @param {Score} score
- * @param {{case: string, beam: number, pictures: number, contrast: number}} more s with the beam on, and ml
+ * @param {{case: string, beam: number, pictures: number, contrast: number, exchanges: string[]}} more
+ *     s with the beam on, ml, and instruments that were exchanged
  * @returns {[string, string][]}
  */
 export function rowsOf(recording, score, more) {
@@ -32,6 +33,7 @@ export function rowsOf(recording, score, more) {
     ["way of the tip", `${(millimetres * score.path).toFixed(0)} mm${target
       ? ` for ${(millimetres * (target.distances.at(-1) ?? 0)).toFixed(0)} mm from the inlet` : ""}`],
     ["new attempts", String(score.retries)],
+    ...more.exchanges.map((text) => /** @type {[string, string]} */ (["exchange", text])),
     ["events", String(score.mishaps.length)],
     ...score.mishaps.map(({ time, text }) => /** @type {[string, string]} */ ([`at ${time.toFixed(1)} s`, text])),
   ];

@@ -55,6 +55,9 @@ export class Run {
     this._problem = this._outcome = "";
     /** @type {Message} */
     this._named = {};
+    /** Of instruments in this run, in words. @type {string[]} */
+    this._exchanges = [];
+    this._exchangesAsked = 0;
     this._isGoing = this._isAgent = false;
     /** The newest frame, where too many are on the way. @type {ArrayBuffer | null} */
     this._waiting = null;
@@ -120,6 +123,9 @@ export class Run {
         this._open(this._scene, this._isSteered,
           { ...this._named, [this._described.instruments[message.instrument].key]: message.name });
         break;
+      case "exchange":
+        this._exchange(message.instrument, message.name);
+        break;
       case "reset":
         this._begin(this._program.ask({ session: "reset" }), this._held?.held ?? 0);
         break;
@@ -157,8 +163,36 @@ export class Run {
     this._isPaused = !this._isSteered; // a wire that waits for a hand is at rest
     this._held = new HeldInstruments(this._rules.steered, this._parameters ?? {}, this._described.instruments,
       this._isSteered, held);
+    this._exchanges = [];
+    this._largest = [];
+    this._present(answer);
+  }
+
+  /** Puts another instrument in the place of a withdrawn one, and the run goes on. @param {number} number
+   * @param {string} name of the new one */
+  _exchange(number, name) {
+    const { key, title } = this._described.instruments[number];
+    this._problem = "";
+    this._exchangesAsked++;
+    try {
+      const answer = this._program.ask({ session: "exchange", hub: number, set: { [key]: name } });
+      this._parameters = answer.effective;
+      this._named = { ...this._named, [key]: name };
+      this._described = this._program.ask({ session: "describe" });
+      this._held?.exchange(this._described.instruments, answer.effective);
+      this._exchanges.push(`at ${answer.time.toFixed(1)} s ${name} in place of ${title}`);
+      this._cost = 0;
+      this._present(answer);
+    } catch (error) {
+      if (!(error instanceof Refusal)) throw error;
+      this._problem = error.message; // nothing has changed
+    }
+  }
+
+  /** The recording begins with this state. @param {Message} answer */
+  _present(answer) {
     const channels = this._take(answer);
-    this._largest = largestShown(channels);
+    this._largest = largestShown(channels).map((value, k) => Math.max(value, this._largest[k] ?? 0));
     channels.forEach((channel, k) => { channel.largest = this._largest[k]; });
     this._opened++;
     this._onTheWay = 0;
@@ -311,7 +345,7 @@ export class Run {
       scene: this._scene, scenes: this._scenes, titles: this._scenes.map((scene) => this._titleOf(scene)),
       file: this._scene, problem: this._problem, values,
       choices: Object.fromEntries(Object.entries(choices).filter(([key]) => key in values)),
-      pace: this._pace, paces, outcome: this._outcome,
+      exchanges: this._exchanges, exchangesAsked: this._exchangesAsked, pace: this._pace, paces, outcome: this._outcome,
       ...(this._held?.status() ?? { held: 0, instruments: [], chosen: [], named: [], steered: "no run is open" }),
     } });
   }

@@ -103,6 +103,15 @@ export class HeldInstruments {
     this.steered = instruments.map(() => new Steered(rules, parameters));
   }
 
+  /** Another instrument is in the place of one, and the run goes on. @param {HeldInstruments["_instruments"]} instruments
+   * @param {Parameters} parameters */
+  exchange(instruments, parameters) {
+    this.aim = null;
+    this._instruments = instruments;
+    this._parameters = parameters;
+    this.invalidate("an instrument was exchanged within the run: start anew to record");
+  }
+
   /** Takes another one. @param {number} number */
   hold(number) {
     this.held = number;

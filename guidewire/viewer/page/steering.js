@@ -9,7 +9,7 @@ const DRIVES = {
 const FINE = 0.2; // of the speed
 const DEAD_ZONE = 0.15; // of a stick's travel
 const STEPS = 50; // of a stick from 0 to 1: a message is sent where it is at another
-const PAD_BUTTONS = { 0: "pause", 1: "inject", 2: "fine", 3: "reset", 4: "hold", 5: "beam" };
+const PAD_BUTTONS = { 0: "pause", 1: "inject", 2: "fine", 3: "reset", 4: "hold", 5: "beam", 12: "exchange" };
 
 /** What keys, held buttons, a touch pad and a gamepad ask for: push and turn of both hands from -1 to 1. */
 export class Steering {

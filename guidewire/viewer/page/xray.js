@@ -89,9 +89,10 @@ export class Xray {
     this.ask();
   }
 
-  /** Shows the same scene from its start, from where it is seen now. @param {Model[]} models */
-  keep(models) {
-    this.beam.restart();
+  /** Shows the same scene from where it is seen now. @param {Model[]} models
+   * @param {boolean} goesOn whether the run does, with another instrument; else it is at its start */
+  keep(models, goesOn) {
+    if (!goesOn) this.beam.restart();
     this._models = models.filter(({ recording }) => recording.described);
     this._middle = undefined;
     this.ask();
@@ -176,9 +177,14 @@ export class Xray {
   /** Instruments with the points of their centrelines.
    * @returns {[import("./pieces.js").Instrument, Float64Array][]} */
   get _instruments() {
-    return this._models.flatMap((model) => model.recording.drawnInstruments.map((instrument, k) =>
-      k === 0 ? model.imagedWire(instrument)
-        : /** @type {[import("./pieces.js").Instrument, Float64Array]} */ ([instrument, model.centreline(k)])));
+    return this._models.flatMap((model) => model.recording.drawnInstruments.flatMap((instrument, k) => {
+      /** @type {[import("./pieces.js").Instrument, Float64Array][]} */
+      const shown = [k === 0 ? model.imagedWire(instrument) : [instrument, model.centreline(k)]];
+      if (k === 0 && instrument.bands?.length) {
+        shown.push([{ ...instrument, attenuations: instrument.radii.map(() => 0) }, model.centreline(0)]); // markers
+      }
+      return shown;
+    }));
   }
 
   _draw() {

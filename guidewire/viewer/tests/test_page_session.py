@@ -17,8 +17,9 @@ from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 from guidewire.viewer import live
 from guidewire.viewer.held import HeldInstruments
+from guidewire.viewer.live_frames import LiveFrames
 from guidewire.viewer.parts import PAGE
-from guidewire.viewer.recording import facts_of, largest_shown, radius_of, sheath_of
+from guidewire.viewer.recording import facts_of, largest_shown, radius_of
 from guidewire.sessions.steered import RULES, exact_push, exact_turn
 
 SCENES = [*(pytest.param(name, {}, id=name) for name in ("insertion", "insertion-accurate", "catheter-branch")),
@@ -92,16 +93,16 @@ console.log(JSON.stringify({ frames, status: messages.filter((message) => messag
 def test_channels_frames_and_status_are_those_of_the_server(runner_command, name, changes):
     file = ROOT / "params" / f"{name}.json"
     server = live.LiveRun({name: file}, name, {"solver": ["direct", "pbd"]})
-    with Session(file, hand=name != "cantilever", native=False, **live._ENDLESS, **changes) as session:
+    with Session(file, hand=name != "cantilever", native=False, **live.ENDLESS, **changes) as session:
         session._host = recorder = Recorder(session._host)
         described, surfaces = session.describe(), session.walls()
         walls = recorder.answers.pop()["walls"]
+        server._session, server._frames = session, LiveFrames(session, name, ["one"])
         recorder.answers.clear()
-        server._session, server._walls = session, surfaces
         server._instruments.begin(session, described)
         states = [session.reset()]
         states += [session.step(push=0.4 * session.hand, turn=0.01 * session.hand) for _ in range(4)]
-        wanted = [server._channels(session, state) for state in states]
+        wanted = [server._frames._channels(0.0, state) for state in states]
         parameters = session.parameters
         status = server._status(None)
     answers = [{**answer, "effective": dict(parameters), "hand": session.hand, "warnings": ["one"]}
@@ -109,7 +110,7 @@ def test_channels_frames_and_status_are_those_of_the_server(runner_command, name
     got = follow(CHANNELS, answers=answers, described=described, walls=walls, rules=live.rules(server._choices),
                  hand=session.hand, steps=len(states) - 1)
     recording = got["recording"]
-    sheath = sheath_of(parameters, server._numbers(session, states[0]))
+    sheath = server._frames._sheath
     assert recording["facts"] == [list(fact) for fact in facts_of(parameters, None)]
     assert recording["radius"] == radius_of(parameters) and recording["warnings"] == ["one"]
     assert (sheath is None) == (recording["sheath"] is None)
@@ -173,7 +174,7 @@ def test_pushes_turns_and_drive_tables_are_those_of_the_server(runner_command):
               for _ in range(500)]
     turns = [dice.uniform(-4, 4) for _ in range(500)] + [k * 0.5 * RULES["turnGrain"] for k in range(-4, 5)]
     calls = []
-    with Session(ROOT / "params" / "catheter-branch.json", hand=True, native=False, **live._ENDLESS) as session:
+    with Session(ROOT / "params" / "catheter-branch.json", hand=True, native=False, **live.ENDLESS) as session:
         own = HeldInstruments()
         described = session.describe()
         own.begin(session, described)
@@ -247,7 +248,7 @@ def test_a_wire_starts_at_the_widest_end_of_a_mesh_alone(runner_command, tmp_pat
         (tmp_path / name).write_bytes(content)
         (tmp_path / f"{name}.ends.json").write_text(json.dumps(made["ends"]))
         (tmp_path / f"{name}.json").write_text(json.dumps(made["scene"]))
-    with Session(tmp_path / "artery.obj.json", hand=True, native=False, **live._ENDLESS) as session:
+    with Session(tmp_path / "artery.obj.json", hand=True, native=False, **live.ENDLESS) as session:
         before = session.state.positions[-1]
         after = session.step(push=30.0, steps=20).positions[-1]
     assert before[2] < after[2] and after[2] > 5.0

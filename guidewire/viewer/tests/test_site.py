@@ -140,7 +140,7 @@ def test_gains_steered_by_keys_into_a_branch_have_the_bits_of_a_session(request,
         ["press", " "], ["until", f"{wire}[2] >= -310 + 240"], ["press", " "], PAUSED, ["up", "w"],
         ["see", STEP], ["see", f"[...{wire}]"], ["see", "viewer.shown._connection.steered(0)"])
     step, positions, saved = answer["seen"][2:]
-    with Session(ROOT / "params" / "insertion.json", hand=True, native=False, **live._ENDLESS) as session:
+    with Session(ROOT / "params" / "insertion.json", hand=True, native=False, **live.ENDLESS) as session:
         own = HeldInstruments()
         own.begin(session, session.describe())
         push, _ = own.in_a_step(live.PUSH_SPEED * session.parameters["timeStep"], 0.0)

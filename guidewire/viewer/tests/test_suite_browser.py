@@ -34,8 +34,11 @@ def levels(grey):
 
 @pytest.mark.long("the shader draws the pictures of the core in the tests of the page; agent is seen below")
 def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_path):
-    scene = near_target(tmp_path)
-    with Session(scene, hand=True, native=False, **live._ENDLESS) as session:
+    # Markers that begin and end within elements, in the bent tip and in the shaft.
+    sections = json.loads((ROOT / "params/sheath.json").read_text())["wireSections"]
+    markers = [{"from": at, "to": at + 1.7, "attenuation": 9.0} for at in (1751.3, 1781.4, 1797.1)]
+    scene = near_target(tmp_path, wireSections=sections + markers)
+    with Session(scene, hand=True, native=False, **live.ENDLESS) as session:
         wire = session.step(push=40.0, steps=20).positions
         session.inject(3.0, 4.0, None)
         parts = session.agent(0.9).parts
@@ -50,7 +53,7 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
         seen = browse(["open", address], DRAWN, ["press", " "], PAUSED,
                       *(["see", f"({take})({json.dumps(look)})"] for look in LOOKS))["seen"]
     for look, grey, core in zip(LOOKS, seen, cores, strict=True):
-        assert np.ptp(core) > 60, "agent is seen"
+        assert np.ptp(core) > 60 and core.min() < 110, "agent is seen, and markers darker"
         assert np.abs(levels(grey) - core.ravel()).max() <= 2, look
 
 

@@ -166,8 +166,8 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
                 assert apart.max() <= 2, look
 
 
-GAMEPAD = ("window.pad = {connected: true, axes: [0, 0, 0, 0], buttons: [0, 1, 2, 3, 4, 5].map(() => ({pressed: "
-           "false}))};navigator.getGamepads = () => [window.pad]; dispatchEvent(new Event('gamepadconnected'))")
+GAMEPAD = ("window.pad = {connected: true, axes: [0, 0, 0, 0], buttons: Array.from({length: 17}, () => "
+           "({pressed: false}))};navigator.getGamepads = () => [window.pad]; dispatchEvent(new Event('gamepadconnected'))")
 STEERED = "[viewer.shown.steering.push, viewer.shown.steering.turn]"
 HUB = "viewer.shown.model.recording.at('hubInsertion', viewer.shown.model.recording.count - 1)[0]"
 
