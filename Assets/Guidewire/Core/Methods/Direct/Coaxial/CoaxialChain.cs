@@ -257,8 +257,14 @@ namespace Guidewire.Core
                 }
             }
             Whole.Contacts?.Take(before.Contacts!, Rod.Rod.ElementCount + 1);
-            terms.Walls()?.Friction?.Anchors.Take(former.Walls()!.Friction!.Anchors, change.Node);
-            terms.Walls()?.Barrier.Lag?.Take(former.Walls()!.Barrier.Lag!, change.Node);
+            if (former.Walls()?.Friction != null)
+            {
+                terms.Walls()!.Friction?.Anchors.Take(former.Walls()!.Friction!.Anchors, change.Node);
+            }
+            if (former.Walls()?.Barrier.Lag != null)
+            {
+                terms.Walls()!.Barrier.Lag?.Take(former.Walls()!.Barrier.Lag!, change.Node);
+            }
             if (_isAlone)
             {
                 TakeHub(former, oldShape, change.Entered);

@@ -131,10 +131,15 @@ namespace Guidewire.Core
         /// <summary>Goes on from where other instruments were: hubs with the insertion that they had, the rest where it
         /// was.</summary>
         /// <param name="isOther">Which instruments were others, the outermost one first.</param>
-        /// <exception cref="ArgumentException">One of them is in the vessel, or one does not fit the others.
+        /// <exception cref="ArgumentException">One of them is in the vessel, or one does not fit the others;
+        /// other walls.
         /// </exception>
         public void GoOnFrom(WireInCatheters former, bool[] isOther)
         {
+            if (Setup.Wire.Walls.Length != former.Setup.Wire.Walls.Length)
+            {
+                throw new ArgumentException("walls cannot come or go together with an instrument");
+            }
             double time = former.Rod.Dynamics.Time;
             Vector3d[] starts = Array.ConvertAll(Drives, drive => drive.Hub.PositionAt(0.0));
             var kept = new Snapshot();

@@ -46,6 +46,7 @@ namespace Guidewire.Core.Tests
             double insertion = run.Coaxial()!.Insertion;
             SimulationParameters next = With(parameters, 1, 20.0, 7);
             next.Scene.Catheters[0].Material.YoungsModulus *= 2.0;
+            next.Scene.Catheters[0].FrictionCoefficient = 0.1;    // where no instrument had any before
             Simulation other = run.Continue(next);
             Assert.That(other.Coaxial()!.Positions, Has.Length.EqualTo(run.Coaxial()!.Positions.Length + 7));
             Assert.That((other.Time, other.Coaxial()!.Insertion), Is.EqualTo((run.Time, insertion)));
@@ -86,6 +87,9 @@ namespace Guidewire.Core.Tests
             run = Withdrawn(1, out parameters);
             Refused(run, With(parameters, 1, -90.0, 2),
                 "the wire is 66 mm too short for this exchange: the hub of the catheter would be behind its own");
+            SimulationParameters more = With(parameters, 1, 0.0, 2);
+            more.Scene.Walls = parameters.Scene.Walls.Concat(WallScenes.Floor(-500.0)).ToArray();
+            Refused(run, more, "walls cannot come or go together with an instrument");
             parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
             run = Simulation.Create(parameters);
             Refused(run, With(parameters, 1, 0.0, 2), "the catheter cannot be exchanged: without a sheath there is "
