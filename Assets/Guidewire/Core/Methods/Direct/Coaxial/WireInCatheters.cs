@@ -132,8 +132,7 @@ namespace Guidewire.Core
         /// was.</summary>
         /// <param name="isOther">Which instruments were others, the outermost one first.</param>
         /// <exception cref="ArgumentException">One of them is in the vessel, or one does not fit the others;
-        /// other walls.
-        /// </exception>
+        /// other walls.</exception>
         public void GoOnFrom(WireInCatheters former, bool[] isOther)
         {
             if (Setup.Wire.Walls.Length != former.Setup.Wire.Walls.Length)
