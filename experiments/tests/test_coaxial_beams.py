@@ -17,7 +17,7 @@ IN_PLANE = 1e-6                    # of the length
 
 
 @pytest.mark.parametrize("seed", range(CASES))
-@pytest.mark.few(5)
+@pytest.mark.few(3)
 def test_rest_shapes_and_hub_forces_are_those_of_beams_and_bars(live, tmp_path, seed):
     """Where there are several rest shapes, with the one next to the solver's."""
     tubes, gravity = random_case(seed)

@@ -110,7 +110,7 @@ def turned_in_all(knots):
     pytest.param("guide-catheter", marks=pytest.mark.long("three instruments")),
 ])
 @pytest.mark.parametrize("tolerance", [1e-4, 1e-5])
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 def test_the_shape_is_as_exact_as_asked_though_tips_are_soft(run_scene, name, tolerance):
     exact, summary = run_scene(name, solverTolerance=1e-9)
     log, rough = run_scene(name, solverTolerance=tolerance)

@@ -54,7 +54,7 @@ def test_flat_caps_are_taken_off_and_nothing_else() -> None:
 
 
 @pytest.mark.parametrize("rise", [0.0, 1.5])
-@pytest.mark.few(1)
+@pytest.mark.long("flat caps are taken off by their faces alone, too")
 def test_caps_are_the_faces_that_a_file_numbers_flat_or_not(tmp_path: Path, rise: float) -> None:
     from vtkmodules.util.numpy_support import numpy_to_vtk
     from vtkmodules.vtkIOXML import vtkXMLPolyDataWriter

@@ -231,6 +231,7 @@ def test_a_remeshed_wall_is_open_where_it_was_at_a_rim_out_of_a_plane_too() -> N
         assert away.max() < 1.0  # mm: corners of the rim are 0.8 apart, a plane cuts 2.4 away
 
 
+@pytest.mark.long("crossing tubes are joined, and crossing walls named in the tests of double walls")
 def test_one_crossing_is_mended_in_its_place_and_the_wall_elsewhere_stays() -> None:
     """The kinked tube in many triangles: more than are taken out one by one. Elsewhere no vertex moves."""
     mesh = kinked(sides=80, rings=200)
@@ -245,7 +246,7 @@ def test_one_crossing_is_mended_in_its_place_and_the_wall_elsewhere_stays() -> N
     assert [rim.radius for rim in repaired.rims] == pytest.approx([3.0] * 2, rel=0.01)
 
 
-@pytest.mark.long("one crossing is mended in its place")
+@pytest.mark.long("crossing tubes are joined by a remesh")
 def test_two_crossings_far_apart_are_mended_where_they_are() -> None:
     once = kinked(sides=80, rings=200)
     once = Mesh(once.vertices + [0.0, 0.0, 20.0], once.triangles)  # its inlet in z = 0

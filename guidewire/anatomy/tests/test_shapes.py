@@ -101,7 +101,7 @@ def test_the_centreline_of_a_made_vessel_lies_on_its_axes(kind: str, number: int
 
 @pytest.mark.parametrize("kind, number", [("arch", 1), ("arch", 2), ("arch", 3), ("iliac", 1), ("siphon", 1),
                                           ("coronary", 1)])
-@pytest.mark.few(2)
+@pytest.mark.few(1)
 def test_branches_that_have_parted_are_not_joined_again(kind: str, number: int) -> None:
     """A ball of the edges' radius that touches two walls joins their lumens, so nearer walls are drawn anew."""
     for seed in range(1, 31):

@@ -32,9 +32,9 @@ whole = st.integers
 
 
 def examples(count: int) -> settings:
-    """Settings for half as many examples, seeded, or four times as many and unseeded."""
+    """Settings for a quarter as many examples, seeded, or four times as many and unseeded."""
     return settings(
-        max_examples=4 * count if FULL else -(-count // 2), derandomize=not FULL, deadline=None, database=None,
+        max_examples=4 * count if FULL else -(-count // 4), derandomize=not FULL, deadline=None, database=None,
         suppress_health_check=[HealthCheck.too_slow, HealthCheck.function_scoped_fixture,
                                HealthCheck.data_too_large],
     )

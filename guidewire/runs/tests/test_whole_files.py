@@ -137,6 +137,7 @@ def test_an_interrupted_command_says_what_is_true_of_it(capsys, command, said):
     assert capsys.readouterr().err == f"guidewire: {said}\n"
 
 
+@pytest.mark.long("runs and sweeps that are interrupted have tests of their own")
 def test_checks_that_are_interrupted_leave_no_trace_on_the_screen(tmp_path):
     script = Path(__file__).with_name("interrupted_check.py")
     done = subprocess.run([sys.executable, str(script), str(tmp_path)], capture_output=True, text=True, check=False,

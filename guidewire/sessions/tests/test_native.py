@@ -41,6 +41,7 @@ def pushed(native, calls, file=None, **scene):
     (None, {**TUBE, "maxSimulationSteps": 10**9}), (None, {**MATERIAL, **ENDLESS, "hand": True}),
     (ACCURATE, {**ENDLESS, "hand": True}), (ROOT / "params" / "sheath.json", {**ENDLESS, "hand": True}),
 ], ids=["pbd in a tube", "material", "mesh", "sheath"])
+@pytest.mark.few(2)
 def test_the_library_gives_the_runners_bits(file, scene):
     for one, other in zip(pushed(True, 30, file, **scene), pushed(False, 30, file, **scene), strict=True):
         (numbers, *texts), (others, *other_texts) = numbers_of(one), numbers_of(other)
@@ -49,6 +50,7 @@ def test_the_library_gives_the_runners_bits(file, scene):
 
 
 @pytest.mark.parametrize("file", [ACCURATE, ROOT / "params" / "sheath.json"], ids=["mesh", "sheath"])
+@pytest.mark.few(1)
 def test_states_that_are_kept_say_what_they_said_then_and_each_part_may_be_read_first(file):
     """Of a sheath too, where the wire out of it, and with it the arrays, grow."""
     kept, first = [], ("positions", "hub", "energy", "strain", "contact_forces")

@@ -139,6 +139,7 @@ def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner
     assert [float(most) for most in seen[4]] == pytest.approx([1.5 * shaft, 3 * tip])
 
 
+@pytest.mark.long("events and score stand in the test below, a report in the tests of the suite")
 def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_command, tmp_path):
     words = ("[...document.querySelectorAll('body *')].filter((one) => !one.children.length).map((one) =>"
              " `${one.textContent} ${one.title} ${one.getAttribute('aria-label') ?? ''}`).join(' ')")
