@@ -1,0 +1,60 @@
+"""The campaign of environments: claims that are wrong are found, hosts are compared by bits, and it goes on."""
+
+from dataclasses import replace
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+
+from experiments.campaigns.environment_campaign import ALONE, Record, judged, together
+from experiments.campaigns.environment_claims import Judge, Lumen, Way
+from guidewire.env import Environment
+from guidewire.env.task import find_task
+
+
+@pytest.fixture(scope="module")
+def task():
+    """Three steps of two hubs."""
+    whole = find_task("microcatheter")
+    return replace(whole, anatomies=whole.anatomies[:1], time=0.42)
+
+
+def test_claims_are_judged_from_the_states_and_hosts_by_their_bits(task):
+    with Environment(task) as own:
+        found = judged(own, 3)
+        assert (found["end"], found["steps"], found["faults"]) == ("time", 3, [])
+        assert together(task, [3, 4], "threads", native=False)[0] == found["digest"]
+        observation, info = own.reset(seed=3)
+        judge = Judge(own, observation, info["draw"])
+        observation, reward, terminated, truncated, info = own.step([1.0, 0.0, 0.5, 0.0])
+        judge.see(observation, reward, False, {"force": info["force"] + 1e-6})
+        report = own.report.as_info() | {"end": "target", "success": True, "impulse": 1.0}
+        judge.verdict(True, True, report)
+        for wrong in ("of a step, seen", "terminated True, truncated True", "impulse 1 in the report",
+                      "success, and the tips are not"):
+            assert sum(wrong in fault for fault in judge.faults) == 1, judge.faults
+        assert len(judge.faults) == 4
+
+        way = Way(own, own.recorded().options)
+        assert way.is_within(own.target_position, task.tolerance, is_sure=True)
+        lumen, state = Lumen(own, way), own.session_state
+        lengths = np.linalg.norm(np.diff(state.positions, axis=0), axis=1)
+        assert lumen.faults(state, lengths) == []
+        aside = np.zeros_like(state.positions)
+        aside[-1] = 40.0, 0.0, 0.0
+        for moved, wrong in ((aside, "an element crosses the wall"),
+                             (aside[-1], "nodes are outside and went through no rim")):
+            assert lumen.faults(SimpleNamespace(positions=state.positions + moved, catheters=[]), lengths) == [wrong]
+
+
+def test_a_record_goes_on_where_it_was_ended_and_counts_other_bits_as_faults(tmp_path):
+    record = Record(tmp_path / "record.jsonl")
+    for seed in (1, 2):
+        record.add("a", seed, ALONE, end="time", reason="", steps=5, digest=str(seed), faults=[])
+    record.add("a", 1, "threads", digest="1")
+    again = Record(tmp_path / "record.jsonl")
+    assert again.lacks("a", [1, 2, 3], ALONE) == [3] and again.lacks("a", [1, 2], "threads") == [2]
+    assert again.lines("a") == (["a: 2 episodes of 10 steps (2 time); 1 with threads; 0 faults"], 0)
+    again.add("a", 2, "threads", digest="1")
+    again.add("a", 3000, "resets", grown=99.0)
+    assert again.lines("a")[1] == 2
