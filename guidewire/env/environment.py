@@ -13,7 +13,7 @@ import numpy as np
 from guidewire.env.draws import Draw, draw_of, with_options
 from guidewire.env.drive import Drive, DriveState
 from guidewire.env.episode import SAFE_FORCE, Part, Report
-from guidewire.env.instruments import instruments_of, names_of, of_each
+from guidewire.env.instruments import Instrument, instruments_of, names_of, of_each
 from guidewire.env.loaded import LoadedScene, LoadedScenes
 from guidewire.env.observation import Observation, Observer
 from guidewire.env.options import need_number
@@ -135,7 +135,7 @@ class Environment(Env):
     @property
     def session_state(self) -> State:
         """The instruments as they are now."""
-        return self._state
+        return self.session.state
 
     @property
     def scene(self) -> Mapping[str, Any]:
@@ -188,14 +188,15 @@ class Environment(Env):
             own, bits = _unpacked(saved, self.task.name)
             draw = with_options(self.task, drawn, own)
             self._scene, loaded = self._scenes.find(draw)
-            self._state = self.session.restore(bits)
+            self.session.restore(bits)
         else:
             self._scene, loaded = self._scenes.find(draw)
-            self._state = self._scene.start(draw.tip_turn, draw.insertion)
+            self._scene.start(draw.tip_turn, draw.insertion)
         if self._scene.hubs != self.hubs:
             raise Error(f"the scene of {self.task.anatomies[draw.anatomy]} has {self._scene.hubs} instruments, the "
                         f"task's first one {self.hubs}")
         self._route = self._scene.route(self.task.targets[draw.target])
+        self._instruments = instruments_of(self.session_state)
         self._places = self._found()
         self._first = max(sum(self._remaining()), 1e-9)
         steps = self.drive.step_time / self._scene.time_step
@@ -226,7 +227,7 @@ class Environment(Env):
         command = self.drive.command(action, self.hubs)
         self._observer.action[:] = [number for pair in command for number in pair]
         pushes, turns = [], []
-        for (insertion, turn), one in zip(self._drive.motion(command, self.np_random), instruments_of(self._state)):
+        for (insertion, turn), one in zip(self._drive.motion(command, self.np_random), self._instruments):
             now = one.hub.insertion
             within = min(max(insertion, -max(now, 0.0)), max(self._scene.longest - now, 0.0))
             pushes.append(within / self._scene.unit)
@@ -256,7 +257,7 @@ class Environment(Env):
         if self._origin is None:
             raise Error("an episode from a snapshot is not recorded: its beginning is not known")
         options = dict(self._origin)
-        return RecordedDrive(self.task.name, options, list(self._calls), digest_of(self._state), source)
+        return RecordedDrive(self.task.name, options, list(self._calls), digest_of(self.session_state), source)
 
     def replay(self, drive: RecordedDrive) -> Report:
         """Do again what was recorded, as far as the episode's end; its report.
@@ -270,13 +271,13 @@ class Environment(Env):
         self.reset(options=drive.options)
         for push, turn, steps in drive.calls:
             if self._report.end:    # what came after it only decides the bits
-                self._state = self.session.step(push, turn, steps)
+                self.session.step(push, turn, steps)
             else:
                 pushes, turns = of_each(push, 1), of_each(turn, 1)
                 if len(pushes) != self.hubs or len(turns) != self.hubs:
                     raise Error(f"this drive is of {len(pushes)} hubs, not of {self.hubs}")
                 self._move(pushes, turns, steps)
-        if digest_of(self._state) != drive.digest:
+        if digest_of(self.session_state) != drive.digest:
             raise Error("the wire at the end is not bit for bit the recorded one")
         return self._report
 
@@ -293,7 +294,7 @@ class Environment(Env):
             return None
         if self._scenery is None or self._scenery[0] is not self._route:
             self._scenery = self._route, Scenery(self.session, self.target_position)
-        picture = self._scenery[1].picture(self._state)
+        picture = self._scenery[1].picture(self.session_state)
         if self.render_mode == "rgb_array":
             return picture
         self._window = self._window or Window(f"guidewire: {self.task.name}")
@@ -316,11 +317,9 @@ class Environment(Env):
         motion = [one / steps for one in pushes], [one / steps for one in turns]
         try:
             for _ in range(steps):
-                if self._state.outcome is not None:
+                if self.session_state.outcome is not None:
                     break
-                last = self._state
-                self._state = self.session.step(*motion)
-                forces = list(map(max, forces, report.add(last, self._state)))
+                forces = list(map(max, forces, report.add(*self._stepped(*motion))))
         except SessionError as error:
             self._is_running = False
             if self.session.is_open:
@@ -340,7 +339,7 @@ class Environment(Env):
             info["instruments"] = {name: {"force": force, "left": part.left} for name, force, part in
                                    zip(names_of(self.hubs), forces, report.parts)}
         if end:
-            report.end, report.reason, report.success = end, self._state.reason, end == "target"
+            report.end, report.reason, report.success = end, self.session_state.reason, end == "target"
             info["report"] = report.as_info()
             self._is_running = False
         if self.render_mode == "human":
@@ -348,8 +347,16 @@ class Environment(Env):
         terminated = end in ("target", "force", LEFT)
         return self._seen(), float(earned), terminated, bool(end) and not terminated, info
 
+    def _stepped(self, pushes: list[float], turns: list[float]
+                 ) -> tuple[float, list[Instrument], list[Instrument]]:
+        """Make a time step; returns its duration, s, and the instruments before and after it. No state is kept: all
+        of one that is would be read off."""
+        before, began = self._instruments, self.session_state.time
+        self._instruments = instruments_of(self.session.step(pushes, turns))
+        return self.session_state.time - began, before, self._instruments
+
     def _end(self, force: float, has_left: bool) -> str:
-        if self._state.outcome is not None:
+        if self.session_state.outcome is not None:
             return "simulation"
         if self.ends_unsafe and force > self.safe_force:
             return "force"
@@ -363,13 +370,13 @@ class Environment(Env):
         """Find of each instrument the centreline's point that it has come to within the vessel, and the distance
         left."""
         return [self._route.place(one.positions[-1] if one.place is None else one.place.point)
-                for one in instruments_of(self._state)]
+                for one in self._instruments]
 
     def _has_left(self) -> bool:
         """Whether a tip is out of the vessel beyond an end that is not its inlet."""
         # What is behind the inlet, in a sheath, has no way behind it.
         return any(self._route.has_left(one.positions[-1]) if one.place is None
-                   else not one.place.is_inside and one.place.distance > 0.0 for one in instruments_of(self._state))
+                   else not one.place.is_inside and one.place.distance > 0.0 for one in self._instruments)
 
     def _remaining(self) -> list[float]:
         """Return of the wire the distance to the target, of the catheters by how much they are not near enough,
@@ -379,7 +386,7 @@ class Environment(Env):
                                       for within, (_, left) in zip(follow, self._places[1:]))]
 
     def _seen(self) -> Any:
-        return self._observer.of(self._state, self._places)
+        return self._observer.of(self.session_state, self._instruments, self._places)
 
     def _check_open(self) -> None:
         if self._is_closed:

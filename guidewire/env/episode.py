@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
-from guidewire.env.instruments import instruments_of, names_of
-from guidewire.sessions.session import State
+from guidewire.env.instruments import Instrument, names_of
 
 # Largest force of a wall on one sphere of an instrument that counts as safe, N: the "proposed 1.5 N vessel rupture
 # threshold" with which two abstracts compare mean forces at the tip: 0.24 N in Robertshaw et al., "Reinforcement
@@ -109,10 +109,10 @@ class Report:
         """Whether the target was reached with no larger force on the way."""
         return self.success and self.largest_force <= self.safe_force
 
-    def add(self, before: State, after: State) -> list[float]:
-        """Take in a time step, from the instruments before and after it; returns the largest force on each, N."""
-        dt, most = after.time - before.time, []
-        for part, one, other in zip(self.parts, instruments_of(before), instruments_of(after)):
+    def add(self, dt: float, before: Sequence[Instrument], after: Sequence[Instrument]) -> list[float]:
+        """Take in a time step, s, from the instruments before and after it; returns the largest force on each, N."""
+        most = []
+        for part, one, other in zip(self.parts, before, after):
             forces = np.sqrt(np.einsum("ij,ij->i", other.contact_forces, other.contact_forces))
             largest = float(forces.max())
             most.append(largest)

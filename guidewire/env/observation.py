@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.env.instruments import Instrument, instruments_of
+from guidewire.env.instruments import Instrument
 from guidewire.env.options import need_count, need_number
 from guidewire.env.picture import Picture, PictureState
 from guidewire.env.route import Route
@@ -148,19 +148,19 @@ class Observer:
         self._pictures = (PictureState(observation.image, seed).of if isinstance(observation.image, Picture)
                           else observation.image)
 
-    def of(self, state: State, places: Sequence[tuple[int, float]]) -> Any:
+    def of(self, state: State, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> Any:
         """The observation of a state.
 
         Parameters
         ----------
+        instruments : of this state.
         places : of the tips, as Route.place gives them.
         """
-        instruments = instruments_of(state)
         seen = {}
         for part in self._observation.parts:
             if part == "image":
                 continue
-            value = np.asarray(self._part(part, state, instruments, places), dtype=float)
+            value = np.asarray(self._part(part, instruments, places), dtype=float)
             seen[part] = self._normalised(part, value) if self._observation.normalised else value
         self._past.extend([seen] * (1 if self._past else self._observation.history))
         if self._observation.flat:
@@ -179,17 +179,17 @@ class Observer:
             value = value - self._route.points[self._route.target] @ self._screen
         return np.clip(value / self._ranges[part], -1.0, 1.0)
 
-    def _part(self, part: str, state: State, instruments: Sequence[Instrument],
-              places: Sequence[tuple[int, float]]) -> Any:
-        tip = state.positions[-1]
+    def _part(self, part: str, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> Any:
+        wire, *catheters = instruments
+        tip = wire.positions[-1]
         if part == "target":
             return self._route.points[self._route.target] - tip
         if part == "ahead":
-            heading = _in_frame(state.orientations[-1],
+            heading = _in_frame(wire.orientations[-1],
                                 self._route.ahead(places[0][0], self._observation.lookahead) - tip)
             return _within_one(heading / max(math.hypot(*heading.tolist()), 1e-12))
         if part == "overlap":
-            return [(one.extension / self._unit, one.overlap / self._unit) for one in state.catheters]
+            return [(one.hub.extension / self._unit, one.hub.overlap / self._unit) for one in catheters]
         if part == "action":
             return self.action
         if part == "distance":
