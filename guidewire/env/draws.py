@@ -12,10 +12,9 @@ import numpy as np
 
 from guidewire.env.randomisation import drawn_from, is_choice, middle_of
 from guidewire.env.spaces import Error
-from guidewire.env.task import Task
+from guidewire.env.task import LEAST_AND_MOST, Task, check_instruments
 
 _OPTIONS = ("nominal", "anatomy", "target", "instrument", "friction", "tip_turn", "insertion", "snapshot")
-_LEAST_AND_MOST = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.0, 10.0)}
 
 
 @dataclass(frozen=True)
@@ -47,7 +46,7 @@ def draw_of(task: Task, random: np.random.Generator) -> Draw:
     """An episode of a task by chance."""
     anatomy, target, instrument, friction, turn = (int(random.integers(max(n, 1))) for n in (
         len(task.anatomies), len(task.targets), len(task.instruments), len(task.frictions), task.tip_turns))
-    values = {name: drawn_from(given, random) for name, given in task.random.items()}
+    values = _checked(task, "random", {name: drawn_from(given, random) for name, given in task.random.items()})
     return _with_values(Draw(anatomy, target, task.instruments[instrument] if task.instruments else None,
                              float(task.frictions[friction]), _turn(turn, task.tip_turns), task.insertion), values)
 
@@ -59,6 +58,8 @@ def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:
     ------
     Error : there is no such option, or its value is not allowed.
     """
+    if not isinstance(options, Mapping):
+        raise Error(f"options = {options!r} are not allowed: needs a dict")
     options = dict(options)
     allowed = dict.fromkeys((*_OPTIONS, *task.random))
     for key in options:
@@ -67,7 +68,10 @@ def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:
     if options.get("snapshot") is not None and len(options) > 1:
         raise Error("option \"snapshot\" stands alone")
     options.pop("snapshot", None)
-    if options.pop("nominal", False):
+    nominal = options.pop("nominal", False)
+    if not isinstance(nominal, (bool, np.bool_)):
+        raise Error(f"option \"nominal\" = {nominal!r} is not allowed: needs True or False")
+    if nominal:
         first = Draw(0, 0, task.instruments[0] if task.instruments else None, float(task.frictions[0]), 0.0,
                      task.insertion)
         drawn = _with_values(first, {name: middle_of(given) for name, given in task.random.items()})
@@ -77,16 +81,18 @@ def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:
             if not isinstance(value, Integral) or isinstance(value, bool) or not 0 <= value < count:
                 raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a whole number below {count}")
             options[key] = int(value)
-    names = options.get("instrument")
-    listed = names if isinstance(names, (list, tuple)) else [names]
-    if not all(one is None or isinstance(one, str) for one in listed) or not listed:
-        raise Error(f"option \"instrument\" = {names!r} is not allowed: needs a name, or a list of names")
+    check_instruments("option \"instrument\" =", options.get("instrument"))
+    options = _checked(task, "option", options)
     for key in options:
-        if key in _LEAST_AND_MOST:
-            options[key] = _numbers(key, options[key], *_LEAST_AND_MOST[key], task.hubs if key == "insertion" else 0)
-        elif key in task.random and not is_choice(task.random[key], options[key]):
+        if key in task.random and key not in LEAST_AND_MOST and not is_choice(task.random[key], options[key]):
             options[key] = _finite(key, options[key])
     return _with_values(drawn, options)
+
+
+def _checked(task: Task, source: str, values: Mapping[str, Any]) -> dict[str, Any]:
+    """Return values with those as numbers that have to be some."""
+    return {key: _numbers(f"{source} \"{key}\"", value, *LEAST_AND_MOST[key], task.hubs if key == "insertion" else 0)
+            if key in LEAST_AND_MOST else value for key, value in values.items()}
 
 
 def _with_values(draw: Draw, values: Mapping[str, Any]) -> Draw:
@@ -95,13 +101,13 @@ def _with_values(draw: Draw, values: Mapping[str, Any]) -> Draw:
     return replace(draw, **own, random={**draw.random, **rest})
 
 
-def _numbers(key: str, value: Any, least: float, most: float, hubs: int) -> Any:
-    if hubs > 1 and isinstance(value, (list, tuple)) and len(value) == hubs:
-        return [_numbers(key, one, least, most, 0) for one in value]
+def _numbers(name: str, value: Any, least: float, most: float, hubs: int) -> Any:
+    if hubs > 0 and isinstance(value, (list, tuple, np.ndarray)) and len(value) == hubs:
+        return [_numbers(name, one, least, most, 0) for one in value]
     is_number = isinstance(value, Real) and not isinstance(value, bool)
     if not is_number or not least <= value <= most:
         of_all = f", or {hubs} of them" if hubs > 1 else ""
-        raise Error(f"option \"{key}\" = {value!r} is not allowed: needs a number from {least:g} to {most:g}{of_all}")
+        raise Error(f"{name} = {value!r} is not allowed: needs a number from {least:g} to {most:g}{of_all}")
     return float(value)
 
 

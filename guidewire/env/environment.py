@@ -119,6 +119,8 @@ class Environment(Env):
         self.safe_force, self.ends_unsafe = safe_force, ends_unsafe
         self.hubs = self.task.hubs
         drive.check(self.hubs)
+        if drive.step_time > self.task.time + 1e-9:
+            raise Error(f"step_time = {drive.step_time:g} is not allowed: an episode takes {self.task.time:g} s")
         reward.check(self.hubs)
         self.action_space, self.observation_space = drive.space(self.hubs), observation.space(self.hubs)
         self._scenes = LoadedScenes(self.task, native)

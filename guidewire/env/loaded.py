@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from guidewire.env.draws import Draw
-from guidewire.env.instruments import of_each
+from guidewire.env.instruments import instruments_of, names_of, of_each
 from guidewire.env.reshaping import reshaped
 from guidewire.env.route import Placement, Route
 from guidewire.env.spaces import Error
@@ -22,6 +22,7 @@ from guidewire.sessions.session import Session, State
 _SESSIONS, _STARTS = 6, 64  # kept open, and snapshots kept of each
 _LARGEST_TURN = np.radians(20.0)  # a step of what turns the tip before an episode
 _LARGEST_PUSH = 2.0e-3  # m, a step of what inserts before an episode
+_SHORT = 1e-3  # m, by which a hub may come less far before an episode than was asked
 _TRIED = (1, 2, 4, 8)  # parts of such a step
 ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
 
@@ -76,6 +77,9 @@ class LoadedScene:
         key = (tip_turn, *insertions)
         if not any(key):
             return self.session.reset()
+        if max(insertions) > self.longest:
+            raise Error(f"insertion = {max(insertions):g} is not allowed: this wire can be inserted by at most "
+                        f"{self.longest:.4g} m")
         if key in self._starts:
             self._starts.move_to_end(key)
             return self.session.restore(self._starts[key])
@@ -85,6 +89,10 @@ class LoadedScene:
                 break
         else:
             raise Error(f"the wire does not come to its start: {state.outcome}: {state.reason}")
+        for name, one, asked in zip(names_of(self.hubs), instruments_of(state), insertions):
+            if abs(one.hub.insertion - asked) > _SHORT:
+                raise Error(f"insertion = {insertions} is not allowed: the hub of the {name} stops at "
+                            f"{one.hub.insertion:.4g} m")
         self._starts[key] = self.session.save()
         if len(self._starts) > _STARTS:
             self._starts.popitem(last=False)

@@ -57,6 +57,18 @@ def drawn_from(given: Any, random: np.random.Generator) -> Any:
     return value
 
 
+def bounds_of(given: Any) -> tuple[float, float]:
+    """Return the least and the largest number that a distribution draws; (nan, nan) where it draws others."""
+    kind, numbers, within = _parts(given)
+    if kind == "normal":
+        return tuple(within or (-math.inf, math.inf))
+    if kind == "vector":
+        numbers = [one for axis in numbers for one in bounds_of(axis)]
+    elif kind == "choice":
+        numbers = [one for each in numbers for one in (each if isinstance(each, (list, tuple)) else [each])]
+    return (min(numbers), max(numbers)) if all(map(_is_number, numbers)) else (math.nan, math.nan)
+
+
 def is_choice(given: Any, value: Any) -> bool:
     """Whether a value is one of those that a distribution lists, whatever kind of value these are."""
     kind, numbers, _ = _parts(given)

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import difflib
 import json
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cache, cached_property
@@ -11,7 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from guidewire.env.instruments import of_each
-from guidewire.env.randomisation import check_distribution
+from guidewire.env.randomisation import bounds_of, check_distribution
 from guidewire.env.spaces import Error, NameNotFound
 from guidewire.env.vessels import made_vessel
 from guidewire.json_text import problem_of, without_notes
@@ -28,6 +29,10 @@ _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments",
          "insertion", "time", "tolerance", "speed", "rotation", "follow", "random", "baseline"}
 # Of what `random` draws, what is no parameter of the scene by itself.
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
+# What a task, its `random` or an option may say.
+LEAST_AND_MOST = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.0, 10.0), "noise": (0.0, 10.0),
+                  "stiffness": (1e-3, 1e3)}
+_BY_LISTS = ("anatomy", "target", "instrument", "nominal", "snapshot")  # options that no distribution draws
 _EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
 BASELINES = ("", "retry", "follow", "lead")
 _STIFF = ("youngsModulus", "shearModulus")
@@ -88,7 +93,7 @@ class Task:
         if given is None:
             which = self.anatomies[0]
             file = self.scene or (None if isinstance(which, Mapping) else Path(which).with_name("scene.json"))
-            given = _read(Path(file)).get("catheters") if file else None
+            given = _scene(Path(file)).get("catheters") if file else None
         return 1 + len(given or ())
 
     def scene_of(self, draw: Draw) -> tuple[dict[str, Any], Mapping[str, Any]]:
@@ -107,7 +112,10 @@ class Task:
         folder = made_vessel(which) if isinstance(which, Mapping) else None
         file = folder / "anatomy.json" if folder else Path(which)
         scene_file = Path(self.scene) if self.scene else file.with_name("scene.json")
-        scene = {**_read(scene_file), **self.overrides}
+        scene = {**_scene(scene_file), **self.overrides}
+        if not isinstance(scene.get("vessel"), Mapping):
+            raise Error(f"{scene_file}: vessel = {json.dumps(scene.get('vessel'))} is not allowed: a task needs an "
+                        "object")
         vessel = {**scene["vessel"], "frictionCoefficient": draw.friction}
         for key in ("file", "anatomy"):
             if key in vessel:
@@ -130,7 +138,10 @@ class Task:
         drawn = {key: value for key, value in draw.random.items() if key not in _DRAWN}
         if isinstance(drawn.get("scale"), (int, float)):
             drawn["scale"] = [drawn["scale"]] * 3
-        return scene | drawn, _read(file)
+        anatomy = _read(file)
+        if not isinstance(anatomy, Mapping) or not {"metresPerUnit", "ends", "centreline"} <= set(anatomy):
+            raise Error(f"{file}: no anatomy: '{DOOR} anatomy FILE' writes one")
+        return scene | drawn, anatomy
 
 
 @cache
@@ -163,13 +174,15 @@ def find_task(task: str | Path | Task) -> Task:
         raise Error(f"{path}: a task is one JSON object")
     if "vessel" not in entry:
         return _task(path.stem, entry, path)
-    if not isinstance(entry["vessel"], dict) or "anatomy" not in entry["vessel"] or "target" not in entry:
+    if not isinstance(entry["vessel"], dict) or not isinstance(entry["vessel"].get("anatomy"), str) or (
+            "target" not in entry):
         raise Error(f"{path}: a task needs vessel.anatomy and target: '{DOOR} anatomy FILE' writes such a scene")
     time_step, steps = (_number(entry, key, 1e-9, 1e9, path) for key in ("timeStep", "maxSimulationSteps"))
     return Task(path.stem, f"{path.name} to end {entry['target']}", str(path),
                 overrides={"timeStep": _STEP / max(1, round(_STEP / time_step))},
                 anatomies=(str(path.parent / entry["vessel"]["anatomy"]),), targets=(entry["target"],),
-                frictions=(float(entry["vessel"].get("frictionCoefficient", 0.0)),),
+                frictions=(float(_number({"frictionCoefficient": 0.0, **entry["vessel"]}, "frictionCoefficient",
+                                         *LEAST_AND_MOST["friction"], path)),),
                 time=2.0 * steps * time_step + 10.0)
 
 
@@ -177,8 +190,9 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     unknown = set(entry) - _KEYS
     if unknown:
         raise Error(f"{file}: task {name} has no key \"{sorted(unknown)[0]}\": there are {', '.join(sorted(_KEYS))}")
-    if not isinstance(entry.get("overrides", {}), dict) or not isinstance(entry.get("scene", ""), str):
-        raise Error(f"{file}: task {name}: overrides is an object and scene a text")
+    if not isinstance(entry.get("overrides", {}), dict) or not all(
+            isinstance(entry.get(key, ""), str) for key in ("scene", "summary")):
+        raise Error(f"{file}: task {name}: overrides is an object, scene and summary are texts")
     catheters = entry.get("overrides", {}).get("catheters") or []
     if not isinstance(catheters, list) or not all(isinstance(one, dict) for one in catheters):
         raise Error(f"{file}: task {name}: overrides: catheters = {json.dumps(catheters)} is not allowed: needs a list "
@@ -190,21 +204,33 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         raise Error(f"{file}: task {name}: random = {json.dumps(entry['random'])} is not allowed: needs an object")
     for key, distribution in entry.get("random", {}).items():
         try:
+            if key in _BY_LISTS:
+                raise Error(f"random \"{key}\" is not allowed: the task's lists say what is drawn")
             check_distribution(key, distribution)
+            least, most = LEAST_AND_MOST.get(key, (-math.inf, math.inf))
+            low, high = bounds_of(distribution)
+            if key in LEAST_AND_MOST and not least <= low <= high <= most:
+                raise Error(f"random \"{key}\" = {json.dumps(distribution)} is not allowed: needs numbers from "
+                            f"{least:g} to {most:g}")
         except Error as error:
             raise Error(f"{file}: task {name}: {error}") from error
     for key in ("anatomies", "targets", "instruments", "frictions"):
         if not isinstance(entry.get(key, []), list):
             raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
-    for key, least in (("time", 1e-6), ("tolerance", 1e-9), ("speed", 1e-9), ("rotation", 1e-9), ("insertion", 0.0),
-                       ("tipTurns", 1)):
+    for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("speed", 1e-9, 1e9),
+                             ("rotation", 1e-9, 1e9), ("insertion", *LEAST_AND_MOST["insertion"])):
         given = [entry[key]] if key in entry else []
         for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
-            _number({key: one}, key, least, 1e9, file)
+            _number({key: one}, key, least, most, file)
+    turns = entry.get("tipTurns", 1)
+    if type(turns) is not int or not 1 <= turns <= 10**9:
+        raise Error(f"{file}: task {name}: tipTurns = {json.dumps(turns)} is not allowed: needs a whole number from 1")
+    for one in entry.get("instruments", []):
+        check_instruments(f"{file}: task {name}: instruments:", one)
     if entry.get("frictions") == []:
         raise Error(f"{file}: task {name}: frictions = [] is not allowed: needs numbers, or leave it out")
     for one in entry.get("frictions", []):
-        _number({"frictions": one}, "frictions", 0.0, 1e9, file)
+        _number({"frictions": one}, "frictions", *LEAST_AND_MOST["friction"], file)
     for one in of_each(entry.get("follow"), 1):
         if one is not None:
             _number({"follow": one}, "follow", 0.0, 1e9, file)
@@ -221,6 +247,13 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         if isinstance(value, list) and len(value) != count:
             raise Error(f"{file}: task {name}: {key} = {json.dumps(value)} is not allowed: needs a number, or {count}")
     return task
+
+
+def check_instruments(label: str, names: Any) -> None:
+    """Raises Error where they are no name, or list of names, with None for what the scene has."""
+    listed = names if isinstance(names, (list, tuple)) else [names]
+    if not listed or not all(one is None or isinstance(one, str) and one for one in listed):
+        raise Error(f"{label} {json.dumps(names, default=str)} is not allowed: needs a name, or a list of names")
 
 
 def _stiffer(scene: Mapping[str, Any], factor: float) -> dict[str, Any]:
@@ -240,7 +273,7 @@ def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:
     if isinstance(anatomy, str):
         return [_beside(file, anatomy)]
     if not isinstance(anatomy, dict):
-        return [anatomy]
+        raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: needs files, or vessels to be made")
     seeds = anatomy.get("seeds", [anatomy.get("seed")])
     is_list = isinstance(seeds, list) and seeds and all(type(seed) is int and seed >= 0 for seed in seeds)
     if not is_list or "seeds" in anatomy and "seed" in anatomy or not {"make", "inlet", "target"} <= set(anatomy):
@@ -260,6 +293,13 @@ def _number(entry: Mapping[str, Any], key: str, least: float, most: float, file:
     if isinstance(value, bool) or not isinstance(value, (int, float)) or not least <= value <= most:
         raise Error(f"{file}: {key} = {json.dumps(value)} is not allowed: needs a number from {least:g} to {most:g}")
     return value
+
+
+def _scene(file: Path) -> dict[str, Any]:
+    scene = _read(file)
+    if not isinstance(scene, dict):
+        raise Error(f"{file}: a scene is one JSON object")
+    return scene
 
 
 def _read(file: Path) -> Any:

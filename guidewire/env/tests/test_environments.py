@@ -198,13 +198,19 @@ def test_what_is_asked_wrongly_is_refused_as_gymnasium_refuses(environment, tube
     assert before == 0    # refused before anything moved
     for options in ({"nonsense": 1}, {"target": 2}, {"target": 1.0}, {"target": True}, {"anatomy": 0.0},
                     {"friction": -0.1}, {"friction": np.nan}, {"tip_turn": "half"},
-                    {"snapshot": b"nothing"}, {"insertion": -1e-3}):
+                    {"snapshot": b"nothing"}, {"insertion": -1e-3}, {"insertion": 9.0}, {"nominal": "yes"},
+                    {"instrument": ""}, [("friction", 0.1)], "friction"):
         with pytest.raises(Error) as refused:
             environment.reset(options=options)
         assert "\n" not in str(refused.value)
     with pytest.raises((Error, ValueError)):
         environment.reset(seed=-1)
     with pytest.raises(Error, match="multiple"), Environment(tube, drive=Drive(step_time=0.1)) as wrong:
+        wrong.reset()
+    with pytest.raises(Error, match="an episode takes 2.8 s"):
+        Environment(tube, drive=Drive(step_time=7.0))
+    noisy = replace(tube, random={"noise": {"vector": [[0.0, 0.1]]}})
+    with pytest.raises(Error, match="random \"noise\" = .* needs a number from 0 to 10"), Environment(noisy) as wrong:
         wrong.reset()
     with pytest.raises(Error, match="observation part"):
         Observation(parts=("tips",))
@@ -215,7 +221,12 @@ def test_what_is_asked_wrongly_is_refused_as_gymnasium_refuses(environment, tube
         find_task(tmp_path / "task.json")
     for wrong in ('[1]', '{"anatomies": "a", "targets": [1]}', '{"anatomies": ["a"], "targets": [1], "time": "long"}',
                   '{"anatomies": ["a"], "targets": [1], "tipTurns": 0}', '{"vessel": {"anatomy": "a"}, "target": 1}',
-                  '{"anatomies": ["nowhere.json"], "targets": [1], "scene": "params/sheath.json"}', '{'):
+                  '{"anatomies": ["nowhere.json"], "targets": [1], "scene": "params/sheath.json"}', '{',
+                  '{"anatomies": ["task.json"], "targets": [1], "scene": "task.json"}',
+                  '{"anatomies": ["task.json"], "targets": [1], "scene": "guidewire/env/data/artery.json"}',
+                  '{"anatomies": ["task.json"], "targets": [1], "scene": "params/sheath.json"}',
+                  '{"vessel": {"anatomy": "a", "frictionCoefficient": "a"}, "target": 1, "timeStep": 0.1, '
+                  '"maxSimulationSteps": 9}'):
         (tmp_path / "task.json").write_text(wrong)
         with pytest.raises(Error) as refused, Environment(tmp_path / "task.json") as own:
             own.reset()

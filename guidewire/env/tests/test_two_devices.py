@@ -325,6 +325,16 @@ def test_a_report_says_what_the_hubs_did_and_not_what_was_asked_for(pair):
     ("frictions", [-0.1], "frictions = -0.1 is not allowed"),
     ("overrides", {"catheters": {"start": 4.0}}, 'catheters = {"start": 4.0} is not allowed: needs a list of objects'),
     ("overrides", {"catheters": [3]}, "catheters = [3] is not allowed: needs a list of objects"),
+    ("anatomies", [5], "anatomies has 5: needs files, or vessels to be made"),
+    ("instruments", [[]], "instruments: [] is not allowed: needs a name"),
+    ("instruments", ["workhorse-0.014", 5], "instruments: 5 is not allowed: needs a name"),
+    ("tipTurns", 1.5, "tipTurns = 1.5 is not allowed: needs a whole number"),
+    ("frictions", [11], "frictions = 11 is not allowed: needs a number from 0 to 10"),
+    ("insertion", 11.0, "insertion = 11.0 is not allowed: needs a number from 0 to 10"),
+    ("random", {"friction": [-0.1, 0.1]}, 'random "friction" = [-0.1, 0.1] is not allowed: needs numbers from 0'),
+    ("random", {"noise": {"normal": [0.1, 0.1]}}, "needs numbers from 0 to 10"),
+    ("random", {"stiffness": {"choice": ["soft"]}}, "needs numbers from 0.001 to 1000"),
+    ("random", {"target": [0, 1]}, 'random "target" is not allowed: the task\'s lists say'),
 ))
 def test_wrong_lists_of_a_tasks_file_are_one_line_that_names_the_file(key, value, problem, tmp_path):
     file = tmp_path / "own.json"
