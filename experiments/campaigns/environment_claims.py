@@ -10,6 +10,7 @@ import hashlib
 import json
 import math
 from collections.abc import Mapping
+from functools import lru_cache
 from pathlib import Path
 from typing import Any
 
@@ -87,9 +88,7 @@ class Lumen:
 
     def __init__(self, environment: Environment, way: Way) -> None:
         surface = environment.session.walls()[0]
-        wall = Wall.of(surface.vertices, surface.triangles)
-        self.open, self.closed = MeshSearch(wall.triangles), wall.closed
-        self.rims = MeshSearch(wall.fans) if len(wall.fans) else None
+        self.open, self.closed, self.rims = _searches(surface.vertices.tobytes(), surface.triangles.tobytes())
         given = environment.session.parameters
         if given["inlet"] is None:
             self.exit, self.along = np.array(given["sheath"]["exit"]), np.array([0.0, 0.0, 1.0])
@@ -220,6 +219,13 @@ def add_bits(into: Any, parts: list[np.ndarray], reward: float) -> None:
     for part in parts:
         into.update(np.ascontiguousarray(part).tobytes())
     into.update(np.float64(reward).tobytes())
+
+
+@lru_cache(maxsize=6)
+def _searches(vertices: bytes, triangles: bytes) -> tuple[MeshSearch, MeshSearch, MeshSearch | None]:
+    """Searches of a wall, of the same with its rims closed, and of these."""
+    wall = Wall.of(np.frombuffer(vertices).reshape(-1, 3), np.frombuffer(triangles, dtype=int).reshape(-1, 3))
+    return MeshSearch(wall.triangles), wall.closed, MeshSearch(wall.fans) if len(wall.fans) else None
 
 
 def _each(state: State) -> list[Any]:
