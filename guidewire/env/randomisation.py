@@ -61,7 +61,7 @@ def bounds_of(given: Any) -> tuple[float, float]:
     """Return the least and the largest number that a distribution draws; (nan, nan) where it draws others."""
     kind, numbers, within = _parts(given)
     if kind == "normal":
-        return tuple(within or (-math.inf, math.inf))
+        return (-math.inf, math.inf) if within is None else (within[0], within[1])
     if kind == "vector":
         numbers = [one for axis in numbers for one in bounds_of(axis)]
     elif kind == "choice":
