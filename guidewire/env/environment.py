@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
@@ -26,6 +27,7 @@ from guidewire.env.task import Task, find_task
 from guidewire.sessions.session import Session, SessionError, State
 
 LEFT = "left the vessel"
+_NO_EPISODE = "there was no episode yet: call reset() first"
 
 
 @dataclass(frozen=True)
@@ -132,7 +134,7 @@ class Environment(Env):
     @property
     def session(self) -> Session:
         """Return the session of this episode; who steps it past the environment has to reset."""
-        return self._scene.session
+        return self._opened.session
 
     @property
     def session_state(self) -> State:
@@ -142,21 +144,24 @@ class Environment(Env):
     @property
     def scene(self) -> Mapping[str, Any]:
         """Parameters of this episode's scene, with absolute paths."""
-        return self._scene.scene
+        return self._opened.scene
 
     @property
     def report(self) -> Report:
         """Return the report of this episode so far."""
+        self._check_begun()
         return self._report
 
     @property
     def target_position(self) -> np.ndarray:
         """(3,), units."""
+        self._check_begun()
         return self._route.points[self._route.target]
 
     @property
     def widest(self) -> float:
         """Largest radius of the vessel, units."""
+        self._check_begun()
         return self._route.widest
 
     def reset(self, *, seed: int | None = None, options: Mapping[str, Any] | None = None
@@ -189,11 +194,9 @@ class Environment(Env):
         if saved is not None:
             own, bits = _unpacked(saved, self.task.name)
             draw = with_options(self.task, drawn, own)
-            self._scene, loaded = self._scenes.find(draw)
-            self.session.restore(bits)
+            loaded = self._begin(draw, lambda scene: scene.session.restore(bits))
         else:
-            self._scene, loaded = self._scenes.find(draw)
-            self._scene.start(draw.tip_turn, draw.insertion)
+            loaded = self._begin(draw, lambda scene: scene.start(draw.tip_turn, draw.insertion))
         if self._scene.hubs != self.hubs:
             raise Error(f"the scene of {self.task.anatomies[draw.anatomy]} has {self._scene.hubs} instruments, the "
                         f"task's first one {self.hubs}")
@@ -251,7 +254,8 @@ class Environment(Env):
         self._check_open()
         self._check_begun()
         head = {"task": self.task.name, "draw": vars(self._draw)}
-        return json.dumps(head).encode() + b"\n" + self.session.save()
+        with self._asking():
+            return json.dumps(head).encode() + b"\n" + self.session.save()
 
     def recorded(self, source: str = "") -> RecordedDrive:
         """What was done in this episode; not of one that began from a snapshot."""
@@ -317,16 +321,11 @@ class Environment(Env):
         report, before, forces = self._report, self._remaining(), [0.0] * self.hubs
         self._calls.append((pushes[0], turns[0], steps) if self.hubs == 1 else (pushes, turns, steps))
         motion = [one / steps for one in pushes], [one / steps for one in turns]
-        try:
+        with self._asking():
             for _ in range(steps):
                 if self.session_state.outcome is not None:
                     break
                 forces = list(map(max, forces, report.add(*self._stepped(*motion))))
-        except SessionError as error:
-            self._is_running = False
-            if self.session.is_open:
-                raise
-            raise ClosedEnvironmentError(f"{error}: reset() starts it anew") from error
         self._places = self._found()
         has_left = self._has_left()
         if not has_left:
@@ -348,6 +347,28 @@ class Environment(Env):
             self.render()
         terminated = end in ("target", "force", LEFT)
         return self._seen(), float(earned), terminated, bool(end) and not terminated, info
+
+    def _begin(self, draw: Draw, start: Callable[[LoadedScene], State]) -> bool:
+        """Bring the instruments to their start, and return whether the scene was open."""
+        self._scene, loaded = self._scenes.find(draw)
+        try:
+            start(self._scene)
+        except SessionError:
+            if self.session.is_open or not loaded:
+                raise
+            return self._begin(draw, start)    # its runner had ended since
+        return loaded
+
+    @contextmanager
+    def _asking(self) -> Iterator[None]:
+        """Name it as Gymnasium does where the session has ended."""
+        try:
+            yield
+        except SessionError as error:
+            self._is_running = False
+            if self.session.is_open:
+                raise
+            raise ClosedEnvironmentError(f"{error}: reset() starts it anew") from error
 
     def _stepped(self, pushes: list[float], turns: list[float]
                  ) -> tuple[float, list[Instrument], list[Instrument]]:
@@ -390,13 +411,19 @@ class Environment(Env):
     def _seen(self) -> Any:
         return self._observer.of(self.session_state, self._instruments, self._places)
 
+    @property
+    def _opened(self) -> LoadedScene:
+        if self._scene is None:
+            raise ResetNeeded(_NO_EPISODE)
+        return self._scene
+
     def _check_open(self) -> None:
         if self._is_closed:
             raise ClosedEnvironmentError("this environment is closed")
 
     def _check_begun(self) -> None:
         if self._draw is None:
-            raise ResetNeeded("there was no episode yet: call reset() first")
+            raise ResetNeeded(_NO_EPISODE)
 
 
 def _unpacked(saved: bytes, task: str) -> tuple[dict[str, Any], bytes]:

@@ -288,7 +288,8 @@ def test_speeds_may_be_an_array(pair):
 
 def test_before_the_first_reset_there_is_nothing_to_be_saved_or_recorded(tube):
     with Environment(tube) as own:
-        for ask in (own.save, own.recorded):
+        for ask in (own.save, own.recorded, *(lambda name=name: getattr(own, name) for name in (
+                "session", "session_state", "scene", "report", "target_position", "widest"))):
             with pytest.raises(ResetNeeded):
                 ask()
         own.reset(options={"nominal": True})

@@ -76,6 +76,7 @@ def test_a_session_that_ended_is_one_line_and_a_reset_starts_it_anew(tube):
         assert "\n" not in str(refused.value)
         with pytest.raises(ResetNeeded):
             vector.step(FORWARDS)
+        vector.get_attr("session")[0].kill()    # nobody has asked it since
         same(vector.reset(seed=4)[0], before)
 
 
