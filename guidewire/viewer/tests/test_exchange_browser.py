@@ -33,13 +33,15 @@ def by_finger():
 
 
 def by_gamepad():
+    def now(what):    # nothing is seen of it
+        return ["until", f"(pad.{what}, true)"]
+
     def press(button, until):
-        return [["see", f"pad.buttons[{button}].pressed = true"], ["until", until],
-                ["see", f"pad.buttons[{button}].pressed = false"]]
+        return [now(f"buttons[{button}].pressed = true"), ["until", until], now(f"buttons[{button}].pressed = false")]
 
     return {"open": press(12, f"{CARD}.open"), "do": press(0, f"!{CARD}.open"), "next": press(4, f"{STATUS}.held === 1"),
-            "pull": [["see", "pad.axes[1] = 1"]], "push": [["see", "pad.axes[1] = -1"]],
-            "rest": [["see", "pad.axes[1] = 0"]], "report": [["click", "report"]]}
+            "pull": [now("axes[1] = 1")], "push": [now("axes[1] = -1")], "rest": [now("axes[1] = 0")],
+            "report": [["click", "report"]]}
 
 
 @pytest.mark.parametrize("hand, size", [
