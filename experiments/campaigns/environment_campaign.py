@@ -33,7 +33,7 @@ FIRST = 3_000_000  # seed
 BLOCK, COMPARED = 40, 4  # episodes of a task at a time; of these, those that other hosts play
 ALONE, HOSTS = "alone", ("threads", "processes", "runner")
 GROWTH = 30.0  # MB
-_NOMINAL = 8  # seeds of resets
+_NOMINAL, _SETTLED = 8, 600  # seeds of resets, and resets until the heap of the library has its size
 
 
 def judged(environment: Environment, seed: int) -> dict[str, Any]:
@@ -77,10 +77,10 @@ def together(task: str | Task, seeds: Sequence[int], backend: str, **options: An
 
 
 def grown(task: str | Task, resets: int) -> float:
-    """Begin episodes; returns by how much the memory of this process grew since the first of each start, MB."""
+    """Begin episodes; returns by how much the memory of this process grew once its heap had its size, MB."""
     with Environment(task) as environment:
-        for k in range(resets + _NOMINAL):
-            if k == _NOMINAL:
+        for k in range(resets + _SETTLED):
+            if k == _SETTLED:
                 before = _resident()
             environment.reset(seed=k % _NOMINAL, options={"nominal": True})
             environment.step(environment.action_space.low)
