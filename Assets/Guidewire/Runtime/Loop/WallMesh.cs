@@ -1,3 +1,5 @@
+using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 using Guidewire.Io;
 using UnityEngine;
@@ -8,8 +10,16 @@ namespace Guidewire.Runtime
     /// </summary>
     internal sealed class WallMesh
     {
-        private WallMesh(WallSurface surface)
+        private readonly Vector3d[] _rest;      // units
+        private readonly Vector3d[] _moved;
+        private readonly double _radius;        // of the wire, units
+        private bool _isMoved;
+
+        private WallMesh(WallSurface surface, double radius, bool isSoft)
         {
+            _radius = radius;
+            _rest = isSoft ? new List<Vector3d>(surface.Vertices).ToArray() : Array.Empty<Vector3d>();
+            _moved = new Vector3d[_rest.Length];
             Vertices = new Vector3[surface.Vertices.Count];
             for (int i = 0; i < Vertices.Length; i++)
             {
@@ -37,9 +47,28 @@ namespace Guidewire.Runtime
             for (int k = 0; k < walls.Length; k++)
             {
                 meshes[k] = new WallMesh(WallSurface.Create(walls[k], state.Positions[state.ElementCount],
-                    0.5 * state.ElementCount * state.ElementLength));
+                    0.5 * state.ElementCount * state.ElementLength),
+                    session.Parameters.Material.WireRadius / session.Parameters.Scene.MetresPerUnit,
+                    walls[k].Softness != null);
             }
             return meshes;
+        }
+
+        /// <summary>Moves the vertices of a wall that gives way to where it is drawn.</summary>
+        /// <returns>Whether they differ from before.</returns>
+        public bool Follow(WireState state)
+        {
+            if (_rest.Length == 0)
+            {
+                return false;
+            }
+            bool was = _isMoved;
+            _isMoved = WallDents.Move(_rest, state.Rod.Positions, state.WallDents, _radius, _moved);
+            for (int i = 0; i < _rest.Length && (was || _isMoved); i++)
+            {
+                Vertices[i] = _moved[i].ToUnity();
+            }
+            return was || _isMoved;
         }
     }
 }

@@ -18,6 +18,8 @@ namespace Guidewire.Runtime
             Rod = new RodState(run.State.ElementCount, run.State.ElementCount * run.State.ElementLength, 1.0, 0.0);
             Array.Copy(run.State.ElementLengths, Rod.ElementLengths, Rod.ElementCount);
             ContactForces = run.Contacts == null ? Array.Empty<Vector3d>() : new Vector3d[Rod.SphereCount];
+            bool isSoft = run.Contacts != null && run.Contacts.Displacements.Length == Rod.ElementCount;
+            WallDents = isSoft ? new Vector3d[Rod.ElementCount] : Array.Empty<Vector3d>();
             _hints = new int[session.Parameters.Scene.Walls.Length * Rod.ElementCount];
             Array.Fill(_hints, -1);
             ContactPoints = new Vector3d[_hints.Length];
@@ -51,6 +53,9 @@ namespace Guidewire.Runtime
 
         /// <summary>Force of the walls on each sphere, N with a material; empty without walls.</summary>
         public Vector3d[] ContactForces { get; }
+
+        /// <summary>How far soft walls are displaced at each element, units; empty where all are rigid.</summary>
+        internal Vector3d[] WallDents { get; }
 
         /// <summary>The sum of the contact forces.</summary>
         public Vector3d ContactForce { get; private set; }
@@ -110,6 +115,7 @@ namespace Guidewire.Runtime
             if (contacts != null)
             {
                 Array.Copy(contacts.Forces, ContactForces, ContactForces.Length);
+                Core.WallDents.Take(contacts, session.Parameters.Scene.MetresPerUnit, WallDents);
                 (ContactForce, Reaction, Passages) = (contacts.Total, contacts.Reaction, contacts.Passages);
             }
             IReadOnlyList<CoaxialRecord> catheters = run.Catheters();
@@ -145,6 +151,7 @@ namespace Guidewire.Runtime
             Interpolate(older.Rod.Positions, newer.Rod.Positions, t, Rod.Positions);
             Interpolate(older.Rod.Orientations, newer.Rod.Orientations, t, Rod.Orientations);
             Array.Copy(newer.ContactForces, ContactForces, ContactForces.Length);
+            Array.Copy(newer.WallDents, WallDents, WallDents.Length);
             Array.Copy(newer.ContactPoints, ContactPoints, newer.ContactPointCount);
             for (int k = 0; k < _catheters.Length; k++)
             {

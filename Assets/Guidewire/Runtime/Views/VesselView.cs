@@ -5,9 +5,9 @@ using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
-    /// <summary>Shows the walls, translucent; one without bounds up to half the wire's length from its middle. From
-    /// outside the far wall is seen through the near one, because a wall's front is the side that the wire
-    /// sees.</summary>
+    /// <summary>Shows the walls, translucent; one without bounds up to half the wire's length from its middle. Walls
+    /// that give way are drawn so near the wire. From outside the far wall is seen through the near one, because a
+    /// wall's front is the side that the wire sees.</summary>
     [AddComponentMenu("Guidewire/Vessel View"), Manual("views")]
     public sealed class VesselView : LoopView
     {
@@ -17,6 +17,7 @@ namespace Guidewire.Runtime
         [SerializeField] private Material? _material;
 
         private readonly List<Mesh> _meshes = new List<Mesh>();
+        private readonly List<WallMesh> _walls = new List<WallMesh>();
         private Material? _own;
 
         /// <summary>The walls' meshes.</summary>
@@ -35,8 +36,14 @@ namespace Guidewire.Runtime
             {
                 Build();
             }
+            WireState? shown = Loop == null ? null : Loop.Shown;
             for (int i = 0; i < _meshes.Count; i++)
             {
+                if (shown != null && _walls[i].Follow(shown))
+                {
+                    _meshes[i].SetVertices(_walls[i].Vertices);
+                    _meshes[i].RecalculateNormals();
+                }
                 Graphics.DrawMesh(_meshes[i], Place, _material ? _material! : Own(), gameObject.layer);
             }
         }
@@ -75,6 +82,7 @@ namespace Guidewire.Runtime
                 mesh.RecalculateNormals();
                 mesh.RecalculateBounds();
                 _meshes.Add(mesh);
+                _walls.Add(wall);
             }
         }
 
@@ -85,6 +93,7 @@ namespace Guidewire.Runtime
                 Destroy(mesh);
             }
             _meshes.Clear();
+            _walls.Clear();
         }
     }
 }
