@@ -64,7 +64,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds gradients and blocks.</summary>
-        /// <param name="isStiffened">Whether the blocks are those of joints at rest.</param>
+        /// <param name="dropsGeometricStiffness">Whether the blocks are those of joints at rest.</param>
         public static bool AddBlocks(Joint[] joints, RodShape shape, RodBlock[] blocks, RodVector[] gradient, int j,
             bool dropsGeometricStiffness)
         {
