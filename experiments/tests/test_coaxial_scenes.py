@@ -75,7 +75,7 @@ def test_the_catheter_follows_the_wire_into_the_branch_and_takes_its_shape_there
 @pytest.mark.long("another catheter follows its wire into a branch")
 def test_the_microcatheter_follows_its_wire_out_of_the_guide_through_the_siphon(run_scene):
     log, summary = run_scene("microcatheter")
-    assert summary["reliable"]
+    assert ["of play in the catheter" in one for one in summary["warnings"]] == [True]    # in the siphon
     (catheter,) = log.catheters
     knots = np.array(json.loads((PARAMS / "microcatheter.json").read_text())["vessel"]["knots"])
     stations = np.concatenate([[0.0], np.cumsum(np.linalg.norm(np.diff(knots, axis=0), axis=1))])
