@@ -7,12 +7,10 @@ import sys
 import webbrowser
 from collections.abc import Callable, Sequence
 from pathlib import Path
-from typing import Any
 
 from guidewire.anatomy.formats import is_anatomy
 from guidewire.logs.logs import LogError, extent, read_log
 from guidewire.logs.runs import PARAMETERS_NAME, read_run
-from guidewire.logs.surfaces import Surface
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import checking
 from guidewire.runs.key_table import read_key_table

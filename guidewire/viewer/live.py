@@ -393,7 +393,8 @@ class LiveRun:
             "file": os.path.relpath(self._scenes[self._scene]), "problem": self._problem, "values": values,
             "choices": {key: words for key, words in self._choices.items() if key in values},
             "pace": self._pace, "paces": PACES,
-            "exchanges": self._exchanges, "exchangesAsked": self._exchanges_asked, "steered": self._instruments.problem, **self._instruments.status(),
+            "exchanges": self._exchanges, "exchangesAsked": self._exchanges_asked,
+            "steered": self._instruments.problem, **self._instruments.status(),
             "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
         }
 

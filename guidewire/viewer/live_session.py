@@ -15,7 +15,7 @@ REST = (0.0, 0.0)
 
 
 def start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
-    """Return a session that is steered without end, or where that cannot be, or is not asked for, the file's own run."""
+    """Return a session that is steered without end, or the file's own run where that cannot be or is not asked for."""
     if by_hand:
         try:
             return Session(scene, hand=True, native=False, **ENDLESS, **named)
@@ -25,7 +25,7 @@ def start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
 
 
 def step(session: Session, moves: Sequence[tuple[float, float]], steps: int, hub: int) -> State:
-    """Make steps with so much push (units) and turn (rad) of each hub in each; where one hand rests, of the held one."""
+    """Make steps with this push (units) and turn (rad) of each hub in each; where one hand rests, of the held one."""
     if all(move == REST for k, move in enumerate(moves) if k != hub):
         push, turn = moves[hub]
         return session.step(push * steps, turn * steps, steps, hub)

@@ -69,8 +69,8 @@ namespace UnityEditor
         {
             string root = System.IO.Path.GetDirectoryName(UnityEngine.Application.dataPath);
             string place = PackageManager.PackageInfo.Installed?.assetPath ?? "Assets/Guidewire";
-            return assetPath.StartsWith(place + "/", System.StringComparison.Ordinal) ? UnityStubs.SceneFile.Prefab(root,
-                "Assets/Guidewire" + assetPath.Substring(place.Length)) as T : null;
+            return assetPath.StartsWith(place + "/", System.StringComparison.Ordinal)
+                ? UnityStubs.SceneFile.Prefab(root, "Assets/Guidewire" + assetPath.Substring(place.Length)) as T : null;
         }
     }
 }

@@ -167,7 +167,8 @@ def test_the_shader_draws_the_pictures_of_the_core(browse, runner_command, tmp_p
 
 
 GAMEPAD = ("window.pad = {connected: true, axes: [0, 0, 0, 0], buttons: Array.from({length: 17}, () => "
-           "({pressed: false}))};navigator.getGamepads = () => [window.pad]; dispatchEvent(new Event('gamepadconnected'))")
+           "({pressed: false}))};navigator.getGamepads = () => [window.pad]; "
+           "dispatchEvent(new Event('gamepadconnected'))")
 STEERED = "[viewer.shown.steering.push, viewer.shown.steering.turn]"
 HUB = "viewer.shown.model.recording.at('hubInsertion', viewer.shown.model.recording.count - 1)[0]"
 

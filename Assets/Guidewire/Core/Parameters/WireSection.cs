@@ -57,7 +57,8 @@ namespace Guidewire.Core
         /// <summary>rho I about d1 and d2, the mean of both, kg m.</summary>
         public double? RotaryInertia { get; set; }
 
-        /// <summary>Attenuation of X-rays beyond that of its density, 1/mm, as of a marker of platinum in its wall; only
+        /// <summary>Attenuation of X-rays beyond that of its density, 1/mm, as of a marker of platinum in its wall;
+        /// only
         /// pictures depend on it.</summary>
         public double? Attenuation { get; set; }
 

@@ -81,7 +81,8 @@ namespace Guidewire.Core.Tests
             Assert.That(length, Is.EqualTo(1.0).Within(1e-9), "elements of the straight end are alike");
         }
 
-        [TestCase("'platinum': '0.6 mm'", "radiopaque[0].platinum = \"0.6 mm\" is not allowed: needs at most the thickness")]
+        [TestCase("'platinum': '0.6 mm'",
+            "radiopaque[0].platinum = \"0.6 mm\" is not allowed: needs at most the thickness")]
         [TestCase("'platinum': '1 kg'", "radiopaque[0].platinum")]
         [TestCase("'colour': '1 mm'", "unknown member 'radiopaque[0].colour'")]
         public void WrongMarker_IsRefused(string member, string expected)
