@@ -253,8 +253,8 @@ namespace Guidewire.Core.Tests
 
         // All three go on together, and the wire's tip comes up against a wall across its axis.
         [TestCase(0.03, 0.0, 0.0)]
-        [TestCase(0.03, 0.05, 0.0)]
-        [TestCase(0.03, 0.04, 0.05)]
+        [TestCase(0.03, 0.006, 0.0)]
+        [TestCase(0.03, 0.006, 0.05)]
         public void HubsOfThree_SlipWhereTheyWouldTakeMoreThanTheirForces(double wire, double inner, double outer)
         {
             SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
@@ -288,7 +288,8 @@ namespace Guidewire.Core.Tests
             Assert.That(most[2], Is.InRange(0.9 * wire, 1.001 * wire));
             for (int k = 0; k < 2; k++)
             {
-                Assert.That(most[k], limits[k] > 0.0 ? Is.LessThan(1.001 * limits[k]) : Is.GreaterThan(0.0));
+                Assert.That(most[k], limits[k] > 0.0 ? Is.InRange(0.9 * limits[k], 1.001 * limits[k])
+                    : Is.GreaterThan(0.01));
             }
             Assert.That(run.Coaxial()!.WireShortfall, Is.GreaterThan(1e-3));
             Assert.That(run.Contacts!.Passages, Is.Zero);
