@@ -35,5 +35,6 @@ def test_the_examples_of_each_page_have_the_right_types(tmp_path):
     done = subprocess.run([node, str(checker), "--pythonpath", sys.executable, "--outputjson"], cwd=tmp_path,
                           capture_output=True, text=True, timeout=600, check=False)
     errors = [f"{one['file']}:{one['range']['start']['line'] + 1}: {one['message']}"
-              for one in json.loads(done.stdout)["generalDiagnostics"] if one["severity"] == "error"]
+              for one in json.loads(done.stdout)["generalDiagnostics"] if one["severity"] == "error"
+              and not re.match(r'Import "(gymnasium|stable_baselines3)\b', one["message"])]    # readers install them
     assert len(errors) == 1 and "wrong.py:2" in errors[0], errors
