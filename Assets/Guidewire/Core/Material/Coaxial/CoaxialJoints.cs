@@ -269,16 +269,6 @@ namespace Guidewire.Core
             return next;
         }
 
-        /// <summary>Gives the element at a place along the chain, m, from one before it on.</summary>
-        public int ElementAt(double at, int from)
-        {
-            while (from < ElementCount - 1 && at > _station[from + 1])
-            {
-                from++;
-            }
-            return from;
-        }
-
         /// <summary>What an instrument is made of at node k.</summary>
         public ref readonly CrossSection PieceAt(int k, int instrument)
         {

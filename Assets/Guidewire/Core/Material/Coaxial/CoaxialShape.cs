@@ -2,12 +2,21 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Frames and angles of coaxial instruments on a chain.</summary>
+    /// <summary>Places, frames and angles of coaxial instruments on a chain.</summary>
     internal static class CoaxialShape
     {
+        /// <summary>Gives the element at a place along the chain, m, from one before it on.</summary>
+        public static int ElementAt(CoaxialJoints joints, double at, int from)
+        {
+            while (from < joints.ElementCount - 1 && at > joints.Stations[from + 1])
+            {
+                from++;
+            }
+            return from;
+        }
+
         /// <summary>Gives the angle on an element from one instrument's frame to another's, radians; beyond the tip of
-        /// one of
-        /// them, at that tip.</summary>
+        /// one of them, at that tip.</summary>
         /// <param name="values">Angles of the chain, or their rates.</param>
         public static double Angle(RodShape shape, double[] values, CoaxialJoints joints, int element, int instrument,
             int frame)

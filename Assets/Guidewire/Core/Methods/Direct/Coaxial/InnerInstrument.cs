@@ -83,7 +83,7 @@ namespace Guidewire.Core
             for (int i = 0; i < Shape.X.Length; i++)
             {
                 double at = _own.Stations[i] - lead;
-                j = joints.ElementAt(at, j);
+                j = CoaxialShape.ElementAt(joints, at, j);
                 // Before the hub and beyond the last node by what is too short for an element.
                 double fraction = (at - chain[j]) / (chain[j + 1] - chain[j]);
                 bool isBefore = at <= 0.0;
@@ -146,7 +146,7 @@ namespace Guidewire.Core
                 Spins[element] = Vector3d.Zero;
                 return;
             }
-            j = joints.ElementAt(at, j);
+            j = CoaxialShape.ElementAt(joints, at, j);
             Shape.Q[element] = CoaxialShape.FrameOf(shape, joints, j, _instrument);
             Spins[element] = dynamics.Spins[j];
         }

@@ -3,12 +3,10 @@ namespace Guidewire.Core
     /// <summary>Strains, forces and couples of a wire among coaxial instruments, at its own joints and
     /// elements.</summary>
     /// <remarks>Its curvature is that of the shared centreline, linear between the joints of the chain, about the
-    /// wire's
-    /// own axes; its twist is its own. Couples follow by its own stiffness. Along the axis it has its own loads, and of
-    /// what else is there (walls, inertia) the part of its EA in that of all; of the shear force that of its GA. Behind
-    /// the outermost hub it is straight, with the force of its hub: that alone has friction in a lumen, and what
-    /// bending
-    /// in one another makes of a force along the axis.</remarks>
+    /// wire's own axes; its twist is its own. Couples follow by its own stiffness. Along the axis it has its own loads,
+    /// and of what else is there (walls, inertia) the part of its EA in that of all; of the shear force that of its GA.
+    /// In a sheath it is straight, and behind the outermost hub, where it has the force of its hub. That alone has
+    /// friction in a lumen, and what bending in one another makes of a force along the axis.</remarks>
     internal sealed class WireStress
     {
         private readonly CoaxialInstrument _own;
@@ -42,9 +40,10 @@ namespace Guidewire.Core
             for (int k = 0; k <= n; k++)
             {
                 double at = _own.Stations[k] - lead;
-                j = joints.ElementAt(at, j);
+                j = CoaxialShape.ElementAt(joints, at, j);
                 Vector3d curvature = k == n ? Vector3d.Zero : at < 0.0 ? bending.LeadTwist(dynamics.Shape, wire)
                     : Curvature(dynamics.Shape, bending, j, at);
+                curvature = at < joints.Sheathed ? curvature.Z * Vector3d.UnitZ : curvature;
                 Joint joint = _joints[k];
                 Vector3d couple = _lengths[k] * curvature - joint.Rest;
                 couple = new Vector3d(joint.Bend1 * couple.X, joint.Bend2 * couple.Y, joint.Twist * couple.Z);
@@ -80,7 +79,7 @@ namespace Guidewire.Core
             if (at >= 0.0)
             {
                 RodShape shape = dynamics.Shape;
-                j = joints.ElementAt(at, j);
+                j = CoaxialShape.ElementAt(joints, at, j);
                 Vector3d force = dynamics.Terms.Stretch.Stress(shape, j, out Vector3d p);
                 Quaterniond turn = _wire.Shape.Q[element].Conjugate * shape.Q[j];
                 Vector3d shear = Quaterniond.Rotate(turn, new Vector3d(p.X, p.Y, 0.0));

@@ -63,6 +63,34 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        // Straight up to the exit of a sheath, wherever that cuts an element, and under the whole moment beyond it.
+        [Test]
+        public void Couple_IsThatOfBendingBeyondTheExitAlone([Values(200.0, 203.0, 209.9)] double exit)
+        {
+            SimulationParameters parameters = Straight(2);
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, exit) };
+            parameters.Scene.Walls = WallScenes.Floor(-500.0);
+            parameters.Scene.InitialState = InitialState.Straight;
+            parameters.Method.TimeStep = 0.1;
+            Simulation run = Simulation.Create(parameters);
+            Wires.GoOn(run, 100);    // to rest
+            StressRecord stress = run.Stress()!;
+            Vector3d[] x = run.State.Positions;
+            Vector3d tip = x[x.Length - 1];
+            for (int k = 0; k < x.Length - 1; k++)
+            {
+                if (k == 35 || Math.Abs(10.0 * k - exit) < 10.0)
+                {
+                    continue;    // half of the joint is beyond a tip, or in the sheath
+                }
+                Vector3d moment = 10.0 * k < exit ? Vector3d.Zero
+                    : PartAt(parameters, 10.0 * k, BendOf) * 1e-3 * Vector3d.Cross(tip - x[k], Load);
+                Assert.That((stress.Couple[k] - moment).Length, Is.LessThan(1e-7), "joint " + k);
+            }
+            int last = (int)Math.Ceiling(0.1 * exit) - 1;
+            Assert.That(stress.Couple[last].Length, Is.LessThan(1e-7), "the last joint in the sheath");
+        }
+
         // A wire with a long curve that is turned in its catheter.
         [Test]
         public void TwistBetweenTheHubs_IsTheHubsTorque()
