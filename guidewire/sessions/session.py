@@ -403,6 +403,9 @@ class Session:
             return self._take(self._ask(what, **more))
 
     def _ask(self, what: str, **more: Any) -> dict[str, Any]:
+        for name, value in more.get("set", {}).items():
+            if isinstance(value, float):
+                number(name, value)    # JSON has no other ones
         line = json.dumps({"id": 0, "session": what, **more}, default=plain)
         return accepted(self._guarded(lambda host: host.ask(line)))
 

@@ -238,6 +238,8 @@ def test_what_cannot_be_done_is_one_line_and_the_session_goes_on():
             (lambda: session.step(steps=0), "steps = 0 is not allowed"),
             (lambda: session.step(steps=10**12), "steps = 1000000000000 is not allowed"),
             (lambda: session.step(turn=float("nan")), "turn = nan is not allowed"),
+            (lambda: session.change(timeStep=float("nan")), "^timeStep = nan is not allowed: needs a finite number$"),
+            (lambda: session.change(timeStep=float("inf")), "^timeStep = inf is not allowed"),
             (lambda: session.restore(other.save()), "not saved by a session with these parameters"),
             (lambda: session.restore(session.save()[:-8]), "is incomplete"),
             (lambda: session.restore(b""), "is incomplete"),
