@@ -3,8 +3,6 @@ using System.Collections.Generic;
 using System.Diagnostics;
 using System.Globalization;
 using System.Linq;
-using System.Security.Cryptography;
-using System.Text;
 using System.Threading;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
@@ -16,9 +14,6 @@ namespace Guidewire.Io
     public sealed class SimulationSession : IDisposable
     {
         private const double Smoothing = 0.02;     // weight of the newest step in the step time shown
-
-        private const string Magic = "guidewire-snapshot";
-        private const int LongestHead = 256;       // bytes of the line before a snapshot's numbers
 
         private readonly ParameterSource _from;
         private readonly List<KeyValuePair<string, JToken>> _overrides;
@@ -33,8 +28,7 @@ namespace Guidewire.Io
         private readonly double[] _motion;     // of the hubs, where one moves
 
         private SimulationSession(ParameterSource from, List<KeyValuePair<string, JToken>> overrides,
-            ParameterHandler handler, bool isSteered, bool limitsHubs = false,
-            CancellationToken cancellation = default)
+            ParameterHandler handler, bool isSteered, bool limitsHubs = false, CancellationToken cancellation = default)
         {
             _cancellation = cancellation;
             _limitsHubs = limitsHubs && isSteered;
@@ -119,8 +113,9 @@ namespace Guidewire.Io
             MethodTraits traits = MethodTable.Of(method.Solver);
             if (isSteered == true && !traits.TakesSteering)
             {
-                throw new ParameterException((file ?? from.OverridesFrom) + ": a wire of solver "
-                    + Get(handler, "solver") + " is not steered interactively: its file's drive moves it");
+                string solver = (string)ParameterTable.Find("solver")!.Write(handler.Values)!;
+                throw new ParameterException((file ?? from.OverridesFrom) + ": a wire of solver " + solver
+                    + " is not steered interactively: its file's drive moves it");
             }
             method.StatesReactions |= CanStateReactions(method);
             return new SimulationSession(from, given, handler,
@@ -276,7 +271,7 @@ namespace Guidewire.Io
         /// <summary>Gives the value of a parameter, as it stands behind KEY=.</summary>
         public string Text(string key)
         {
-            JToken value = Get(_handler, key);
+            JToken value = ParameterTable.Find(key)!.Write(_handler.Values);
             return value.Type == JTokenType.String ? (string)value! : value.ToString(Newtonsoft.Json.Formatting.None);
         }
 
@@ -285,21 +280,11 @@ namespace Guidewire.Io
             return ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
         }
 
-        private static JToken Get(ParameterHandler handler, string key)
-        {
-            return ParameterTable.Find(key)!.Write(handler.Values);
-        }
-
         /// <summary>All that the next steps depend on, as bytes: this run or another one of the same parameters goes on
         /// from there with the same bits.</summary>
         public byte[] Save()
         {
-            byte[] numbers = Simulation.Save();
-            byte[] head = Encoding.ASCII.GetBytes(Head(numbers));
-            var saved = new byte[head.Length + numbers.Length];
-            head.CopyTo(saved, 0);
-            numbers.CopyTo(saved, head.Length);
-            return saved;
+            return SessionSnapshot.Of(Simulation.Save(), _handler.Hash, IsSteered);
         }
 
         /// <summary>Goes on from what was saved. Not for a run that is logged: a log goes forward in time.</summary>
@@ -308,29 +293,7 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">It did not; nothing has changed.</exception>
         public void Restore(byte[] saved)
         {
-            int end = Array.IndexOf(saved, (byte)'\n', 0, Math.Min(saved.Length, LongestHead)) + 1;
-            var numbers = new byte[saved.Length - end];
-            Array.Copy(saved, end, numbers, 0, numbers.Length);
-            string[] head = Encoding.ASCII.GetString(saved, 0, end).Split(' ');
-            string[] here = Head(numbers).Split(' ');
-            if (head.Length == here.Length - 1)
-            {
-                head = head.Take(1).Append("1").Concat(head.Skip(1)).ToArray();    // version 1 did not always state it
-            }
-            if (head.Length == here.Length && head[0] == Magic && int.TryParse(head[1], NumberStyles.None,
-                    CultureInfo.InvariantCulture, out int format) && format != FileFormat.Version)
-            {
-                throw new ParameterException("the snapshot has format " + format + ": guidewire "
-                    + ProgramVersion.Number + " reads format " + FileFormat.Version + ": save it anew");
-            }
-            // Of another build the parameters may have had fewer keys: their hash says nothing then.
-            bool isOfThisBuild = head.Length == here.Length && head[3] == here[3];
-            if (head.Length != here.Length || head[0] != Magic || (isOfThisBuild && head[2] != here[2])
-                || head[4] != here[4] || head[5] != here[5])
-            {
-                throw new ParameterException("the snapshot was not saved by a session with these parameters, "
-                    + "or is incomplete");
-            }
+            byte[] numbers = SessionSnapshot.NumbersOf(saved, _handler.Hash, IsSteered, out bool isOfThisBuild);
             try
             {
                 Simulation = Simulation.Restore(_handler.Values.Simulation, numbers);
@@ -347,15 +310,6 @@ namespace Guidewire.Io
         {
             Simulation = Simulation.Restore(_handler.Values.Simulation, _start);
             Contrast?.Flow.Clear();
-        }
-
-        // What a snapshot must agree in with who reads it, and a sum that says whether it is whole.
-        private string Head(byte[] numbers)
-        {
-            using SHA256 sha = SHA256.Create();
-            string sum = BitConverter.ToString(sha.ComputeHash(numbers), 0, 8).Replace("-", "");
-            string holds = IsSteered ? "hand" : "drive";
-            return string.Join(" ", Magic, FileFormat.Version, _handler.Hash, RunSummary.CoreBuild, holds, sum) + "\n";
         }
 
         /// <summary>Changes a parameter; the wire continues from its current state.</summary>
@@ -414,8 +368,7 @@ namespace Guidewire.Io
             string own = instrument == 0 ? "guidewireLength" : "catheters[" + (instrument - 1) + "].length";
             double before = instrument == 0 ? scene.GuidewireLength : scene.Catheters[instrument - 1].Length;
             JToken? asked = values.LastOrDefault(value => value.Key == own).Value;
-            bool isLength = asked != null && (asked.Type == JTokenType.Float || asked.Type == JTokenType.Integer);
-            double longer = isLength ? (double)asked! - before : 0.0;
+            double longer = asked?.Type is JTokenType.Float or JTokenType.Integer ? (double)asked! - before : 0.0;
             var all = new List<KeyValuePair<string, JToken>>(values);
             if (longer != 0.0)
             {
