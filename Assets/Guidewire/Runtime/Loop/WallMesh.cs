@@ -63,7 +63,7 @@ namespace Guidewire.Runtime
                 return false;
             }
             bool was = _isMoved;
-            _isMoved = WallDents.Move(_rest, state.Rod.Positions, state.WallDents, _radius, _moved);
+            _isMoved = WallIndentation.Move(_rest, state.Rod.Positions, state.WallIndentations, _radius, _moved);
             for (int i = 0; i < _rest.Length && (was || _isMoved); i++)
             {
                 Vertices[i] = _moved[i].ToUnity();

@@ -19,7 +19,7 @@ namespace Guidewire.Runtime
             Array.Copy(run.State.ElementLengths, Rod.ElementLengths, Rod.ElementCount);
             ContactForces = run.Contacts == null ? Array.Empty<Vector3d>() : new Vector3d[Rod.SphereCount];
             bool isSoft = run.Contacts != null && run.Contacts.Displacements.Length == Rod.ElementCount;
-            WallDents = isSoft ? new Vector3d[Rod.ElementCount] : Array.Empty<Vector3d>();
+            WallIndentations = isSoft ? new Vector3d[Rod.ElementCount] : Array.Empty<Vector3d>();
             _hints = new int[session.Parameters.Scene.Walls.Length * Rod.ElementCount];
             Array.Fill(_hints, -1);
             ContactPoints = new Vector3d[_hints.Length];
@@ -55,7 +55,7 @@ namespace Guidewire.Runtime
         public Vector3d[] ContactForces { get; }
 
         /// <summary>How far soft walls are displaced at each element, units; empty where all are rigid.</summary>
-        internal Vector3d[] WallDents { get; }
+        internal Vector3d[] WallIndentations { get; }
 
         /// <summary>The sum of the contact forces.</summary>
         public Vector3d ContactForce { get; private set; }
@@ -115,7 +115,7 @@ namespace Guidewire.Runtime
             if (contacts != null)
             {
                 Array.Copy(contacts.Forces, ContactForces, ContactForces.Length);
-                Core.WallDents.Take(contacts, session.Parameters.Scene.MetresPerUnit, WallDents);
+                WallIndentation.Take(contacts, session.Parameters.Scene.MetresPerUnit, WallIndentations);
                 (ContactForce, Reaction, Passages) = (contacts.Total, contacts.Reaction, contacts.Passages);
             }
             IReadOnlyList<CoaxialRecord> catheters = run.Catheters();
@@ -151,7 +151,7 @@ namespace Guidewire.Runtime
             Interpolate(older.Rod.Positions, newer.Rod.Positions, t, Rod.Positions);
             Interpolate(older.Rod.Orientations, newer.Rod.Orientations, t, Rod.Orientations);
             Array.Copy(newer.ContactForces, ContactForces, ContactForces.Length);
-            Array.Copy(newer.WallDents, WallDents, WallDents.Length);
+            Array.Copy(newer.WallIndentations, WallIndentations, WallIndentations.Length);
             Array.Copy(newer.ContactPoints, ContactPoints, newer.ContactPointCount);
             for (int k = 0; k < _catheters.Length; k++)
             {

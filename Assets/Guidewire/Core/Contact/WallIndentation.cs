@@ -1,53 +1,55 @@
 using System;
-using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
     /// <summary>How walls that give way are drawn: vertices near a contact go with it, the less the farther away they
     /// are. Only drawn: what a run knows of a wall is how far it is displaced at its contacts.</summary>
-    public static class WallDents
+    public static class WallIndentation
     {
         private const double Reach = 4.0;    // beyond the wire's surface, of its radius
 
         /// <summary>Displacements of the walls at the elements of a wire, units; 0 where nothing gives way.</summary>
         /// <param name="contacts">Of the run.</param>
         /// <param name="metresPerUnit">m.</param>
-        /// <param name="dents">Receives them; unchanged where the record has others than these elements.</param>
-        public static void Take(ContactRecord contacts, double metresPerUnit, Vector3d[] dents)
+        /// <param name="indentations">Receives them; unchanged where the record has others than these elements.</param>
+        public static void Take(ContactRecord contacts, double metresPerUnit, Vector3d[] indentations)
         {
-            for (int j = 0; j < dents.Length && contacts.Displacements.Length == dents.Length; j++)
+            for (int j = 0; j < indentations.Length && contacts.Displacements.Length == indentations.Length; j++)
             {
                 Vector3d force = contacts.ElementForces[j];
                 double size = contacts.Displacements[j] / metresPerUnit;
-                dents[j] = force == Vector3d.Zero ? Vector3d.Zero : -size * Vector3d.Normalize(force);
+                indentations[j] = force == Vector3d.Zero ? Vector3d.Zero : -size * Vector3d.Normalize(force);
             }
         }
 
         /// <summary>Moves the vertices of a wall.</summary>
         /// <param name="rest">Where they are without contact, units.</param>
         /// <param name="positions">Of the wire's nodes, units.</param>
-        /// <param name="dents">By element, as <see cref="Take"/> gives them.</param>
+        /// <param name="indentations">By element, as <see cref="Take"/> gives them.</param>
         /// <param name="radius">Of the wire, units.</param>
         /// <param name="moved">Receives them.</param>
         /// <returns>Whether any differs from its place at rest.</returns>
-        public static bool Move(IReadOnlyList<Vector3d> rest, Vector3d[] positions, Vector3d[] dents, double radius,
+        public static bool Move(Vector3d[] rest, Vector3d[] positions, Vector3d[] indentations, double radius,
             Vector3d[] moved)
         {
+            Array.Copy(rest, moved, moved.Length);
             bool isAny = false;
-            for (int i = 0; i < moved.Length; i++)
+            for (int j = 0; j < indentations.Length; j++)
             {
-                moved[i] = rest[i];
-                double largest = 0.0;
-                for (int j = 0; j < dents.Length; j++)
+                double size = indentations[j].Length;
+                if (size == 0.0)
                 {
-                    double size = dents[j].Length;
-                    double reach = (1.0 + Reach) * radius + Vector3d.Distance(positions[j], positions[j + 1]);
-                    double part = size > largest && (rest[i] - positions[j]).LengthSquared < reach * reach
-                        ? size * Share(rest[i], positions[j], positions[j + 1], (1.0 / size) * dents[j], radius) : 0.0;
-                    if (part > largest)
+                    continue;    // most elements touch nothing
+                }
+                Vector3d outward = (1.0 / size) * indentations[j];
+                double reach = (1.0 + Reach) * radius + Vector3d.Distance(positions[j], positions[j + 1]);
+                for (int i = 0; i < moved.Length; i++)
+                {
+                    double part = (rest[i] - positions[j]).LengthSquared < reach * reach
+                        ? size * Share(rest[i], positions[j], positions[j + 1], outward, radius) : 0.0;
+                    if (part > Vector3d.Distance(rest[i], moved[i]))
                     {
-                        largest = part;
-                        moved[i] = rest[i] + (part / size) * dents[j];
+                        moved[i] = rest[i] + (part / size) * indentations[j];
                         isAny = true;
                     }
                 }

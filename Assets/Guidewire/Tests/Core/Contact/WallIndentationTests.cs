@@ -4,12 +4,12 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>How walls that give way are drawn.</summary>
-    public sealed class WallDentsTests
+    public sealed class WallIndentationTests
     {
         private const double Radius = 0.5;
         private const double Sunk = 0.3;
         private static readonly Vector3d[] Wire = { Vector3d.Zero, 2.0 * Vector3d.UnitZ, 4.0 * Vector3d.UnitZ };
-        private static readonly Vector3d[] Dents = { -Sunk * Vector3d.UnitY, Vector3d.Zero };
+        private static readonly Vector3d[] Indentations = { -Sunk * Vector3d.UnitY, Vector3d.Zero };
 
         [Test]
         public void Vertex_AtTheContact_GoesWithIt_AndFarOnesStay()
@@ -22,7 +22,7 @@ namespace Guidewire.Core.Tests
                 new Vector3d(0.0, -0.2, 5.0),
             };
             var moved = new Vector3d[rest.Length];
-            Assert.That(WallDents.Move(rest, Wire, Dents, Radius, moved), Is.True);
+            Assert.That(WallIndentation.Move(rest, Wire, Indentations, Radius, moved), Is.True);
             Assert.That(moved[0], Is.EqualTo(rest[0] - Sunk * Vector3d.UnitY));
             Assert.That(moved[1], Is.EqualTo(rest[1]));
             Assert.That(moved[2].Y, Is.LessThan(rest[2].Y).And.GreaterThan(rest[2].Y - 0.1 * Sunk));
@@ -37,7 +37,7 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k <= 100; k++)
             {
                 var x = new Vector3d(0.0, -Radius, 2.0 + 0.03 * k);
-                WallDents.Move(new[] { x }, Wire, Dents, Radius, moved);
+                WallIndentation.Move(new[] { x }, Wire, Indentations, Radius, moved);
                 double size = Vector3d.Distance(x, moved[0]);
                 Assert.That(size, Is.AtMost(before + 1e-12).And.GreaterThan(before - 0.05 * Sunk), "place " + k);
                 before = size;
@@ -46,13 +46,13 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WithoutDents_NothingMoves()
+        public void WithoutIndentations_NothingMoves()
         {
             var rest = new[] { new Vector3d(0.0, -0.2, 1.0) };
             var moved = new Vector3d[1];
-            Assert.That(WallDents.Move(rest, Wire, new Vector3d[2], Radius, moved), Is.False);
+            Assert.That(WallIndentation.Move(rest, Wire, new Vector3d[2], Radius, moved), Is.False);
             Assert.That(moved, Is.EqualTo(rest));
-            Assert.That(WallDents.Move(rest, Wire, Array.Empty<Vector3d>(), Radius, moved), Is.False);
+            Assert.That(WallIndentation.Move(rest, Wire, Array.Empty<Vector3d>(), Radius, moved), Is.False);
         }
     }
 }
