@@ -225,9 +225,8 @@ namespace Guidewire.Core
 
         /// <summary>A run that continues from where this one is, with the same parameters or with others. With the same
         /// it takes the same steps, bit for bit, as this one would: loads, ramps, twists and drives continue in time,
-        /// and
-        /// what the method remembers of earlier steps is kept. What others make meaningless (a scheme's history under
-        /// another step size) starts again.</summary>
+        /// and what the method remembers of earlier steps is kept. What others make meaningless (a scheme's history
+        /// under another step size) starts again.</summary>
         /// <param name="parameters">For a wire of as many elements. Their <see cref="SceneParameters.Start"/>, <see
         /// cref="SceneParameters.InitialState"/> and <see cref="DriveParameters.Displacement"/> are ignored: the start
         /// is over. Instruments with other elements take the place of withdrawn ones; their hubs have the insertion of
@@ -407,7 +406,7 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(next.Reason);
             }
-            next.Instruments.GoOnFrom(Instruments, isOther.Skip(1).Append(isOther[0]).ToArray());
+            next.Instruments.ResumeFrom(Instruments, isOther.Skip(1).Append(isOther[0]).ToArray());
             next.Instruments.Write(next.State);
             next.Instruments.Write(next.State);
             var snapshot = new Snapshot();

@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private CoaxialRod _rod;
         private MonitoredRod _whole = null!;
 
-        /// <summary>Makes all at their start.</summary>
+        /// <summary>Lays the chain at the start of all instruments.</summary>
         /// <param name="drives">Of the hubs.</param>
         /// <param name="wire">Takes the wire's shape.</param>
         /// <param name="failure">Why there is no rest shape to start from, or null.</param>
@@ -126,7 +126,7 @@ namespace Guidewire.Core
         /// where they were.</summary>
         /// <param name="isOther">Which instruments are not those of that chain.</param>
         /// <param name="shift">How far the outermost hub is behind that of that chain, m.</param>
-        public void GoOnFrom(CoaxialChain former, bool[] isOther, double shift)
+        public void ResumeFrom(CoaxialChain former, bool[] isOther, double shift)
         {
             for (int i = 1; i < isOther.Length; i++)
             {

@@ -88,16 +88,7 @@ namespace Guidewire.Core
             int first = Chain.Rod.Joints.First;
             Chain.SerializeNodes(snapshot, ref first);
             snapshot.Serialize(ref time);
-            for (int i = 1; i < Drives.Length; i++)
-            {
-                Drives[i].Hub.Serialize(snapshot, time);
-                Drives[i].Serialize(snapshot);
-            }
-            foreach (HubSlip slip in Slips)
-            {
-                slip.Serialize(snapshot);
-            }
-            SerializeRecords(snapshot);
+            SerializeHubs(snapshot, time, 1);
             Chain.Serialize(snapshot, first, time);
             if (!snapshot.IsWritten)
             {
@@ -145,6 +136,23 @@ namespace Guidewire.Core
             CoaxialJoints joints = Chain.Rod.Joints;
             Rod.Contacts!.CopyForces(forces, forces.Length - 1 - joints.TipOf(instrument),
                 instrument == 0 ? 0 : joints.TipOf(instrument - 1) + 1);
+        }
+
+        /// <summary>Writes or restores how far hubs have come, and what the run has counted of instruments.</summary>
+        /// <param name="time">s.</param>
+        /// <param name="first">The first of the hubs.</param>
+        protected void SerializeHubs(Snapshot snapshot, double time, int first)
+        {
+            for (int i = first; i < Drives.Length; i++)
+            {
+                Drives[i].Hub.Serialize(snapshot, time);
+                Drives[i].Serialize(snapshot);
+            }
+            foreach (HubSlip slip in Slips)
+            {
+                slip.Serialize(snapshot);
+            }
+            SerializeRecords(snapshot);
         }
 
         /// <summary>Writes or restores what the results of instruments need of former steps.</summary>

@@ -133,7 +133,7 @@ namespace Guidewire.Core
         /// <param name="isOther">Which instruments were others, the outermost one first.</param>
         /// <exception cref="ArgumentException">One of them is in the vessel, or one does not fit the others;
         /// other walls.</exception>
-        public void GoOnFrom(WireInCatheters former, bool[] isOther)
+        public void ResumeFrom(WireInCatheters former, bool[] isOther)
         {
             if (Setup.Wire.Walls.Length != former.Setup.Wire.Walls.Length)
             {
@@ -142,8 +142,11 @@ namespace Guidewire.Core
             double time = former.Rod.Dynamics.Time;
             Vector3d[] starts = Array.ConvertAll(Drives, drive => drive.Hub.PositionAt(0.0));
             var kept = new Snapshot();
-            former.SerializeHubs(kept, time);
-            SerializeHubs(kept.ToRead(), time);
+            former.SerializeHubs(kept, time, 0);
+            former._report.Serialize(kept);
+            Snapshot read = kept.ToRead();
+            SerializeHubs(read, time, 0);
+            _report.Serialize(read);
             double shift = 0.0;
             string? problem = null;
             for (int i = 0; i < isOther.Length; i++)
@@ -166,24 +169,8 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(problem);
             }
-            Chain.GoOnFrom(former.Chain, isOther, shift);
+            Chain.ResumeFrom(former.Chain, isOther, shift);
             TakeShapes();
-        }
-
-        // How far they have come, and what the run has counted.
-        private void SerializeHubs(Snapshot snapshot, double time)
-        {
-            foreach (MaterialDrive drive in Drives)
-            {
-                drive.Hub.Serialize(snapshot, time);
-                drive.Serialize(snapshot);
-            }
-            foreach (HubSlip slip in Slips)
-            {
-                slip.Serialize(snapshot);
-            }
-            _records.Serialize(snapshot);
-            _report.Serialize(snapshot);
         }
 
         /// <inheritdoc/>
