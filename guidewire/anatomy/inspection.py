@@ -228,7 +228,7 @@ def typical_radius(mesh: Mesh) -> float:
 
 
 def narrow_radius(mesh: Mesh) -> float:
-    """Return what the typical radius is, but that which a tenth of the wall is below."""
+    """Return half the distance to the wall opposite below which a tenth of the sampled triangles are."""
     across = _meetings(mesh, inward=signed_volume(mesh) > 0.0)
     across = across[np.isfinite(across)]
     return 0.5 * float(np.quantile(across, 0.1)) if len(across) else typical_radius(mesh)

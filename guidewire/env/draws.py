@@ -12,7 +12,7 @@ import numpy as np
 
 from guidewire.env.randomisation import drawn_from, is_choice, middle_of
 from guidewire.env.spaces import Error
-from guidewire.env.task import LEAST_AND_MOST, Task, check_instruments
+from guidewire.env.task import LIMITS, Task, check_instruments
 
 _OPTIONS = ("nominal", "anatomy", "target", "instrument", "friction", "tip_turn", "insertion", "snapshot")
 
@@ -84,15 +84,15 @@ def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:
     check_instruments("option \"instrument\" =", options.get("instrument"))
     options = _checked(task, "option", options)
     for key in options:
-        if key in task.random and key not in LEAST_AND_MOST and not is_choice(task.random[key], options[key]):
+        if key in task.random and key not in LIMITS and not is_choice(task.random[key], options[key]):
             options[key] = _finite(key, options[key])
     return _with_values(drawn, options)
 
 
 def _checked(task: Task, source: str, values: Mapping[str, Any]) -> dict[str, Any]:
     """Return values with those as numbers that have to be some."""
-    return {key: _numbers(f"{source} \"{key}\"", value, *LEAST_AND_MOST[key], task.hubs if key == "insertion" else 0)
-            if key in LEAST_AND_MOST else value for key, value in values.items()}
+    return {key: _numbers(f"{source} \"{key}\"", value, *LIMITS[key], task.hubs if key == "insertion" else 0)
+            if key in LIMITS else value for key, value in values.items()}
 
 
 def _with_values(draw: Draw, values: Mapping[str, Any]) -> Draw:

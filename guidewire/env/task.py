@@ -30,7 +30,7 @@ _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments",
 # Of what `random` draws, what is no parameter of the scene by itself.
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
 # What a task, its `random` or an option may say.
-LEAST_AND_MOST = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.0, 10.0), "noise": (0.0, 10.0),
+LIMITS = {"friction": (0.0, 10.0), "tip_turn": (-100.0, 100.0), "insertion": (0.0, 10.0), "noise": (0.0, 10.0),
                   "stiffness": (1e-3, 1e3)}
 _BY_LISTS = ("anatomy", "target", "instrument", "nominal", "snapshot")  # options that no distribution draws
 _EACH = ("insertion", "speed", "rotation")  # number, or a list of one for each hub
@@ -182,7 +182,7 @@ def find_task(task: str | Path | Task) -> Task:
                 overrides={"timeStep": _STEP / max(1, round(_STEP / time_step))},
                 anatomies=(str(path.parent / entry["vessel"]["anatomy"]),), targets=(entry["target"],),
                 frictions=(float(_number({"frictionCoefficient": 0.0, **entry["vessel"]}, "frictionCoefficient",
-                                         *LEAST_AND_MOST["friction"], path)),),
+                                         *LIMITS["friction"], path)),),
                 time=2.0 * steps * time_step + 10.0)
 
 
@@ -207,9 +207,9 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
             if key in _BY_LISTS:
                 raise Error(f"random \"{key}\" is not allowed: the task's lists say what is drawn")
             check_distribution(key, distribution)
-            least, most = LEAST_AND_MOST.get(key, (-math.inf, math.inf))
+            least, most = LIMITS.get(key, (-math.inf, math.inf))
             low, high = bounds_of(distribution)
-            if key in LEAST_AND_MOST and not least <= low <= high <= most:
+            if key in LIMITS and not least <= low <= high <= most:
                 raise Error(f"random \"{key}\" = {json.dumps(distribution)} is not allowed: needs numbers from "
                             f"{least:g} to {most:g}")
         except Error as error:
@@ -218,7 +218,7 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         if not isinstance(entry.get(key, []), list):
             raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
     for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("speed", 1e-9, 1e9),
-                             ("rotation", 1e-9, 1e9), ("insertion", *LEAST_AND_MOST["insertion"])):
+                             ("rotation", 1e-9, 1e9), ("insertion", *LIMITS["insertion"])):
         given = [entry[key]] if key in entry else []
         for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
             _number({key: one}, key, least, most, file)
@@ -230,7 +230,7 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     if entry.get("frictions") == []:
         raise Error(f"{file}: task {name}: frictions = [] is not allowed: needs numbers, or leave it out")
     for one in entry.get("frictions", []):
-        _number({"frictions": one}, "frictions", *LEAST_AND_MOST["friction"], file)
+        _number({"frictions": one}, "frictions", *LIMITS["friction"], file)
     for one in of_each(entry.get("follow"), 1):
         if one is not None:
             _number({"follow": one}, "follow", 0.0, 1e9, file)

@@ -8,9 +8,8 @@ namespace Guidewire.Core
     /// <remarks>At an effective energy of 60 keV iron has a mass attenuation coefficient of 0.1205 m^2/kg and nitinol
     /// (56 % nickel, 0.1512; 44 % titanium, 0.0766) of 0.118 (NIST, tables of Hubbell and Seltzer, 2004): both are
     /// taken as 0.12, and polymers of catheters too, which are filled with salts of barium or bismuth. Markers take
-    /// more
-    /// (<see cref="WireSection.Attenuation"/>). The wire of pbd has no material: its optical depth across is 1, and its
-    /// unit is a mm.</remarks>
+    /// more (<see cref="WireSection.Attenuation"/>). The wire of pbd has no material: its optical depth across is 1,
+    /// and its unit is a mm.</remarks>
     public sealed class RunPictures
     {
         private const double MassAttenuation = 0.12;   // m^2/kg

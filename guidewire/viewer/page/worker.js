@@ -9,7 +9,7 @@ const unpack = async (name, type = "application/octet-stream") => {
   return new Response(answer.body.pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": type } });
 };
 
-/** Of the interpreter: what was run 500 times is compiled, not what was run 5000 times. */
+/** The interpreter compiles a trace that has run 500 times; without this it waits for 5,000. */
 const OPTIONS = ["--jiterpreter-minimum-trace-hit-count=500"];
 
 /** What the last steps left. */

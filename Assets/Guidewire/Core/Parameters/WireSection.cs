@@ -58,8 +58,7 @@ namespace Guidewire.Core
         public double? RotaryInertia { get; set; }
 
         /// <summary>Attenuation of X-rays beyond that of its density, 1/mm, as of a marker of platinum in its wall;
-        /// only
-        /// pictures depend on it.</summary>
+        /// only pictures depend on it.</summary>
         public double? Attenuation { get; set; }
 
         /// <summary>Whether it is a marker alone: nothing else of the wire is another here.</summary>

@@ -120,8 +120,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Gives the distance of a point along the centreline to the target, negative beyond it; not a number
-        /// without a
-        /// target.</summary>
+        /// without a target.</summary>
         public double LeftFrom(in Vector3d point, int near)
         {
             return _fromTarget == null ? double.NaN : _fromTarget.DistanceOf(point, near);

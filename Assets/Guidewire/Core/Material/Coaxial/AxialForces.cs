@@ -75,8 +75,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The axial strain of an instrument in an element: that of its own loads, and its part of what else
-        /// is
-        /// along the axis.</summary>
+        /// is along the axis.</summary>
         /// <param name="force">Along the element's axis, of the chain, N.</param>
         public double StrainOf(int instrument, int element, double force)
         {

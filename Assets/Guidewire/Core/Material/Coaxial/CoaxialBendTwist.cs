@@ -115,8 +115,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the even twist of an inner instrument from its own hub to the middle of the outermost one's
-        /// first
-        /// element, rad/m.</summary>
+        /// first element, rad/m.</summary>
         public Vector3d LeadTwist(RodShape shape, int instrument)
         {
             double length = _joints.LeadOf(instrument) + 0.5 * _joints.Stations[1];

@@ -175,7 +175,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Gives the without what dashpots add to it in a stage.</summary>
+        /// <summary>Gives the energy without what dashpots add to it in a stage, J.</summary>
         public override double Stored(RodShape shape)
         {
             return _lag == null ? Value(shape) : Evaluate(shape) + _lag.Stored();
