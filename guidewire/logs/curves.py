@@ -6,6 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 _PIECES = 8  # straight pieces an element: of an arc they are 64 times nearer than its chord
+_NEWTON = 4    # iterations from the nearest point of a chain to that of its spline
 
 
 def smooth(nodes: np.ndarray) -> np.ndarray:
@@ -41,7 +42,9 @@ def by_arc(line: np.ndarray, at: np.ndarray) -> np.ndarray:
 
 
 def offsets(points: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
-    """Offsets of points from the nearest points of a chain of straight pieces.
+    """Offsets of points from the nearest points of the cubic spline through a chain.
+
+    The offset from the chain itself would jump where the nearest point passes from one piece to the next.
 
     Parameters
     ----------
@@ -51,13 +54,22 @@ def offsets(points: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarra
     Returns
     -------
     tuple of ndarray
-        (p, d), from the line to each point; (p,), where along the line the nearest point lies, in pieces.
+        (p, d), from the curve to each point; (p,), where along the line the nearest point lies, in pieces.
     """
     chords = np.diff(line, axis=0)
     squares = np.maximum(np.sum(chords**2, axis=1), np.finfo(float).tiny)
     off = points[:, None, :] - line[None, :-1, :]
-    along = np.clip(np.sum(off * chords, axis=2) / squares, 0.0, 1.0)
-    vectors = off - along[:, :, None] * chords
-    nearest = np.argmin(np.sum(vectors**2, axis=2), axis=1)
-    row = np.arange(len(points))
-    return vectors[row, nearest], nearest + along[row, nearest]
+    share = np.clip(np.sum(off * chords, axis=2) / squares, 0.0, 1.0)
+    nearest = np.argmin(np.sum((off - share[:, :, None] * chords)**2, axis=2), axis=1)
+    along = np.concatenate(([0.0], np.cumsum(np.sqrt(squares))))
+    piece = np.sqrt(squares[nearest])
+    at = along[nearest] + share[np.arange(len(points)), nearest] * piece
+    curve = CubicSpline(along, line)
+    for _ in range(_NEWTON):
+        vectors, tangents = points - curve(at), curve(at, 1)
+        speed = np.sum(tangents**2, axis=1)
+        # Beyond the centre of curvature the nearest point is not the stationary one: there without its curvature.
+        slope = speed - np.sum(vectors * curve(at, 2), axis=1)
+        step = np.sum(vectors * tangents, axis=1) / np.where(slope > 0.1 * speed, slope, speed)
+        at = np.clip(at + np.clip(step, -piece, piece), 0.0, along[-1])
+    return points - curve(at), np.interp(at, along, np.arange(len(line)))
