@@ -38,8 +38,7 @@ BENCHMARKS = "Guidewire.Benchmarks"
 NATIVE = "Guidewire.Native"
 BROWSER = "Guidewire.Browser"
 DOTNET_TESTS = ("Guidewire.Core.Tests", "Guidewire.Unity.Tests")
-# What tests need, in the order in which it is built: programs by the part of the solution that makes them.
-PARTS = {"Runner": (RUNNER, CHECKER), "Tests": DOTNET_TESTS}
+TESTED = (RUNNER, CHECKER, *DOTNET_TESTS)  # what tests need: Tests.slnf
 _WRITTEN = ("**/*.dll", "*.so", "*/*.deps.json", "*/*.runtimeconfig.json")
 
 
@@ -67,13 +66,13 @@ def build(project: str, tell: Callable[[str], None]) -> list[str]:
     return [program, str(_output(project) / f"net{SDK_MAJOR}.0" / f"{project}.dll")]
 
 
-def build_part(part: str, tell: Callable[[str], None]) -> None:
-    """Build the programs of one of PARTS if need be; `tell` and errors as of `build`."""
-    _bring_up_to_date(*dotnet(), HEADLESS / f"{part}.slnf", PARTS[part], tell)
+def build_tested(tell: Callable[[str], None]) -> None:
+    """Build what tests need at once, if need be; `tell` and errors as of `build`."""
+    _bring_up_to_date(*dotnet(), HEADLESS / "Tests.slnf", TESTED, tell)
 
 
 def end_compiler() -> None:
-    """End the compiler process that `build_part` leaves for further builds, if there is one."""
+    """End the compiler process that `build_tested` leaves for further builds, if there is one."""
     subprocess.run([dotnet()[0], "build-server", "shutdown", "--vbcscompiler"], capture_output=True, check=False)
 
 

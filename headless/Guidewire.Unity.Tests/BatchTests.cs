@@ -45,7 +45,7 @@ namespace Guidewire.Unity.Tests
             return new List<string>(own) { "-out", folder }.ToArray();
         }
 
-        /// <summary>The console program as it was built: it comes first, see Runner.slnf.</summary>
+        /// <summary>The console program as it was built: it is in Tests.slnf.</summary>
         private static int Console(params string[] own)
         {
             string folder = Path.GetFileName(TestContext.CurrentContext.TestDirectory.TrimEnd('/', '\\'));

@@ -76,7 +76,7 @@ def test_a_trx_counts_whatever_did_not_pass_as_failed(tmp_path, counters, expect
 def all_tests(monkeypatch, file, build, dotnet):
     """The exit code of `test`, with a build and a `dotnet test` of these and a file in place of all in Python."""
     monkeypatch.setattr(testing, "PYTHON", [str(file)])
-    monkeypatch.setattr(testing.building, "build_part", build)
+    monkeypatch.setattr(testing.building, "build_tested", build)
     monkeypatch.setattr(testing.building, "build_native", lambda tell: None)
     monkeypatch.setattr(testing.building, "dotnet", lambda: (dotnet, ""))
     return testing.test(argparse.Namespace(all=False))
@@ -92,12 +92,12 @@ def test_the_last_line_is_the_sum(monkeypatch, tmp_path, file, capsys, passed, l
                       "echo '<T xmlns=\"x\"><Counters total=\"1\" executed=\"1\" passed=\"1\"/></T>' > "
                       f"{testing.RESULTS}/$name\n")
     dotnet.chmod(0o755)
-    assert all_tests(monkeypatch, file, lambda part, tell: None, str(dotnet)) == code
+    assert all_tests(monkeypatch, file, lambda tell: None, str(dotnet)) == code
     assert capsys.readouterr().out.splitlines()[-1] == last
 
 
 def test_a_build_that_fails_ends_everything(monkeypatch, file, capsys):
-    def build(part, tell):
+    def build(tell):
         raise PreparationError("Rod.cs(1,1): error CS1002")
 
     file.write_text("import time\ndef test_of_a_minute(): time.sleep(60)\n")

@@ -16,7 +16,7 @@ from guidewire.runs import building
 
 PROJECT = building.RUNNER
 FAKE = Path(__file__).with_name("fake_dotnet.py")
-PROGRAMS = (building.BENCHMARKS, *(name for names in building.PARTS.values() for name in names))
+PROGRAMS = (building.BENCHMARKS, *building.TESTED)
 
 
 class Workshop:
@@ -28,7 +28,7 @@ class Workshop:
         self.put("Assets/Guidewire/Io/Log.cs", "class Log { }\n")
         for project in PROGRAMS:
             self.put(f"headless/{project}/{project}.csproj", "<Project/>\n")
-        for name in ("Directory.Build.props", "Directory.Packages.props", *(f"{part}.slnf" for part in building.PARTS)):
+        for name in ("Directory.Build.props", "Directory.Packages.props", "Tests.slnf"):
             self.put(f"headless/{name}", "<Project/>\n")
         self.output = root / "headless" / PROJECT / "bin/Release/net10.0" / f"{PROJECT}.dll"
         self.install(bench, "10.0.401 [/usr/share/dotnet/sdk]\n")
@@ -146,11 +146,11 @@ def test_msbuild_builds_upon_what_is_there_only_where_it_can_see_the_change(shop
     assert len(shop.builds()) == 3
 
 
-def test_a_build_of_a_part_counts_for_each_of_its_programs(shop: Workshop) -> None:
-    building.build_part("Runner", shop.told.append)
+def test_a_build_of_many_counts_for_each_of_its_programs(shop: Workshop) -> None:
+    building.build_tested(shop.told.append)
     shop.build()
     building.build(building.CHECKER, shop.told.append)
-    building.build_part("Runner", shop.told.append)
+    building.build_tested(shop.told.append)
     assert len(shop.builds()) == 1
 
 
@@ -211,10 +211,9 @@ def test_every_program_of_the_solution_has_a_stamp() -> None:
     assert programs == set(PROGRAMS)
 
 
-@pytest.mark.parametrize("part", building.PARTS)
-def test_a_part_of_the_solution_is_what_its_file_names(part: str) -> None:
-    filtered = json.loads((building.HEADLESS / f"{part}.slnf").read_text(encoding="utf-8"))["solution"]
-    assert tuple(path.split("\\")[0] for path in filtered["projects"]) == building.PARTS[part]
+def test_what_tests_need_is_what_the_file_names() -> None:
+    filtered = json.loads((building.HEADLESS / "Tests.slnf").read_text(encoding="utf-8"))["solution"]
+    assert tuple(path.split("\\")[0] for path in filtered["projects"]) == building.TESTED
 
 
 def test_a_missing_dotnet_is_one_clear_line(monkeypatch: pytest.MonkeyPatch) -> None:
