@@ -22,6 +22,14 @@ namespace Guidewire.Core.Tests
             return string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL")) ? all / oneOf : all;
         }
 
+        /// <summary>The first of so many cases to try of all, each day the next ones: the environment variable
+        /// GUIDEWIRE_DAY is the number of the day.</summary>
+        public static int FirstOfTheDay(int count, int all)
+        {
+            string day = Environment.GetEnvironmentVariable("GUIDEWIRE_DAY") ?? "0";
+            return count * (int.Parse(day, CultureInfo.InvariantCulture) % (all / count));
+        }
+
         /// <summary>Draws 100,000 cases, or a tenth of them, and asserts that no error of one exceeds the
         /// tolerance.</summary>
         public static void AssertErrors(int seed, double tolerance, Func<RandomGeometry, double> error)

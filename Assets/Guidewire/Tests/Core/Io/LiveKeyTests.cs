@@ -12,7 +12,7 @@ namespace Guidewire.Core.Tests
     public sealed class LiveKeyTests : FolderTests
     {
         private const int Steps = 2;               // before, between and after the changes
-        private static readonly int RandomChanges = Rods.InFull ? 40 : 16;
+        private static readonly int RandomChanges = Rods.InFull ? 40 : 8;
         private const int MinChanged = 35;       // keys of a scene; the others need more than one change, or refuse
 
         private const string Tube = "\"vessel\": {\"shape\": \"tube\", \"knots\": [[0, 0, -400], [0, 0, 400]],"

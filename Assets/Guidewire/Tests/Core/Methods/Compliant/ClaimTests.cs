@@ -4,35 +4,43 @@ using NUnit.Framework;
 namespace Guidewire.Core.Tests
 {
     /// <summary>What an xpbd run says of itself is true: random wires, loads, substeps and sweeps against the direct
-    /// solver, which solves the same chain exactly. A seeded campaign, a small part of it by default.</summary>
+    /// solver, which solves the same chain exactly. A few of 240 by default, a quarter of them where campaigns run in
+    /// full, another one each day.</summary>
     public sealed class ClaimTests
     {
         private const double Gate = 0.02;    // of the largest displacement of a sphere
+        private const int Cases = 240;
         private const double Settled = 14.0; // a critically damped motion is over after so many 1/omega: 15 exp(-14)
 
         [Test]
         public void RunThatClaimsConvergence_EndsInTheRestShape()
         {
-            Campaign(11, Rods.InFull ? 240 : 3, true, ErrorAtRest);
+            Campaign(11, 3, true, ErrorAtRest);
         }
 
         [Test]
         public void RunThatClaimsConvergence_MovesAsImplicitEuler()
         {
-            Campaign(12, Rods.InFull ? 240 : 8, false, ErrorInMotion);
+            Campaign(12, 8, false, ErrorInMotion);
         }
 
-        private static void Campaign(int seed, int count, bool damped,
+        private static void Campaign(int seed, int few, bool damped,
             Func<SimulationParameters, Simulation, double> go)
         {
+            int count = Rods.InFull ? Cases / 4 : few;
+            int first = Rods.InFull ? RandomGeometry.FirstOfTheDay(count, Cases) : 0;
             var random = new System.Random(seed);
             int claims = 0;
             int silent = 0;
             int lost = 0;
             double worst = 0.0;
-            for (int i = 0; i < count; i++)
+            for (int i = 0; i < first + count; i++)
             {
                 SimulationParameters parameters = Case(random, damped);
+                if (i < first)
+                {
+                    continue;
+                }
                 Simulation run = Simulation.Create(parameters);
                 double error = go(parameters, run);
                 SolverReport report = run.Report()!;

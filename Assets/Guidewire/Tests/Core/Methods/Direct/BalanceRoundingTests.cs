@@ -17,7 +17,7 @@ namespace Guidewire.Core.Tests
         [TestCase(1e-3, 150)]
         public void StiffWire_BendsUnderItsLoad(double radius, int elements)
         {
-            for (double scale = 1e3; scale < 2e9; scale *= 10.0)
+            for (double scale = 1e3; scale < 2e9; scale *= Rods.InFull ? 10.0 : 1e3)
             {
                 foreach (bool hasWall in new[] { false, true })
                 {
@@ -42,7 +42,7 @@ namespace Guidewire.Core.Tests
         [TestCase(true)]
         public void StiffWireHeldAtBothEnds_Bends_AndIsSaidToHaveUncertainForces(bool hasWall)
         {
-            for (double scale = 1e-2; scale < 2e9; scale *= 100.0)
+            for (double scale = 1e-2; scale < 2e9; scale *= Rods.InFull ? 100.0 : 1e4)
             {
                 SimulationParameters parameters = Wire(scale, 0.35e-3, 40, hasWall);
                 parameters.Scene.TipForce = Vector3d.Zero;
@@ -68,14 +68,14 @@ namespace Guidewire.Core.Tests
         [TestCase(0.35e-3)]
         public void WireBeyondAStiffStraightCatheter_IsDrivenOutAsFromAGuide(double radius)
         {
-            for (double scale = 1e4; scale < 2e9; scale *= 10.0)
+            for (double scale = 1e4; scale < 2e9; scale *= Rods.InFull ? 10.0 : 1e5)
             {
                 foreach (bool hasWall in new[] { false, true })
                 {
                     string which = "scale " + scale + ", wall " + hasWall;
-                    double[] error = { GuideError(scale, radius, 10, hasWall), GuideError(scale, radius, 20, hasWall) };
-                    TestContext.WriteLine("{0}: {1:G3}, {2:G3}", which, error[0], error[1]);
-                    Assert.That(Math.Abs(error[1]), Is.LessThan(0.01), which);
+                    double error = GuideError(scale, radius, 20, hasWall);
+                    TestContext.WriteLine("{0}: {1:G3}", which, error);
+                    Assert.That(Math.Abs(error), Is.LessThan(0.01), which);
                 }
             }
         }

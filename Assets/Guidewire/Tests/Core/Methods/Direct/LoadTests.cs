@@ -283,7 +283,7 @@ namespace Guidewire.Core.Tests
 
         private static SimulationParameters Moving(Solver solver)
         {
-            SimulationParameters parameters = Rods.Clamped(8, solver, 1e-3, 20);
+            SimulationParameters parameters = Rods.Clamped(8, solver, 1e-3, solver == Solver.Explicit ? 8 : 20);
             parameters.Method.Integrator = solver == Solver.Direct ? Integrator.Esdirk3 : Integrator.Verlet;
             parameters.Method.SolverTolerance = 1e-10;
             parameters.Method.Substeps = solver == Solver.Direct ? 1 : solver == Solver.Xpbd ? 200 : 5000;

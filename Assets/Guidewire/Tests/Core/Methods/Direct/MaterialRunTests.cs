@@ -189,7 +189,7 @@ namespace Guidewire.Core.Tests
             const double B = 1.345;
             const double C = 0.789;
             const double Radius = 0.1;
-            const int N = 200;
+            const int N = 120;
             SimulationParameters parameters = Cantilever(N, Solver.Direct, Integrator.Esdirk3, 1e-3, 0);
             parameters.Scene.Gravity = Vector3d.Zero;
             parameters.Scene.GuidewireLength = 100.0;

@@ -8,6 +8,7 @@ namespace Guidewire.Core.Tests
     public sealed class PipelinedIterationsTests
     {
         private const int AllWires = 200;
+        private const int DailyWires = 50;
         private const int DefaultWires = 6;
         private const int AllSteps = 100;
         private const int DefaultSteps = 20;
@@ -17,9 +18,10 @@ namespace Guidewire.Core.Tests
         [TestCase(8)]
         public void RandomWires_MoveAsTheyDoOneSweepAfterTheOther(int lanes)
         {
-            int wires = Rods.InFull ? AllWires : DefaultWires;
+            int wires = Rods.InFull ? DailyWires : DefaultWires;
+            int first = Rods.InFull ? RandomGeometry.FirstOfTheDay(wires, AllWires) : 0;
             int steps = Rods.InFull ? AllSteps : DefaultSteps;
-            for (int seed = 0; seed < wires; seed++)
+            for (int seed = first; seed < first + wires; seed++)
             {
                 RodState expected = RandomWire(seed, out ScalarIterations scalar, out int iterations);
                 RodState state = RandomWire(seed, out ScalarIterations twin, out _);

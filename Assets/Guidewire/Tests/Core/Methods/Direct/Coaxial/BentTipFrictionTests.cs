@@ -37,9 +37,12 @@ namespace Guidewire.Core.Tests
             TestContext.WriteLine("with 0.7 of it {0:G4} units, with 1.3 {1:G4}", 1e3 * held.Displacement,
                 1e3 * goes.Displacement);
             // What it goes is what it yields: as much where the hub is asked twice as long.
-            CoaxialRecord longer = Push(curvature, 0.7 * force, 120).Coaxial()!;
-            TestContext.WriteLine("asked twice as long {0:G4}", 1e3 * longer.Displacement);
-            Assert.That(longer.Displacement, Is.EqualTo(held.Displacement).Within(0.02 * held.Displacement));
+            if (Rods.InFull)
+            {
+                CoaxialRecord longer = Push(curvature, 0.7 * force, 120).Coaxial()!;
+                TestContext.WriteLine("asked twice as long {0:G4}", 1e3 * longer.Displacement);
+                Assert.That(longer.Displacement, Is.EqualTo(held.Displacement).Within(0.02 * held.Displacement));
+            }
             Assert.That(1e3 * (held.Displacement + held.Shortfall), Is.EqualTo(Asked).Within(1e-9));
             Assert.That(Math.Abs(held.Force), Is.LessThan(0.7001 * force));
             Assert.That(1e3 * goes.Displacement, Is.EqualTo(Asked).Within(0.01 * Asked));

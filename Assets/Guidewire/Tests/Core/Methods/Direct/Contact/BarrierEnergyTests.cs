@@ -142,7 +142,7 @@ namespace Guidewire.Core.Tests
             const double range = 0.3;
             ContactShape wall = TestShapes.Make(name);
             var random = new RandomGeometry(78);
-            for (int i = 0; i < 500; i++)
+            for (int i = 0; i < RandomGeometry.Cases(500, 4); i++)
             {
                 Vector3d a = random.Point();
                 Vector3d b = a + 0.5 * random.Point();
@@ -202,7 +202,7 @@ namespace Guidewire.Core.Tests
         {
             ContactShape wall = TestShapes.Make(name);
             int cut = 0;
-            for (int seed = 0; seed < 400 && cut < RandomGeometry.Cases(400, 25); seed++)
+            for (int seed = 0; seed < 400 && cut < RandomGeometry.Cases(400, 50); seed++)
             {
                 BarrierEnergy energy = Create(wall, seed, out RodShape shape);
                 if (double.IsPositiveInfinity(energy.Value(shape)) || GapOf(energy.Walls[0], shape) <= 0.0)
@@ -235,7 +235,7 @@ namespace Guidewire.Core.Tests
         {
             ContactShape wall = TestShapes.Make(name);
             int touching = 0;
-            for (int seed = 0; seed < 4000 && touching < 8; seed++)
+            for (int seed = 0; seed < 4000 && touching < (Rods.InFull ? 8 : 5); seed++)
             {
                 BarrierEnergy old = Create(wall, seed, out RodShape shape);
                 if (!(old.Value(shape) < 1e3))

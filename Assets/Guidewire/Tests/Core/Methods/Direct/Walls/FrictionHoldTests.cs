@@ -104,8 +104,9 @@ namespace Guidewire.Core.Tests
             Wires.GoOn(run, 10);
             double torque = run.Hub()!.Torque;
             Assert.That(torque, Is.GreaterThan(0.95 * Limit(run, mu, 0.2e-3)));
-            Wires.GoOn(run, (int)(60.0 / Step));
-            Assert.That(run.Hub()!.Torque / torque, Is.EqualTo(1.0).Within(1e-3));
+            double minutes = Rods.InFull ? 1.0 : 0.25;    // what creeps, goes as far in each
+            Wires.GoOn(run, (int)(60.0 * minutes / Step));
+            Assert.That(run.Hub()!.Torque / torque, Is.EqualTo(1.0).Within(1e-3 * minutes));
         }
 
         [TestCase(0.3, Category = "Long")]
