@@ -49,10 +49,10 @@ for await (const line of createInterface({ input: process.stdin })) {
   const { offline, size, steps } = JSON.parse(line);
   const context = await browser.newContext({ viewport: { width: size[0], height: size[1] }, offline });
   context.setDefaultTimeout(120_000);
-  // A processor draws here what a graphics card draws elsewhere: 12 pictures a second are enough to test.
+  // A processor draws here what a graphics card draws elsewhere: 7 pictures a second are enough to test.
   await context.addInitScript(() => {
     const next = window.requestAnimationFrame.bind(window);
-    window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 65);
+    window.requestAnimationFrame = (draw) => setTimeout(() => next(draw), 130);
   });
   const page = await context.newPage();
   const troubles = [];

@@ -46,7 +46,7 @@ def by_gamepad():
 
 
 @pytest.mark.parametrize("hand, size", [
-    (by_keys, (1440, 900)),
+    (by_keys, (720, 520)),
     pytest.param(by_finger, (390, 844), marks=pytest.mark.long("the same by keys")),
     pytest.param(by_gamepad, (844, 390), marks=pytest.mark.long("the same by keys")),
 ])
