@@ -132,6 +132,7 @@ def test_environments(tmp_path, asked, said):
 
 
 def test_a_task_of_ones_own_with_a_note_is_an_environment(runner_command, tmp_path):
+    pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
     with Environment(_file(tmp_path, '{"note": "mine", "overrides": {"timeStep": 0.07}, ' + TASK + "}")) as environment:
         environment.reset(seed=1)
         environment.step(environment.action_space.sample())
