@@ -28,9 +28,13 @@ def of_the_day(count: int, most: int | None = None) -> range:
 
 def seeds(campaign: str, fraction: Sequence[int], count: int) -> list[int]:
     """The seeds to run: those that broke a claim, and `count` of the day, or the fraction."""
+    return list(dict.fromkeys([*red(campaign), *(of_the_day(count) if FULL_CAMPAIGNS in os.environ else fraction)]))
+
+
+def red(campaign: str) -> list[int]:
+    """The seeds that broke a claim the last time."""
     file = RED / campaign
-    red = [int(line) for line in file.read_text().split()] if file.exists() else []
-    return list(dict.fromkeys([*red, *(of_the_day(count) if FULL_CAMPAIGNS in os.environ else fraction)]))
+    return [int(line) for line in file.read_text().split()] if file.exists() else []
 
 
 def keep(campaign: str, broken: Iterable[int]) -> None:

@@ -10,6 +10,7 @@ import numpy as np
 from analysis.passages import SAMPLES, sample_wire
 from analysis.wall_search import Walls
 from experiments.campaigns.push_claims import contradictions
+from guidewire.logs.paths import lengths_of, through_tips
 
 SAME = 1e-9  # of the wire's radius
 OF_DISPLACEMENT = 1e-6  # of the displacement that was asked for: node 0 is on a stiff spring
@@ -29,15 +30,43 @@ def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.nda
     ----------
     scene, summary : the run's parameter file and summary.json.
     positions : (k, n + 1, 3), of all nodes at the start and after every step, in units.
-    radii : (n,), of the elements, in units.
+    radii : (n,), of the elements, in units; (k, n) where they are others in each entry.
     walls : the scene's.
     """
     if not np.isfinite(positions).all():
         return ["a position is not a finite number"]
     first = _first_outside(scene, positions)
+    radii = np.broadcast_to(radii, (len(positions), positions.shape[1] - 1))
     return [*contradictions(summary), *_passages(summary, positions, first, walls),
             *_depth(scene, summary, positions, first, radii, walls), *_drive(scene, summary, positions),
-            *_strain(summary)]
+            *_hubs(scene, summary, len(positions) - 1), *_strain(summary)]
+
+
+def chain(positions: np.ndarray, catheters: tuple[np.ndarray, ...], radii: list[np.ndarray]
+          ) -> tuple[np.ndarray, np.ndarray]:
+    """The outermost instrument at each place: nodes (k, m + 1, 3), and the radius of each element (k, m). Where an entry
+    has fewer the last node stands several times.
+
+    Parameters
+    ----------
+    positions, catheters : nodes of the wire, and of each catheter, the outermost first, (k, n + 1, 3) each.
+    radii : of the elements of each, the wire first and the outermost catheter last.
+    """
+    instruments = [*catheters, positions]
+    lengths = [lengths_of(own) for own in instruments]
+    rows = []
+    for entry in range(len(positions)):
+        nodes, wide = instruments[0][entry], radii[-1]
+        for own, length, width in zip(instruments[1:], lengths[1:], radii[-2::-1]):
+            path, pieces = through_tips(own[entry], [nodes], length)
+            at = np.flatnonzero((path == nodes[-1]).all(axis=1))
+            if len(at):
+                nodes = np.concatenate([nodes, path[at[0] + 1:]])
+                wide = np.concatenate([wide, width[pieces[at[0]:]]])
+        rows.append((nodes, wide))
+    most = max(len(wide) for _, wide in rows)
+    return (np.array([np.concatenate([nodes, np.repeat(nodes[-1:], most + 1 - len(nodes), axis=0)]) for nodes, _ in rows]),
+            np.array([np.concatenate([wide, np.repeat(wide[-1:], most - len(wide))]) for _, wide in rows]))
 
 
 def _first_outside(scene: dict[str, Any], positions: np.ndarray) -> np.ndarray:
@@ -64,7 +93,7 @@ def _depth(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
            radii: np.ndarray, walls: Walls) -> list[str]:
     """Deepest that the surface of any element is in a wall, over all entries."""
     claims, deepest = [], 0.0
-    outside = np.arange(len(radii)) >= first[:, None]
+    outside = np.arange(radii.shape[1]) >= first[:, None]
     for radius in np.unique(radii):
         chosen = outside & (radii == radius)
         a, b = positions[:, :-1][chosen], positions[:, 1:][chosen]
@@ -91,12 +120,9 @@ def _depth(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
 def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray) -> list[str]:
     claims = []
     steps = len(positions) - 1  # a step without a state did not go
-    if "driveFile" in scene:
-        time, insertion, _ = np.loadtxt(scene["driveFile"], delimiter=",", skiprows=1).T
-        way = np.diff(np.interp(scene["timeStep"] * np.arange(steps + 1), time, 1e3 * insertion))
-        asked = np.abs(way).sum()
-    else:
-        asked = scene["displacementPerStep"] * steps
+    if "catheters" in scene:
+        return claims
+    asked = _asked(scene, scene, steps)
     if abs(summary["driveAsked"] - asked) > OF_DISPLACEMENT * asked:
         claims.append(f"driveAsked = {summary['driveAsked']}, true is {asked}")
     if "driveFile" in scene:  # of a way back and forth, what was not gone may have been made up for
@@ -106,6 +132,35 @@ def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
     if abs(gone + summary["driveShortfall"] - asked) > elastic:
         claims.append(f"asked {asked}, gone {gone}, driveShortfall = {summary['driveShortfall']}")
     return claims
+
+
+def _asked(scene: dict[str, Any], driven: dict[str, Any], steps: int) -> float:
+    """What a hub was asked to go in so many steps, there and back both counted, units."""
+    if "driveFile" not in driven:
+        return driven["displacementPerStep"] * steps
+    time, insertion, _ = np.loadtxt(driven["driveFile"], delimiter=",", skiprows=1).T
+    return float(np.abs(np.diff(np.interp(scene["timeStep"] * np.arange(steps + 1), time, 1e3 * insertion))).sum())
+
+
+def _hubs(scene: dict[str, Any], summary: dict[str, Any], steps: int) -> list[str]:
+    """Of several instruments what each hub was asked, and what it went and lost of that."""
+    claims = []
+    driven = [scene, *scene.get("catheters", [])] if "catheters" in scene else []
+    for k, (one, said) in enumerate(zip(driven, summary.get("hubs") or [])):
+        asked = 1e-3 * _asked(scene, one, steps)
+        if abs(said["asked"] - asked) > OF_DISPLACEMENT * asked:
+            claims.append(f"hub {k} was asked {said['asked']} m, true is {asked}")
+        missing = asked - said["gone"] - said["shortfall"]
+        if abs(missing) > OF_DISPLACEMENT * asked:
+            claims.append(f"hub {k}: asked {asked} m, {said}")
+    return claims
+
+
+def beyond(scene: dict[str, Any], forces: list[np.ndarray]) -> float:
+    """By what part of its hubForceLimit the force of a hub is above it, at most; of the wire first, (k,) each, N."""
+    limits = [one.get("hubForceLimit", 0.0) for one in (scene, *scene.get("catheters", []))]
+    return max((float(np.abs(force).max(initial=0.0)) / limit - 1.0
+                for force, limit in zip(forces, limits) if limit > 0.0), default=0.0)
 
 
 def _strain(summary: dict[str, Any]) -> list[str]:

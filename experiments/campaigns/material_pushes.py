@@ -1,5 +1,5 @@
-"""Random wires with a material pushed into the vessels of `pushes`: by direct, by direct through a sheath ("sheath"),
-and by xpbd. Lengths are millimetres, one unit each."""
+"""Random wires with a material pushed into the vessels of `pushes`: by direct, by direct through a sheath ("sheath"), in
+one catheter or in two, in one in a sheath ("sheathed"), and by xpbd. Lengths are millimetres, one unit each."""
 
 from __future__ import annotations
 
@@ -10,7 +10,9 @@ import numpy as np
 
 from experiments.campaigns import pushes
 
-METHODS = ("direct", "sheath", "xpbd")
+METHODS = ("direct", "sheath", "xpbd", "catheter", "catheters", "sheathed")
+_CATHETERS = {"catheter": 1, "catheters": 2, "sheathed": 2}    # by method
+_SHEATHS = ("sheath", "sheathed")
 SOFT = 0.9  # of the radius, by which a soft wall gives way at most
 _LONG = 400.0  # mm of wire in a sheath
 _ELEMENTS_IN_VESSEL = 2.5  # of a sheath's exit from the vessel's closed end
@@ -23,14 +25,16 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     slope is left out there.
     """
     random = np.random.default_rng([21, METHODS.index(method), seed])
-    kinds = [kind for kind in pushes.KINDS if method != "sheath" or kind != "slope"]
+    kinds = [kind for kind in pushes.KINDS if method not in _SHEATHS or kind != "slope"]
     kind = kinds[seed % len(kinds)]
     radius = _between(random, 0.15, 0.6)
-    ball = radius * _between(random, 1.02, 6.0)  # what the vessel is drawn for: its narrow places let it through
+    widths = radius * np.cumprod([_between(random, 1.25, 2.0) for _ in range(_CATHETERS.get(method, 0))])
+    # What the vessel is drawn for: its narrow places let it through.
+    ball = float(max([radius, *widths])) * _between(random, 1.02, 6.0)
     spacing = _between(random, 1.5, 8.0) * ball
     count = int(random.integers(6, 40))
     outside = spacing * count
-    straight = spacing * (_ELEMENTS_IN_VESSEL + 2.5) if method == "sheath" else outside + 4.0 * ball
+    straight = spacing * (_ELEMENTS_IN_VESSEL + 2.5) if method in _SHEATHS else outside + 4.0 * ball
     vessel = pushes.KINDS[kind](random, ball, straight)
     if kind == "slope":  # no nearer to the tip than the wire is thick
         vessel.wall["point"][2] *= max(1.0, 1.2 * ball / _height(vessel.wall))
@@ -45,13 +49,13 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
         "timeStep": _between(random, 1e-3, 3e-2) * (0.1 if method == "xpbd" else 1.0), "displacementPerStep": per_step,
         "deltaThreshold": 0.0,
         "maxSimulationSteps": int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 120)),
-        "logFormat": "npz", "logContacts": True, "vessel": dict(vessel.wall),
+        "logFormat": "npz", "logContacts": True, "logHub": method != "xpbd", "vessel": dict(vessel.wall),
     }
     if random.uniform() < 0.5:
         scene["gravity"] = (9.81 * pushes.direction(random)).tolist()
     if random.uniform() < 0.4:
         scene["twistPerStep"] = random.uniform(-0.3, 0.3)
-    if random.uniform() < 0.3 and method != "sheath":
+    if random.uniform() < 0.3 and method not in _SHEATHS:
         scene["obstacles"] = [pushes.obstacle(random, vessel, ball) for _ in range(random.integers(1, 3))]
     if method == "xpbd":
         scene["substeps"] = round(_between(random, 10.0, 100.0))
@@ -61,7 +65,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
             scene["hubForceLimit"] = _between(random, 0.2, 5.0)
         if random.uniform() < 0.3:
             scene["materialDamping"] = _between(random, 1e-5, 1e-3)
-    if method == "sheath":
+    if method in _SHEATHS:
         _lead_in(random, scene, spacing, straight)
     else:
         scene["wireSections"] = _tip(random, scene, count)
@@ -72,7 +76,9 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     if random.uniform() < 0.5:
         for wall in (scene["vessel"], *scene.get("obstacles", [])):
             wall["frictionCoefficient"] = random.uniform(0.02, 0.4)
-    if seed % 3 == 2 and method != "xpbd":
+    if method in _CATHETERS:
+        _in_catheters(np.random.default_rng([57, seed]), scene, widths, distance, folder / f"push-{seed}")
+    elif seed % 3 == 2 and method != "xpbd":
         _turn_back(np.random.default_rng([67, seed]), scene, folder / f"push-{seed}.csv")
     return kind, scene
 
@@ -94,6 +100,12 @@ def radii_of(scene: dict[str, Any]) -> np.ndarray:
     for section in scene["wireSections"]:
         radii += [section.get("wireRadius", scene["wireRadius"])] * section["numberRodElements"]
     return 1e3 * np.array(radii)
+
+
+def chain_radii_of(scene: dict[str, Any]) -> list[np.ndarray]:
+    """Radii in units of the elements of the wire and of each catheter, the outermost last."""
+    return [radii_of(scene), *(np.full(one["elements"], 1e3 * one["wireRadius"])
+                               for one in reversed(scene.get("catheters", [])))]
 
 
 def core_radii_of(scene: dict[str, Any]) -> np.ndarray:
@@ -158,6 +170,55 @@ def _turn_back(random, scene: dict[str, Any], file: Path) -> None:
     file.write_text("time,insertion,rotation\n0,0,0\n"
                     f"{middle!r},{1e-3 * ahead!r},{turn!r}\n{end!r},{1e-3 * ahead * random.uniform(-0.2, 0.8)!r},0\n")
     scene["driveFile"] = str(file)
+
+
+def _in_catheters(random, scene: dict[str, Any], widths: np.ndarray, distance: float, stem: Path) -> None:
+    """Catheters of these radii (mm, the innermost first) around the wire, with bent tips; each hub has a drive of its
+    own, along so much of the vessel (mm) as its steps allow. The tips start where the wire's would, or behind; each hub
+    starts ahead of the one inside by what that goes farther."""
+    scene.pop("materialDamping", None)
+    del scene["displacementPerStep"]
+    scene["maxSimulationSteps"] = 120
+    ahead = min(random.uniform(0.3, 1.2) * distance, 120 * _between(random, 0.2, 2.0) * float(widths[-1]))
+    turn = scene["maxSimulationSteps"] * scene.pop("twistPerStep", 0.0)
+    times = scene["maxSimulationSteps"] * scene["timeStep"] * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
+    drives = [[0.0, *(ahead * random.uniform(-0.1, 1.0, 4) * [0.3, 0.6, 0.8, 1.0])] for _ in range(1 + len(widths))]
+    files = [stem.with_name(f"{stem.name}-hub{k}.csv") for k in range(len(drives))]
+    for file, drive in zip(files, drives):
+        turns = [0.0, *random.uniform(-1.0, 1.0, 4) * (abs(turn) + np.pi)]
+        file.write_text("time,insertion,rotation\n" + "".join(
+            f"{at!r},{1e-3 * way!r},{angle!r}\n" for at, way, angle in zip(times.tolist(), drive, map(float, turns))))
+    element = scene["guidewireLength"] / (scene["numberRodElements"] + sum(
+        section["numberRodElements"] for section in scene["wireSections"]))
+    length, start, inside = scene["guidewireLength"], 0.0, 1e3 * scene["wireRadius"]
+    catheters = []
+    for k, width in enumerate(widths):
+        start += float(np.subtract(drives[k], drives[k + 1]).max()) + random.uniform(0.1, 3.0) * element
+        count = int(random.integers(8, 30))
+        stiffness = _between(random, 2e8, 1e10)
+        catheter = {"start": start, "elements": count, "wireRadius": 1e-3 * float(width), "youngsModulus": stiffness,
+                    "shearModulus": 0.38 * stiffness, "density": 1500.0, "driveFile": str(files[k + 1]),
+                    "lumenRadius": 1e-3 * float(inside + (width - inside) * random.uniform(0.2, 0.7))}
+        if random.uniform() < 0.3:
+            catheter["hubForceLimit"] = _between(random, 0.2, 5.0)
+        if random.uniform() < 0.3:
+            catheter["lumenFriction"] = random.uniform(0.02, 0.3)
+        catheters.insert(0, catheter)
+        inside = width
+    # The wire is longer by what the hubs stand ahead, so that the outermost one has the length that was drawn.
+    scene |= {"guidewireLength": length + start, "guidewireOffset": scene["guidewireOffset"] - start,
+              "driveFile": str(files[0]), "catheters": catheters}
+    scene["numberRodElements"] += int(np.ceil(start / element))
+    for section in scene["wireSections"]:
+        section["from"] += start
+        section["to"] += start
+    for catheter in catheters:
+        behind = random.choice([0.0, random.uniform(0.0, 0.4) * length])
+        catheter["length"] = float(length + start - catheter["start"] - behind)
+        bend = random.uniform(0.0, 0.1) / (1e-3 * element)
+        tip = min(max(3.0 * element, 1.5 * catheter["length"] / catheter["elements"]), 0.5 * catheter["length"])
+        catheter["wireSections"] = [{"from": catheter["length"] - tip, "to": catheter["length"],
+                                     "restCurvature": [*(bend * pushes.direction(random)[:2]).tolist(), 0.0]}]
 
 
 def _lead_in(random, scene: dict[str, Any], spacing: float, straight: float) -> None:

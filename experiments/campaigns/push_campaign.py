@@ -3,7 +3,8 @@
 ``python3 -m experiments.campaigns.push_campaign --method direct --runs 300 --keep DIR`` prints one line for each run
 that breaks a claim, and keeps its scene there; METHOD is pbd (`pushes`) or one of `material_pushes`. Meshes that cross
 themselves have no inside, and a wire may start in a wall: a seed that draws either is skipped and does not count as a
-run.
+run. With ``--record FILE`` a campaign that was ended goes on, with ``--result`` it writes its row of `results`. Seeds
+that broke a claim the last time go first.
 """
 
 from __future__ import annotations
@@ -18,24 +19,26 @@ import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from analysis.wall_search import Walls, crosses_itself, triangles_of
-from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
+from experiments.campaigns import material_claims, material_pushes, push_claims, pushes, results
 from guidewire.logs.logs import read_log
 from guidewire.logs.surfaces import read_obj
 from guidewire.runs import building
 from guidewire.runs.runner import Request, Runner
+from tools.seeds import keep, red
 
-RUN_LIMIT = 60.0  # s of wall time of one run
+RUN_LIMIT = 600.0  # s of wall time of one run
+MOST_BEYOND = 0.02  # of its hubForceLimit, by which the force of a hub may be above it where no warning says so
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
 OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", material_claims.KINKED,
            "the drive fell short: ", "over which the wire spreads a load on the wall",
-           "of its softLimit: there it was almost rigid")
+           "of its softLimit: there it was almost rigid", "which is not simulated: at the tip their axes may differ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
 
@@ -52,6 +55,7 @@ class Push:
     outcome : how it ended; None where it did not.
     reason : its reason.
     is_reliable : whether its summary says that nothing speaks against its result.
+    beyond : part of its hubForceLimit by which the force of a hub was above it, at most.
     """
 
     seed: int
@@ -61,6 +65,7 @@ class Push:
     outcome: str | None = None
     reason: str = ""
     is_reliable: bool = False
+    beyond: float = 0.0
 
 
 def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
@@ -93,16 +98,26 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
     if CODES.get(answer.outcome) != answer.exit_code:
         return Push(seed, kind, [f"{answer.outcome}: {answer.message}"], seconds, answer.outcome)
     summary = json.loads((out / "summary.json").read_text())
-    positions = read_log(out, spheres="all").positions
+    log = read_log(out, spheres="all")
+    beyond = 0.0
     if method == "pbd":
-        claims = push_claims.violations(scene, summary, positions, walls)
+        claims = push_claims.violations(scene, summary, log.positions, walls)
     else:
-        claims = material_claims.violations(scene, summary, positions, material_pushes.core_radii_of(scene), walls)
+        nodes, radii = log.positions, material_pushes.core_radii_of(scene)
+        if log.catheters:
+            nodes, radii = material_claims.chain(nodes, log.catheters, material_pushes.chain_radii_of(scene))
+        claims = material_claims.violations(scene, summary, nodes, radii, walls)
+        if scene.get("logHub"):
+            with np.load(out / "positions.npz") as arrays:
+                names = ("hubForce", "catheterForce", "catheter2Force")
+                beyond = material_claims.beyond(scene, [arrays[name] for name in names if name in arrays])
+        if beyond > MOST_BEYOND and not any("hubForceLimit" in warning for warning in summary["warnings"]):
+            claims.append(f"a hub is above its hubForceLimit by {beyond:.1%}, and no warning says so")
     # A mesh of a push is closed; a tube goes on beyond its last knot, where the tip has left it.
     known = OF_ENDS if scene["vessel"]["shape"] == "mesh" else (*OF_ENDS, push_claims.RIM)
     claims += [f"warning: {warning}" for warning in summary["warnings"]
                if not any(words in warning for words in known)]
-    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["reliable"])
+    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["reliable"], beyond)
 
 
 def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
@@ -148,30 +163,51 @@ def main(arguments: Sequence[str]) -> int:
                         help="of the runs (default pbd)")
     parser.add_argument("--soft", action="store_true", help="walls that give way, with direct and sheath")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
+    parser.add_argument("--record", type=Path, metavar="FILE", help="what each seed came to, a line each; what stands "
+                        "there is not run again")
+    parser.add_argument("--result", action="store_true", help="write the row of experiments/campaigns/results.json")
     given = parser.parse_args(arguments)
     if given.soft and given.method not in ("direct", "sheath"):
         parser.error(f"--soft with {given.method}: only direct and sheath have soft walls")
-    broken = 0
-    reliable = 0
-    slowest = 0.0
-    outcomes: Counter[str] = Counter()
+    name = given.method + (" soft" if given.soft else "")
+    record = results.Record(given.record)
     with tempfile.TemporaryDirectory() as scratch:
         folder = given.keep or Path(scratch)
         folder.mkdir(parents=True, exist_ok=True)
-        runs = campaign(building.build(building.RUNNER, print), itertools.count(given.first), folder, given.method,
-                        given.soft)
-        for push in itertools.islice(runs, given.runs):
-            slowest = max(slowest, push.seconds)
-            broken += bool(push.claims)
-            reliable += push.is_reliable
-            outcomes[str(push.outcome)] += 1
-            if push.claims:
-                print(f"{push.seed} {push.kind}: {'; '.join(push.claims)}", flush=True)
-            elif push.outcome != "finished":
-                print(f"{push.seed} {push.kind} {push.outcome}: {push.reason}", flush=True)
+        _run(building.build(building.RUNNER, print), given, folder, record, red(f"push {name}"))
+    pushes_of_range = [Push(**one) for seed, one in sorted(record.found.items()) if seed >= given.first][:given.runs]
+    broken = [push.seed for push in pushes_of_range if push.claims]
+    keep(f"push {name}", [seed for seed, one in record.found.items() if one["claims"]])
+    outcomes = Counter(str(push.outcome) for push in pushes_of_range)
+    beyond = sum(push.beyond > MOST_BEYOND for push in pushes_of_range)
     ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-    print(f"{given.runs} runs ({ends}; {reliable} reliable), {broken} break a claim, slowest {slowest:.1f} s")
+    print(f"{len(pushes_of_range)} runs ({ends}; {sum(push.is_reliable for push in pushes_of_range)} reliable), "
+          f"{len(broken)} break a claim, {beyond} with a hub above its limit by more than {MOST_BEYOND:.0%}, slowest "
+          f"{max((push.seconds for push in pushes_of_range), default=0.0):.1f} s")
+    if given.result and pushes_of_range:
+        command = f"push_campaign --method {given.method}{' --soft' if given.soft else ''}"
+        results.keep(f"push {name}", command, [push.seed for push in pushes_of_range], outcomes, broken, beyond=beyond,
+                     failures=results.kinds_of(push.reason for push in pushes_of_range if push.outcome != "finished"))
     return 1 if broken else 0
+
+
+def _run(command: Sequence[str], given: argparse.Namespace, folder: Path, record: results.Record,
+         first: Iterable[int]) -> None:
+    """Run what the record lacks, what broke a claim the last time before all others, and print what is to be told."""
+    done = sum(seed >= given.first for seed in record.found)
+    if done >= given.runs:
+        return
+    again = [seed for seed in first if seed not in record.found]
+    following = (seed for seed in itertools.count(given.first) if seed not in record.found and seed not in again)
+    for push in campaign(command, itertools.chain(again, following), folder, given.method, given.soft):
+        record.add(asdict(push))
+        if push.claims:
+            print(f"{push.seed} {push.kind}: {'; '.join(push.claims)}", flush=True)
+        elif push.outcome != "finished":
+            print(f"{push.seed} {push.kind} {push.outcome}: {push.reason}", flush=True)
+        done += push.seed >= given.first
+        if done >= given.runs:
+            break
 
 
 if __name__ == "__main__":

@@ -20,7 +20,8 @@ from tools.seeds import keep, seeds
 FRACTION = [1008 + 12 * rule + kind for rule in range(3) for kind in range(rule, 12, 6)]
 DAILY = 120
 # Of a wire with a material, by method: how many seeds a day in full, and those of the fraction.
-MATERIAL = {"direct": (60, (3, 5)), "sheath": (33, (3, 8)), "xpbd": (24, (3, 8))}
+MATERIAL = {"direct": (60, (3, 5)), "sheath": (33, (3, 8)), "xpbd": (24, (3, 8)), "catheter": (12, (200,)),
+            "catheters": (12, (201,)), "sheathed": (11, (200,))}
 CASES = Path(__file__).with_name("wall_cases")
 
 BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)    # its corners
@@ -228,3 +229,19 @@ def test_the_check_of_a_wire_with_a_material_excuses_but_a_depth_that_is_named(s
     # A last step without a state did not go, and is not asked for.
     failed = summary(0.0, outcome="failed", reliable=False)
     assert broken(0.0, failed) == [] and "driveAsked" in broken(0.0, failed, entries - 1)
+
+
+def test_the_outermost_instrument_of_several_is_looked_at_with_its_own_radius():
+    z = np.linspace(0.0, 40.0, 9)[:, None] * [0.0, 0.0, 1.0]
+    wire = np.stack([z, z + [0.0, 0.0, 3.0]])                 # nodes 5 apart, tip at 40 and 43
+    outer = np.stack([z[:5] * 1.5, z[:5] * 1.5])              # 7.5 apart, tip at 30
+    inner = np.stack([z[:5], z[:5] + [0.0, 0.0, 12.0]])       # tip at 20, inside, and at 32
+    radii = [np.full(8, 1.0), np.full(4, 2.0), np.full(4, 3.0)]
+    nodes, wide = material_claims.chain(wire, (outer, inner), radii)
+    assert nodes[0, :7, 2].tolist() == [0.0, 7.5, 15.0, 22.5, 30.0, 35.0, 40.0]
+    assert wide[0, :6].tolist() == [3.0, 3.0, 3.0, 3.0, 1.0, 1.0]
+    assert nodes[1, :8, 2].tolist() == [0.0, 7.5, 15.0, 22.5, 30.0, 32.0, 33.0, 38.0] and nodes[1, -1, 2] == 43.0
+    assert wide[1].tolist() == [3.0, 3.0, 3.0, 3.0, 2.0, 1.0, 1.0, 1.0]
+    scene = {"hubForceLimit": 2.0, "catheters": [{}, {"hubForceLimit": 0.5}]}
+    forces = [np.array([1.0, -1.9]), np.array([9.0]), np.array([0.1, -0.6])]
+    assert material_claims.beyond(scene, forces) == pytest.approx(0.2)
