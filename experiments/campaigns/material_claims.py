@@ -156,6 +156,15 @@ def _hubs(scene: dict[str, Any], summary: dict[str, Any], steps: int) -> list[st
     return claims
 
 
+def order(scene: dict[str, Any], insertions: list[np.ndarray]) -> list[str]:
+    """Hubs that pass the next one around; of the wire first, then of the outermost catheter, (k,) each, m."""
+    own, *catheters = insertions
+    starts = [one["start"] for one in scene.get("catheters", [])]
+    hubs = [own, *(1e-3 * start + one for start, one in zip(reversed(starts), reversed(catheters)))]
+    least = min((float((ahead - behind).min()) for behind, ahead in zip(hubs, hubs[1:])), default=0.0)
+    return [f"a hub is {-least} m ahead of that around it"] if least < -1e-9 else []
+
+
 def beyond(scene: dict[str, Any], forces: list[np.ndarray]) -> float:
     """By what part of its hubForceLimit the force of a hub is above it, at most; of the wire first, (k,) each, N."""
     limits = [one.get("hubForceLimit", 0.0) for one in (scene, *scene.get("catheters", []))]

@@ -109,8 +109,10 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
         claims = material_claims.violations(scene, summary, nodes, radii, walls)
         if scene.get("logHub"):
             with np.load(out / "positions.npz") as arrays:
-                names = ("hubForce", "catheterForce", "catheter2Force")
-                beyond = material_claims.beyond(scene, [arrays[name] for name in names if name in arrays])
+                forces, insertions = ([arrays[name + of] for name in ("hub", "catheter", "catheter2") if name + of in arrays]
+                                      for of in ("Force", "Insertion"))
+            beyond = material_claims.beyond(scene, forces)
+            claims += material_claims.order(scene, insertions)
         if beyond > MOST_BEYOND and not any("hubForceLimit" in warning for warning in summary["warnings"]):
             claims.append(f"a hub is above its hubForceLimit by {beyond:.1%}, and no warning says so")
     # A mesh of a push is closed; a tube goes on beyond its last knot, where the tip has left it.

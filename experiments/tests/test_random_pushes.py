@@ -245,3 +245,8 @@ def test_the_outermost_instrument_of_several_is_looked_at_with_its_own_radius():
     scene = {"hubForceLimit": 2.0, "catheters": [{}, {"hubForceLimit": 0.5}]}
     forces = [np.array([1.0, -1.9]), np.array([9.0]), np.array([0.1, -0.6])]
     assert material_claims.beyond(scene, forces) == pytest.approx(0.2)
+    hubs = {"catheters": [{"start": 30.0}, {"start": 10.0}]}
+    rest = np.zeros(2)
+    assert material_claims.order(hubs, [rest, rest, rest]) == []
+    assert material_claims.order(hubs, [rest, rest, np.array([0.0, 0.021])]) != []
+    assert material_claims.order(hubs, [np.array([0.011, 0.0]), rest, rest]) != []

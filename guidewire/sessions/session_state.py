@@ -105,7 +105,7 @@ class CatheterState:
     extension : how far the tip of what is inside is beyond its own, m; negative inside.
     overlap : length over which that is inside, m.
     place : in the vessel; None where the scene has no inlet.
-    contact_forces : (m+1, 3), as of `State`.
+    contact_forces, velocities, angular_velocities : (m+1, 3), (m+1, 3) and (m, 3), as of `State`.
     """
 
     positions: np.ndarray
@@ -120,6 +120,8 @@ class CatheterState:
     overlap: float
     place: LumenPlace | None
     contact_forces: np.ndarray
+    velocities: np.ndarray
+    angular_velocities: np.ndarray
 
 
 @dataclass(frozen=True)
@@ -219,6 +221,12 @@ class State:
         """(n, 3, 3): d1, d2 and d3 of each rod element, unit vectors in the world's axes; d3 along the element."""
         return directors_of(self.orientations)
 
+    def start(self) -> dict[str, Any]:
+        """Return what the key ``start`` takes and a startFile holds, for a run that begins where this one is."""
+        needs_hub = self.hub is not None and (self.catheters or self.hub.length_in_body is not None)
+        return _start_of(self, self.hub if needs_hub else None) | (
+            {"catheters": [_start_of(one, one) for one in self.catheters]} if self.catheters else {})
+
 
 @dataclass(frozen=True)
 class Frames:
@@ -237,6 +245,13 @@ class Frames:
     directors: np.ndarray
     outcome: str | None
     reason: str
+
+
+def _start_of(one: State | CatheterState, hub: Hub | CatheterState | None) -> dict[str, Any]:
+    start: dict[str, Any] = {
+        "positions": one.positions.tolist(), "orientations": one.orientations.tolist(),
+        "velocities": one.velocities.tolist(), "angularVelocities": one.angular_velocities.tolist()}
+    return start | ({"hub": {"insertion": hub.insertion, "turn": hub.turn}} if hub else {})
 
 
 def directors_of(orientations: np.ndarray) -> np.ndarray:
@@ -313,7 +328,8 @@ def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
         forces = arrays.get(f"contactForces{number}")
         catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
                                        numbers[7:10], *numbers[10:].tolist(), _place(arrays, str(number)),
-                                       np.zeros_like(positions) if forces is None else forces))
+                                       np.zeros_like(positions) if forces is None else forces,
+                                       arrays[f"velocities{number}"], arrays[f"angularVelocities{number}"]))
     return tuple(catheters)
 
 

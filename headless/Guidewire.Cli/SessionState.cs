@@ -115,7 +115,9 @@ namespace Guidewire.Cli
             {
                 string number = (k + 1).ToString(CultureInfo.InvariantCulture);
                 Put("positions" + number, catheters[k].Positions);
+                Put("velocities" + number, catheters[k].Velocities);
                 Put("orientations" + number, catheters[k].Orientations);
+                Put("angularVelocities" + number, catheters[k].AngularVelocities);
                 Put("catheter" + number, catheters[k]);
                 Put("lumen" + number, session.PlaceOf(catheters[k].Positions));
                 if (simulation.Contacts != null)

@@ -118,7 +118,8 @@ namespace Guidewire.Core
             DriveParameters inside = isAroundWire ? parameters.Drive : catheters[k + 1].Drive;
             double start = isAroundWire ? 0.0 : catheters[k + 1].Start;
             double duration = parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep;
-            double lead = parameters.Scene.MetresPerUnit * (catheter.Start - start);
+            double lead = parameters.Scene.MetresPerUnit * (catheter.Start - start) + InsertionAtStart(parameters, k)
+                - InsertionAtStart(parameters, isAroundWire ? -1 : k + 1);
             double first = double.NaN;
             double most = lead * (1.0 + 1e-9) + 1e-12;
             const int samples = 1000;
@@ -137,6 +138,15 @@ namespace Guidewire.Core
                 + (isAroundWire ? "the wire's hub" : "the inner catheter's hub") + " would pass "
                 + (catheters.Count == 1 ? "the catheter's" : isAroundWire ? "the inner catheter's" : "the outer one's"),
                 start + Math.Ceiling(1e3 * most / parameters.Scene.MetresPerUnit) / 1e3, first);
+        }
+
+        // How far a hub has come before the run, m; -1: the wire's.
+        private static double InsertionAtStart(SimulationParameters parameters, int catheter)
+        {
+            RodStart? start = parameters.Scene.Start;
+            RodStart? own = start == null || catheter < 0 ? start
+                : catheter < start.Catheters.Count ? start.Catheters[catheter] : null;
+            return own?.Hub?.Insertion ?? 0.0;
         }
 
         private static double Insertion(DriveParameters drive, double time)

@@ -117,7 +117,7 @@ namespace Guidewire.Core
         /// <exception cref="ArgumentException">There is no such start.</exception>
         public static string? FindProblemOfStart(SimulationParameters parameters)
         {
-            if (parameters.Scene.Walls.Length == 0)
+            if (parameters.Scene.Walls.Length == 0 && parameters.Scene.Start?.Hub == null)
             {
                 return null;
             }
@@ -128,9 +128,10 @@ namespace Guidewire.Core
             }
             if (parameters.Scene.Catheters.Count > 0)
             {
-                return FindProblemInSheath(parameters, scene) ?? new CoaxialSetup(parameters).FindProblemOfStart();
+                return FindProblemInSheath(parameters, scene) ?? CoaxialSetup.FindProblemOfStart(parameters);
             }
-            return parameters.Scene.Sheath != null ? FindProblemInSheath(parameters, scene)
+            return parameters.Scene.Sheath != null
+                ? FindProblemInSheath(parameters, scene) ?? CoaxialSetup.FindProblemOfStart(parameters)
                 : MaterialStart.FindProblem(parameters, new MaterialScene(parameters, scene));
         }
 

@@ -126,6 +126,22 @@ def test_a_picture_shows_the_wire_bent_at_the_tip_that_it_comes_out_of():
 BRANCH = ROOT / "params" / "catheter-branch.json"
 
 
+def test_a_run_begins_where_the_state_of_another_has_all_instruments():
+    with Session(CATHETER, hand=True, **{"vessel.frictionCoefficient": 0.0}) as session:
+        session.step(push=[40.0, 20.0], turn=[1.2, -9.0], steps=40)
+        state = session.step(push=[0.5, 0.25])
+        whole = [session.step(push=[0.5, 0.25], turn=[0.1, 0.0]) for _ in range(10)]
+    with Session(CATHETER, hand=True, start=state.start(), **{"vessel.frictionCoefficient": 0.0}) as session:
+        parts = [session.step(push=[0.5, 0.25], turn=[0.1, 0.0]) for _ in range(10)]
+    differences = [max(np.abs(one.positions - part.positions).max(),
+                       np.abs(one.catheters[0].positions - part.catheters[0].positions).max())
+                   for one, part in zip(whole, parts)]
+    assert differences[0] < 0.05 and differences[-1] < 1e-4
+    assert parts[-1].hub.insertion == pytest.approx(whole[-1].hub.insertion, abs=1e-12)
+    assert parts[-1].catheters[0].turn == pytest.approx(whole[-1].catheters[0].turn, abs=1e-12)
+    assert parts[-1].hub.force == pytest.approx(whole[-1].hub.force, abs=1e-6)
+
+
 def test_another_catheter_takes_the_place_of_a_withdrawn_one_over_the_wire_that_stays():
     with Session(BRANCH, hand=True, native=False, maxSimulationSteps=10**9) as session:
         session.step(push=[30.0, 0.0], steps=20)
@@ -133,7 +149,7 @@ def test_another_catheter_takes_the_place_of_a_withdrawn_one_over_the_wire_that_
             session.exchange(1, "catheter-guide-6f")
         assert str(refused.value) == "the catheter needs to be withdrawn by 10 mm more, into the sheath"
         before = session.step(push=[0.0, -10.5], steps=10)
-        for asked, said in ((dict(length=300.0), "the wire is 20.5 mm too short for this exchange"),
+        for asked, said in ((dict(length=300.0), "the wire is 20.5 mm too short: the hub"),
                             (dict(instrument="no-such-catheter"), "no-such-catheter"),
                             (dict(length=-1.0), "catheters[0].length")):
             with pytest.raises(SessionError) as refused:

@@ -94,6 +94,13 @@ namespace Guidewire.Core
         /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
         public double BeyondLimit => Insertion - _maxInsertion;
 
+        /// <summary>The hub had come so far before the run, m and radians.</summary>
+        public void BeginAt(double insertion, double turn)
+        {
+            Insertion = insertion;
+            Turn = turn;
+        }
+
         /// <summary>Sets the largest displacements of node 0 from its present position, m.</summary>
         /// <param name="back">0 or less.</param>
         /// <param name="forward">0 or more.</param>

@@ -22,7 +22,7 @@ namespace Guidewire.Core
                 Mass = parameters.Material.MassRule,
                 Bend = parameters.Material.BendLaw,
             };
-            SetFrames(parameters.Scene.Start);
+            SetFrames(parameters.Scene.Start?.Hub == null ? parameters.Scene.Start : null);
             Supports.SlidingAxis = Shape.DistalFrame.Director3;
             Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free
                 && MethodTable.Of(parameters.Method.Solver).HasBarriers;
@@ -98,6 +98,14 @@ namespace Guidewire.Core
         /// <summary>What is prescribed.</summary>
         public RodSchedule Schedule { get; }
 
+        /// <summary>Takes where the rod is from a start; its hub holds it as that is turned.</summary>
+        public void Take(RodStart start)
+        {
+            _scene.Take(start);
+            Shape.ProximalFrame = Schedule.Hub.FrameTurned(Schedule.Hub.TurnAt(0.0));
+            AlignTurns();
+        }
+
         /// <summary>Writes a moment of the rod into a state: positions and velocities in units, orientations and
         /// angular velocities.</summary>
         public void Write(RodState state, RodShape shape, Vector3d[] velocities, Vector3d[] spins)
@@ -141,7 +149,8 @@ namespace Guidewire.Core
             Schedule.Distal.Begin(Shape.DistalFrame);
         }
 
-        private static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)
+        /// <summary>Of the two numbers of an orientation that which goes on from another one.</summary>
+        public static Quaterniond Aligned(in Quaterniond before, in Quaterniond q)
         {
             double real = before.X * q.X + before.Y * q.Y + before.Z * q.Z + before.W * q.W;
             return real < 0.0 ? -1.0 * q : q;

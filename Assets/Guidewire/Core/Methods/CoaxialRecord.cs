@@ -48,6 +48,8 @@ namespace Guidewire.Core
             _units = 1.0 / metres;
             Positions = new Vector3d[elements + 1];
             Orientations = new Quaterniond[elements];
+            Velocities = new Vector3d[elements + 1];
+            AngularVelocities = new Vector3d[elements];
             ContactForces = new Vector3d[elements + 1];
             _lumen = lumenRadius;
         }
@@ -60,6 +62,13 @@ namespace Guidewire.Core
 
         /// <summary>The orientations of the catheter's n elements.</summary>
         public Quaterniond[] Orientations { get; }
+
+        /// <summary>Velocities of the nodes, units/s.</summary>
+        public Vector3d[] Velocities { get; }
+
+        /// <summary>Angular velocities of the elements, rad/s, own axes; where it is inside another instrument those of
+        /// that one.</summary>
+        public Vector3d[] AngularVelocities { get; }
 
         /// <summary>Force of the walls on each node in the last step, N, where it is the outermost instrument.
         /// </summary>
@@ -259,6 +268,16 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _displacement);
             snapshot.Serialize(ref _wireDisplacement);
             _friction.Serialize(snapshot);
+        }
+
+        /// <summary>Takes velocities, m/s and rad/s.</summary>
+        internal void TakeMotion(Vector3d[] velocities, Vector3d[] spins)
+        {
+            for (int i = 0; i < Velocities.Length; i++)
+            {
+                Velocities[i] = _units * velocities[i];
+            }
+            Array.Copy(spins, AngularVelocities, AngularVelocities.Length);
         }
 
         /// <summary>Takes the state of a moment.</summary>

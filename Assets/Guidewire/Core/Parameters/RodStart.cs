@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.Globalization;
 
 namespace Guidewire.Core
@@ -34,6 +35,14 @@ namespace Guidewire.Core
 
         /// <summary>n + 1 sphere positions in units.</summary>
         public Vector3d[] Positions { get; }
+
+        /// <summary>How far the hub has come since the start of the scene: displacement along its axis, m, and
+        /// rotation, rad. Instruments in a sheath or in one another need it; null: the hub is where the positions
+        /// begin.</summary>
+        public (double Insertion, double Turn)? Hub { get; set; }
+
+        /// <summary>Where the catheters around the wire are, the outermost one first.</summary>
+        public IReadOnlyList<RodStart> Catheters { get; set; } = Array.Empty<RodStart>();
 
         /// <summary>Whether a run had come here: it may then be through an open rim of a wall.</summary>
         internal bool IsReached { get; set; }

@@ -41,6 +41,13 @@ namespace Guidewire.Core
             _frame = frame;
         }
 
+        /// <summary>The run begins with the hub displaced by so much, m, and turned, radians.</summary>
+        public void BeginAt(in Vector3d displacement, double turn)
+        {
+            Shift(displacement);
+            _turnOrigin = turn;
+        }
+
         /// <summary>Velocity of node 0 by its drive, m/s.</summary>
         public Vector3d Velocity => _velocity;
 

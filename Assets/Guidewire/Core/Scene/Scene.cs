@@ -106,14 +106,15 @@ namespace Guidewire.Core
                     Shape.SetStraight(start, scene.StartAxis?.Frame ?? Quaterniond.Identity, Stations);
                     break;
             }
-            if (scene.Start != null)
+            if (scene.Start != null && scene.Start.Hub == null)
             {
-                Load(scene.Start);
+                Take(scene.Start);
                 IsReached = scene.Start.IsReached;
             }
         }
 
-        private void Load(RodStart start)
+        /// <summary>Takes where the wire is from a start.</summary>
+        public void Take(RodStart start)
         {
             if (start.Orientations.Length != Shape.ElementCount)
             {

@@ -26,7 +26,8 @@ namespace Guidewire.Io
             string key = values.Inlet == null ? "target" : "inlet";
             string? needed = values.Inlet == null ? "an inlet"
                 : values.Anatomy == null ? "vessel.anatomy, the file that the command anatomy writes beside a mesh"
-                : values.StartFile.Length > 0 ? "no startFile: it says where the wire starts"
+                : values.StartFile.Length > 0 && values.Simulation.Scene.Start?.Hub == null
+                    ? "no startFile without a \"hub\": it says where the wire starts"
                 : values.Simulation.Scene.StartShape != StartShape.Straight ? "startShape \"straight\"" : null;
             if (needed != null)
             {

@@ -190,13 +190,13 @@ namespace Guidewire.Io
             {
                 throw Refused(conflict.Key, conflict.Needed);
             }
-            ReadStart(simulation);
             PointLoadReader.Read(Values, _given.SourceOf);
             LoadTableReader.Read(Values, _given.SourceOf);
             EndMotionReader.Read(Values, _given.SourceOf);
             DriveTableReader.Read(Values, _given.SourceOf("driveFile"));
             SheathReader.Read(Values, _given.SourceOf);
             ReadCatheters();
+            ReadStart(simulation);
             InletReader.Read(Values, _given);
             if (_isSteered && (Values.Sheath != null || Values.Catheters != null))
             {
@@ -304,18 +304,13 @@ namespace Guidewire.Io
             string name = key;
             try
             {
-                int n = ElementLayout.Count(simulation);
-                RodStart start;
                 if (isFile)
                 {
                     name = Values.StartFile = NamedFile.Find(Values.StartFile, _given.SourceOf(key));
-                    start = StartFileReader.Read(name, n);
                 }
-                else
-                {
-                    start = StartFileReader.Read((JObject)Values.Start!, name, n);
-                }
-                string? shear = start.FindShear();
+                RodStart start = StartFileReader.Read(isFile ? JsonText.ReadObject(name) : (JObject)Values.Start!, name,
+                    simulation);
+                string? shear = start.Hub == null ? start.FindShear() : null;
                 if (shear != null && MethodTable.Of(Method).TakesMaterial)
                 {
                     throw new ParameterException(name + ": " + shear);

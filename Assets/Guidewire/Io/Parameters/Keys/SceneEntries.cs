@@ -31,7 +31,8 @@ namespace Guidewire.Io
                 + " path is relative to the parameter file's folder"),
             new JsonEntry("start", JTokenType.Object,
                 "null or {\"positions\", \"orientations\", \"velocities\", \"angularVelocities\", \"proximalFrame\","
-                + " \"distalFrame\"}, all but the first optional", "what a startFile holds, in its place"),
+                + " \"distalFrame\", \"hub\", \"catheters\"}, all but the first optional",
+                "what a startFile holds, in its place"),
             new ChoiceEntry<StartShape>("startShape", "shape of the wire at the start; the two ends of a ring coincide")
             {
                 Methods = Takers.Material,

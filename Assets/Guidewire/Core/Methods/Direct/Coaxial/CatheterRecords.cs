@@ -57,12 +57,14 @@ namespace Guidewire.Core
                 torque -= own;
                 if (i < wire)
                 {
+                    _records[i].TakeMotion(inner[i - 1].Velocities, inner[i - 1].Spins);
                     _records[i].Take(joints, terms, shape, inner[i - 1].Shape, _drives[i], _drives[wire], own,
                         wireTorque, inside);
                 }
                 inside += _forces[i];
             }
             _forces[0] += terms.SheathForce(shape);
+            _records[0].TakeMotion(dynamics.Velocities, dynamics.Spins);
             _records[0].Take(joints, terms, shape, shape, _drives[0], _drives[wire], torque, wireTorque, inside);
             double around = 0.0;
             double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;

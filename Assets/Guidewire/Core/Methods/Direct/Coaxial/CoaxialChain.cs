@@ -47,10 +47,16 @@ namespace Guidewire.Core
             shape.SetStraight(hubs.Outer.PositionAt(0.0), hubs.Outer.Frame, Rod.Joints.Stations);
             CoaxialShape.SetTwists(shape, Rod.Joints, hubs);
             MaterialScene scene = SceneOf(shape);
+            double turn = hubs.Outer.TurnAt(0.0);
             if (_isAlone)
             {
                 setup.CopyStart(scene, first);
+                turn = _frameTurn = setup.HasStart ? wire.TurnAt(setup.Wire.Shape, first) : 0.0;
                 HoldFrame(shape);
+            }
+            else if (setup.HasStart)
+            {
+                setup.CopyStart(scene, hubs);
             }
             RodTerms terms = setup.Terms(scene);
             failure = scene.Joints.FindTurnedAtRest();
@@ -60,7 +66,11 @@ namespace Guidewire.Core
                 failure = setup.FindRestShape(scene, terms, report);
                 IsAtRest = failure == null;
             }
-            Start(scene, terms, 0.0, 0.0);
+            Start(scene, terms, 0.0, turn);
+            if (setup.HasStart)
+            {
+                TakeLoads();
+            }
         }
 
         /// <summary>Whether the start is a rest shape.</summary>

@@ -38,8 +38,8 @@ namespace Guidewire.Core
                 double behind = hubs.LeadAt(i - 1, time) - hubs.LeadAt(i, time);
                 if (behind > rounding)
                 {
-                    return Text(setup, "{0} is {1:G4} mm too short for this exchange: the hub of {2} would be behind "
-                        + "its own", i, behind, NameOf(setup, i - 1));
+                    return Text(setup, "{0} is {1:G4} mm too short: the hub of {2} would be behind its own", i,
+                        behind, NameOf(setup, i - 1));
                 }
                 double missing = first - TipOf(setup, hubs, i, time);
                 if (missing > rounding)

@@ -92,6 +92,7 @@ namespace Guidewire.Core
             Chain.Serialize(snapshot, first, time);
             if (!snapshot.IsWritten)
             {
+                Setup.LimitAlone(Drives, Rod.Dynamics.Time);
                 TakeShapes();
             }
         }

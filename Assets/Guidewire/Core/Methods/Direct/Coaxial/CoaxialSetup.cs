@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -22,6 +23,7 @@ namespace Guidewire.Core
         private readonly double[] _gap;         // how far each hub is behind the next one around it, m
         private readonly Barrier _barrier;
         private readonly double _limit;         // of the hub of an instrument alone, N; 0: none
+        private readonly RodStart[] _starts = Array.Empty<RodStart>();    // of each instrument
 
         /// <summary>For the wire and the catheters of these parameters.</summary>
         public CoaxialSetup(SimulationParameters parameters)
@@ -36,8 +38,9 @@ namespace Guidewire.Core
             _inside = new double[count];
             _gap = new double[count];
             SimulationParameters wire = parameters.Copy();
-            // That of catheters is of a run that goes on, and its snapshot says all of it.
-            wire.Scene.Start = count == 1 ? wire.Scene.Start : null;
+            // Without a hub that of catheters is of a run that goes on, and its snapshot says all of it.
+            RodStart? start = wire.Scene.Start;
+            wire.Scene.Start = count == 1 && start?.Hub == null ? start : null;
             Scenes[count - 1] = SceneOf(wire);
             Instruments[count - 1] = new CoaxialInstrument(Wire.Rod, ProfileOf(wire, Wire.Metres));
             for (int i = 0; i < catheters.Count; i++)
@@ -51,6 +54,11 @@ namespace Guidewire.Core
             if (parameters.Scene.Sheath != null)
             {
                 Sheath = new SheathEnd(Wire.Metres * SheathExit.Find(parameters.Scene.Sheath, Wire), Axis);
+            }
+            if (start?.Hub != null)
+            {
+                _starts = start.Catheters.Append(start).ToArray();
+                TakeStarts();
             }
             if (Wire.Walls.Length > 0)
             {
@@ -110,12 +118,33 @@ namespace Guidewire.Core
         {
             MaterialDrive[] drives = Array.ConvertAll(Scenes,
                 scene => new MaterialDrive(scene.Drive, scene.Schedule.Hub, Axis));
+            for (int i = 0; i < _starts.Length; i++)
+            {
+                (double insertion, double turn) = _starts[i].Hub!.Value;
+                drives[i].BeginAt(insertion, turn);
+            }
+            LimitAlone(drives, 0.0);
+            return drives;
+        }
+
+        /// <summary>Lets the hub of an instrument alone go to the exit of its sheath, and back until the tip is
+        /// there.</summary>
+        public void LimitAlone(MaterialDrive[] drives, double time)
+        {
             if (drives.Length == 1)
             {
-                Vector3d[] x = Wire.Shape.X;
-                drives[0].Limit(-Sheath!.Outside(x[x.Length - 1]), -Sheath.Outside(x[0]));
+                double outside = Sheath!.Outside(drives[0].Hub.PositionAt(time));
+                drives[0].Limit(-outside - Wire.Rod.TotalLength, -outside);
             }
-            return drives;
+        }
+
+        /// <summary>Whether the run starts where a start has the instruments.</summary>
+        public bool HasStart => _starts.Length > 0;
+
+        /// <summary>Lays a chain, and what moves it, where the start has the instruments.</summary>
+        public void CopyStart(MaterialScene scene, CoaxialHubs hubs)
+        {
+            new StartedChain(this, hubs, scene.Supports.Coaxial!.Joints).Take(scene);
         }
 
         /// <summary>What hubs with a hubForceLimit do; that of an instrument alone slips on its spring.</summary>
@@ -196,15 +225,18 @@ namespace Guidewire.Core
             if (last > 1)
             {
                 _move[0] = drives[0].NextMove(time);
-                LimitInner(drives, time);
+                LimitInner(drives, time, true);
             }
         }
 
-        private void LimitInner(MaterialDrive[] drives, double time)
+        // isLast: what is inside has been limited before, and goes no farther than it was to go then.
+        private void LimitInner(MaterialDrive[] drives, double time, bool isLast = false)
         {
             for (int i = 1; i < drives.Length; i++)
             {
-                drives[i].Limit(Math.Min(0.0, _move[0] - _inside[i]), Math.Max(0.0, _gap[i] + _move[i - 1]));
+                double back = _move[0] - _inside[i];
+                back = isLast && i + 1 < drives.Length ? Math.Max(back, _move[i + 1] - _gap[i + 1]) : back;
+                drives[i].Limit(Math.Min(0.0, back), Math.Max(0.0, _gap[i] + _move[i - 1]));
                 _move[i] = drives[i].NextMove(time);
             }
         }
@@ -250,6 +282,19 @@ namespace Guidewire.Core
             return failure;
         }
 
+        /// <summary>What is wrong with the start that parameters describe, in one phrase, or null.</summary>
+        public static string? FindProblemOfStart(SimulationParameters parameters)
+        {
+            try
+            {
+                return new CoaxialSetup(parameters).FindProblemOfStart();
+            }
+            catch (ArgumentException error)
+            {
+                return error.Message;
+            }
+        }
+
         /// <summary>What is wrong with the start between walls, in one phrase, or null: of the outermost catheter, and
         /// of the others beyond it; in a sheath, of what is beyond its exit.</summary>
         public string? FindProblemOfStart()
@@ -273,6 +318,36 @@ namespace Guidewire.Core
                 tip = Math.Max(tip, Scenes[i].Rod.TotalLength - lead);
             }
             return problem;
+        }
+
+        private void TakeStarts()
+        {
+            if (_starts.Length != Scenes.Length)
+            {
+                throw new ArgumentException("the start has " + (_starts.Length - 1) + " catheters, the scene "
+                    + (Scenes.Length - 1));
+            }
+            for (int i = 0; i < _starts.Length; i++)
+            {
+                if (!(_starts[i].Hub is (double insertion, double turn)))
+                {
+                    throw new ArgumentException("the start has no hub of each instrument");
+                }
+                Scenes[i].Schedule.Hub.BeginAt(insertion * Axis, turn);
+                Scenes[i].Take(_starts[i]);
+                string? other = StartedChain.FindOther(Scenes[i]);
+                if (other != null)
+                {
+                    throw new ArgumentException("start: " + (i == Scenes.Length - 1 ? "" : "catheters[" + i + "]: ")
+                        + other);
+                }
+            }
+            var hubs = new CoaxialHubs(Array.ConvertAll(Scenes, scene => scene.Schedule.Hub), Axis, Sheath);
+            string? misfit = CoaxialExchange.FindMisfit(this, hubs, 0.0);
+            if (misfit != null)
+            {
+                throw new ArgumentException("start: " + misfit);
+            }
         }
 
         // The nearest and the stiffest of those of all.

@@ -103,6 +103,20 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Turn of an element in a sheath against the hub's frame at the start, radians: all turns of the
+        /// joints before it.</summary>
+        public double TurnAt(RodShape shape, int element)
+        {
+            double turn = _hubs.Outer.TurnAt(0.0);
+            Quaterniond frame = _hubs.Outer.FrameTurned(turn);
+            for (int j = 0; j < element; j++)
+            {
+                turn += RotationVector.Log(frame.Conjugate * shape.Q[j]).Z;
+                frame = shape.Q[j];
+            }
+            return turn;
+        }
+
         // From the first element that is simulated on; before it evenly stretched and twisted.
         private void TakeAlone(RodDynamics dynamics, int first)
         {

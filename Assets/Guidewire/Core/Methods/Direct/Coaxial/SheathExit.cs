@@ -80,7 +80,7 @@ namespace Guidewire.Core
                     + ", and the wire from there on has to be inside the vessel";
             }
             double available = whole.Metres * Vector3d.Dot(exit - units * whole.Shape.X[0], axis);
-            double asked = parameters.Drive.LargestInsertion(
+            double asked = (parameters.Scene.Start?.Hub?.Insertion ?? 0.0) + parameters.Drive.LargestInsertion(
                 parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
             return asked <= available * (1.0 + Rounding) ? null : string.Format(CultureInfo.InvariantCulture,
                 "sheath: an insertion of {0:G4} m is longer than the wire: {1:G4} m of it are in the sheath", asked,

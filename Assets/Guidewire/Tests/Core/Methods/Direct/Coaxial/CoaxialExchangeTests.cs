@@ -86,7 +86,7 @@ namespace Guidewire.Core.Tests
             Refused(run, With(parameters, 0, 0.0, 2), "the wire needs to be withdrawn by 65 mm more, into the sheath");
             run = Withdrawn(1, out parameters);
             Refused(run, With(parameters, 1, -90.0, 2),
-                "the wire is 66 mm too short for this exchange: the hub of the catheter would be behind its own");
+                "the wire is 66 mm too short: the hub of the catheter would be behind its own");
             SimulationParameters more = With(parameters, 1, 0.0, 2);
             more.Scene.Walls = parameters.Scene.Walls.Concat(WallScenes.Floor(-500.0)).ToArray();
             Refused(run, more, "walls cannot come or go together with an instrument");

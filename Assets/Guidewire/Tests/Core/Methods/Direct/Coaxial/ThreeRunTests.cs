@@ -74,6 +74,39 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Hub()!.Insertion, Is.EqualTo(0.0).Within(1e-9));
         }
 
+        // Each hub in turn is pushed or drawn back against its neighbours, which rest or come towards it.
+        [Test]
+        public void HubsOfThree_DoNotPassOneAnother()
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Method.MaxSimulationSteps = 1000;
+            parameters.Drive.Steering = new Steering();
+            Catheter outer = parameters.Scene.Catheters[0];
+            Catheter inner = parameters.Scene.Catheters[1];
+            outer.Drive.Steering = new Steering();
+            inner.Drive.Steering = new Steering();
+            Simulation run = Simulation.Create(parameters);
+            double least = double.PositiveInfinity;
+            foreach ((double a, double b, double c) in new[] { (0.0, -3.0, 0.0), (0.5, -1.0, 0.7), (1.0, 0.0, -1.0),
+                (0.2, 2.0, -0.5), (2.0, -2.0, 0.0), (-3.0, 1.0, 1.0) })
+            {
+                parameters.Drive.Steering.Push = a;
+                inner.Drive.Steering.Push = b;
+                outer.Drive.Steering.Push = c;
+                for (int k = 0; k < 45; k++)
+                {
+                    run.Step();
+                    CoaxialRecord record = run.Coaxial()!;
+                    double hub = inner.Start + 1e3 * record.Inside!.Insertion;
+                    least = Math.Min(least, Math.Min(hub - 1e3 * run.Hub()!.Insertion,
+                        outer.Start + 1e3 * record.Insertion - hub));
+                }
+            }
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+            Assert.That(least, Is.GreaterThan(-1e-9), "mm between hubs");
+            Assert.That(least, Is.LessThan(1e-6), "mm: they meet");
+        }
+
         [Test]
         public void RunAgain_HasTheSameBits_AndASnapshotGoesOnToThem()
         {
