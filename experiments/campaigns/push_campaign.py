@@ -187,8 +187,8 @@ def main(arguments: Sequence[str]) -> int:
           f"{len(broken)} break a claim, {beyond} with a hub above its limit by more than {MOST_BEYOND:.0%}, slowest "
           f"{max((push.seconds for push in pushes_of_range), default=0.0):.1f} s")
     if given.result and pushes_of_range:
-        command = f"push_campaign --method {given.method}{' --soft' if given.soft else ''}"
-        results.keep(f"push {name}", command, [push.seed for push in pushes_of_range], outcomes, broken, beyond=beyond,
+        results.keep(f"push {name}", f"push_campaign --method {given.method}{' --soft' if given.soft else ''}",
+                     [push.seed for push in pushes_of_range], outcomes, broken, beyond=beyond,
                      failures=results.kinds_of(push.reason for push in pushes_of_range if push.outcome != "finished"))
     return 1 if broken else 0
 
