@@ -106,7 +106,7 @@ namespace Guidewire.Unity.Tests
         {
             string scene = Path.Combine(_folder, "scene");
             string console = Path.Combine(_folder, "console");
-            Stage.Open("Assets/Guidewire/Scenes/Longitudinal.unity");
+            Stage.Open("Assets/Scenes/Longitudinal.unity");
             Stage.Loop.Choose(Parameters("default.json"), new[] { "maxSimulationSteps=60" }, scene, false);
             Stage.Frames(400);
             Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.EqualTo(60));

@@ -212,7 +212,7 @@ namespace Guidewire.Unity.Tests
         {
             Engine.Reset(Stage.Root);
             Engine.RefuseInput();
-            Stage.Enter("Assets/Guidewire/Scenes/Insertion.unity");
+            Stage.Enter("Assets/Scenes/Insertion.unity");
             Stage.Frames(5);
             Transform camera = Engine.Find<OrbitCamera>().transform;
             var middle = new Vector3(0f, 45f, -20f);    // the scene's target and distance
@@ -221,7 +221,7 @@ namespace Guidewire.Unity.Tests
             Assert.That(Vector3.Dot(towards, camera.rotation * Vector3.forward), Is.EqualTo(1f).Within(1e-5f));
             Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.GreaterThan(0));
             Assert.That(string.Join("\n", Engine.Labels), Does.Contain("Active Input Handling"));
-            Stage.Open("Assets/Guidewire/Scenes/Insertion.unity");
+            Stage.Open("Assets/Scenes/Insertion.unity");
             Stage.Frames(5);
             Assert.That(string.Join("\n", Engine.Labels), Does.Not.Contain("Active Input Handling"));
         }

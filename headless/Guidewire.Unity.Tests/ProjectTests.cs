@@ -212,9 +212,9 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void TwoScenes_OneUponTheOther_KeepToThemselves()
         {
-            Stage.Enter("Assets/Guidewire/Scenes/Longitudinal.unity");
+            Stage.Enter("Assets/Scenes/Longitudinal.unity");
             SimulationLoop first = Stage.Loop;
-            Stage.Enter("Assets/Guidewire/Scenes/CollisionWall.unity");
+            Stage.Enter("Assets/Scenes/CollisionWall.unity");
             Stage.Frames(30);
             Assert.That(first.State!.StepCount, Is.GreaterThan(0));
             int drawn = Engine.Drawn.Count;

@@ -1,11 +1,32 @@
+using System.Linq;
+using System.Text.RegularExpressions;
+
 namespace Guidewire.Unity.Tests
 {
+    /// <summary>The scenes as the package has them: its sample, imported into a project that has nothing else. This
+    /// project's own are the same files.</summary>
     public sealed class SceneTests
     {
         private const int Frames = 300;
         private const float Rounding = 1e-3f;    // units: float at 300 units has steps of 3e-5
 
-        private static IEnumerable<string> Scenes => Stage.Scenes();
+        private EmptyProject _project = null!;
+        private string _sample = "";
+
+        private static IEnumerable<string> Scenes => Stage.Scenes().Select(scene => Path.GetFileName(scene));
+
+        [OneTimeSetUp]
+        public void Import()
+        {
+            _project = new EmptyProject("scenes");
+            _sample = _project.Import("Scenes");
+        }
+
+        [OneTimeTearDown]
+        public void Remove()
+        {
+            _project.Dispose();
+        }
 
         [TearDown]
         public void Leave()
@@ -20,10 +41,38 @@ namespace Guidewire.Unity.Tests
             Assert.That(new List<string>(Stage.Scenes())[0], Does.EndWith("Insertion.unity"));
         }
 
+        [Test]
+        public void TheSample_HasThisProjectsFiles_AndWhateverTheyReferTo()
+        {
+            string[] own = Directory.GetFiles(Path.Combine(Stage.Root, "Assets/Scenes"));
+            string sample = Path.Combine(_project.Root, _sample);
+            Assert.That(Directory.GetFiles(sample), Has.Length.EqualTo(own.Length));
+            var known = new HashSet<string>(SceneFile.Seen(_project.Root, "*.meta").Select(file => Guid(file)[0]));
+            foreach (string file in own)
+            {
+                string copy = Path.Combine(sample, Path.GetFileName(file));
+                Assert.That(File.ReadAllBytes(copy), Is.EqualTo(File.ReadAllBytes(file)), file);
+                foreach (string guid in file.EndsWith(".unity", System.StringComparison.Ordinal) ? Guid(copy)
+                    : System.Array.Empty<string>())
+                {
+                    Assert.That(known.Contains(guid) || guid.StartsWith("0000000000000000", System.StringComparison.Ordinal),
+                        file + " refers to " + guid);
+                }
+            }
+        }
+
+        private static string[] Guid(string file)
+        {
+            return Regex.Matches(File.ReadAllText(file), "guid: ([0-9a-f]{32})").Select(one => one.Groups[1].Value)
+                .ToArray();
+        }
+
         [TestCaseSource(nameof(Scenes))]
         public void Scene_RunsAndItsMeshFollowsTheWire(string scene)
         {
-            Stage.Open(scene);
+            Stage.Open(_sample + "/" + scene, _project.Root);
+            Stage.Frames(1);
+            Assert.That(Stage.Loop.Problem, Is.Empty);
             for (int frame = 0; frame < Frames; frame++)
             {
                 Stage.Frames(1);

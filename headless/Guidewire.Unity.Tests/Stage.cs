@@ -31,18 +31,21 @@ namespace Guidewire.Unity.Tests
         }
 
         /// <summary>Opens a scene; its objects are awake, no frame has been.</summary>
-        public static void Open(string scene)
+        /// <param name="scene">Its path.</param>
+        /// <param name="project">Folder that holds its Assets; null: this project's.</param>
+        public static void Open(string scene, string? project = null)
         {
-            Engine.Reset(Root);
-            Enter(scene);
+            Engine.Reset(project ?? Root);
+            Enter(scene, project: project);
         }
 
         /// <summary>Opens a scene in a process that a test has made ready.</summary>
         /// <param name="scene">Its path.</param>
         /// <param name="stepping">Between frames each frame has the steps of its time, however long they take.</param>
-        public static void Enter(string scene, SteppingMode stepping = SteppingMode.Frames)
+        /// <param name="project">As of <see cref="Open"/>.</param>
+        public static void Enter(string scene, SteppingMode stepping = SteppingMode.Frames, string? project = null)
         {
-            List<GameObject> objects = SceneFile.Read(Root, scene, typeof(SimulationLoop).Assembly);
+            List<GameObject> objects = SceneFile.Read(project ?? Root, scene, typeof(SimulationLoop).Assembly);
             foreach (GameObject one in objects)
             {
                 if (one.GetComponent<SimulationLoop>() is SimulationLoop loop)
@@ -56,7 +59,7 @@ namespace Guidewire.Unity.Tests
         /// <summary>Opens the scene in which the wire is steered by hand.</summary>
         public static void OpenInsertion()
         {
-            Open("Assets/Guidewire/Scenes/Insertion.unity");
+            Open("Assets/Scenes/Insertion.unity");
         }
 
         public static void Frames(int count)

@@ -67,11 +67,20 @@ namespace UnityEngine
     public sealed class TextAsset : Object
     {
         public TextAsset(string text)
+            : this(System.Text.Encoding.UTF8.GetBytes(text))
         {
-            this.text = text;
         }
 
-        public string text { get; }
+        internal TextAsset(byte[] bytes)
+        {
+            this.bytes = bytes;
+        }
+
+        public byte[] bytes { get; }
+
+        public long dataSize => bytes.Length;
+
+        public string text => System.Text.Encoding.UTF8.GetString(bytes);
     }
 
     public sealed class GameObject : Object

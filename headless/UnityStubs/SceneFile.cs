@@ -15,7 +15,8 @@ namespace UnityStubs
     public sealed class SceneFile
     {
         private const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
-        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)$");
+        private static readonly string[] Texts = { ".json", ".txt", ".bytes", ".csv" };
+        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)( stripped)?$");
         private static readonly Regex Entry = new Regex(@"^  ([^ :{}-][^:{}]*):(?: (.*))?$");
         private static readonly Regex FileId = new Regex(@"\{fileID: (-?\d+)");
         private static readonly Regex Guid = new Regex(@"guid: ([0-9a-f]{32})");
@@ -24,6 +25,8 @@ namespace UnityStubs
         {
             public int Class;
             public long Id;
+            public bool IsStripped;
+            public readonly List<string> Lines = new List<string>();
             public readonly Dictionary<string, string> Values = new Dictionary<string, string>();
             public readonly Dictionary<string, List<string>> Lists = new Dictionary<string, List<string>>();
         }
@@ -37,11 +40,19 @@ namespace UnityStubs
         {
             _root = root;
             _scripts = scripts;
-            string assets = Path.Combine(root, "Assets");
-            foreach (string meta in Directory.GetFiles(assets, "*.meta", SearchOption.AllDirectories))
+            foreach (string file in Seen(root, "*.meta"))
             {
-                _paths[Guid.Match(File.ReadAllText(meta)).Groups[1].Value] = meta.Substring(0, meta.Length - 5);
+                _paths[Guid.Match(File.ReadAllText(file)).Groups[1].Value] = file.Substring(0, file.Length - 5);
             }
+        }
+
+        /// <summary>Files that Unity imports, of the project and of packages that lie in it.</summary>
+        public static IEnumerable<string> Seen(string root, string pattern)
+        {
+            return new[] { "Assets", "Packages" }.Select(folder => Path.Combine(root, folder))
+                .Where(Directory.Exists)
+                .SelectMany(folder => Directory.GetFiles(folder, pattern, SearchOption.AllDirectories))
+                .Where(file => !file.Contains("~" + Path.DirectorySeparatorChar, StringComparison.Ordinal));
         }
 
         /// <summary>The root of a prefab, its fields set, not in any scene.</summary>
@@ -65,16 +76,10 @@ namespace UnityStubs
         /// <summary>A material below a folder Resources.</summary>
         internal static UnityEngine.Object Resource(string path)
         {
-            foreach (string folder in Directory.GetDirectories(Application.dataPath, "Resources",
-                SearchOption.AllDirectories))
-            {
-                string file = Path.Combine(folder, path + ".mat");
-                if (File.Exists(file))
-                {
-                    return Asset(file);
-                }
-            }
-            return null;
+            string root = Path.GetDirectoryName(Application.dataPath);
+            string found = Seen(root, Path.GetFileName(path) + ".mat").FirstOrDefault(file =>
+                file.EndsWith("Resources/" + path + ".mat", StringComparison.Ordinal));
+            return found == null ? null : Asset(found);
         }
 
         /// <summary>The objects of a scene, their fields set, not awake yet.</summary>
@@ -99,8 +104,13 @@ namespace UnityStubs
                     {
                         Class = int.Parse(header.Groups[1].Value, CultureInfo.InvariantCulture),
                         Id = long.Parse(header.Groups[2].Value, CultureInfo.InvariantCulture),
+                        IsStripped = header.Groups[3].Success,
                     });
                     continue;
+                }
+                if (documents.Count > 0)
+                {
+                    documents[documents.Count - 1].Lines.Add(line);
                 }
                 Match entry = Entry.Match(line);
                 if (entry.Success)
@@ -120,7 +130,26 @@ namespace UnityStubs
         private List<GameObject> Read(List<Document> documents)
         {
             var created = new List<GameObject>();
-            foreach (Document document in documents.Where(document => document.Class == 1))
+            var instances = new Dictionary<Document, PrefabInstance>();
+            foreach (Document document in documents.Where(document => document.Class == 1001))
+            {
+                var instance = new PrefabInstance(string.Join("\n", document.Lines));
+                instances[document] = instance;
+                var source = new SceneFile(_root, _scripts);
+                created.AddRange(source.Read(Parse(_paths[instance.Source])));
+                foreach (KeyValuePair<long, UnityEngine.Object> pair in source._objects)
+                {
+                    _objects[PrefabInstance.IdOf(pair.Key, document.Id)] = pair.Value;
+                }
+                foreach (Document stripped in documents.Where(other => other.IsStripped
+                    && other.Values["m_PrefabInstance"] == "{fileID: " + document.Id + "}"))
+                {
+                    string original = FileId.Match(stripped.Values["m_CorrespondingSourceObject"]).Groups[1].Value;
+                    _objects[stripped.Id] = source._objects[long.Parse(original, CultureInfo.InvariantCulture)];
+                }
+                instance.Apply(source._objects, (type, value) => Value(type, value, null), FieldOf);
+            }
+            foreach (Document document in documents.Where(document => document.Class == 1 && !document.IsStripped))
             {
                 var gameObject = new GameObject(document.Values["m_Name"]);
                 _objects[document.Id] = gameObject;
@@ -132,7 +161,21 @@ namespace UnityStubs
                     _objects[id] = own.Class == 4 ? gameObject.transform : gameObject.Attach(TypeOf(own));
                 }
             }
-            foreach (Document document in documents)
+            foreach (Document document in documents.Where(document => document.Class == 114
+                && !_objects.ContainsKey(document.Id)))
+            {
+                string holder = FileId.Match(document.Values["m_GameObject"]).Groups[1].Value;
+                var added = (GameObject)_objects[long.Parse(holder, CultureInfo.InvariantCulture)];
+                _objects[document.Id] = added.Attach(TypeOf(document));
+            }
+            foreach (KeyValuePair<Document, PrefabInstance> pair in instances)
+            {
+                if (pair.Value.Parent != 0)
+                {
+                    pair.Value.Root.transform.SetParent((Transform)_objects[pair.Value.Parent], false);
+                }
+            }
+            foreach (Document document in documents.Where(document => !document.IsStripped))
             {
                 if (document.Class == 4)
                 {
@@ -172,19 +215,25 @@ namespace UnityStubs
         {
             foreach (KeyValuePair<string, string> pair in document.Values)
             {
-                // As in Unity, a name that the class does not have is skipped: finding it is the checker's work.
-                FieldInfo field = null;
-                for (Type type = target.GetType(); type != null && field == null; type = type.BaseType)
-                {
-                    field = type.GetField(pair.Key, Fields) ?? type.GetFields(Fields).FirstOrDefault(renamed =>
-                        renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
-                            .Any(former => former.oldName == pair.Key));
-                }
+                FieldInfo field = FieldOf(target, pair.Key);
                 if (field != null)
                 {
                     field.SetValue(target, Value(field.FieldType, pair.Value, document.Lists[pair.Key]));
                 }
             }
+        }
+
+        // As in Unity, a name that the class does not have is skipped: finding it is the checker's work.
+        private static FieldInfo FieldOf(object target, string name)
+        {
+            FieldInfo field = null;
+            for (Type type = target.GetType(); type != null && field == null; type = type.BaseType)
+            {
+                field = type.GetField(name, Fields) ?? type.GetFields(Fields).FirstOrDefault(renamed =>
+                    renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
+                        .Any(former => former.oldName == name));
+            }
+            return field;
         }
 
         private object Value(Type type, string text, List<string> list)
@@ -197,9 +246,14 @@ namespace UnityStubs
             {
                 return text;
             }
-            if (type == typeof(string[]))
+            if (type.IsArray)
             {
-                return list.ToArray();
+                var array = Array.CreateInstance(type.GetElementType(), list.Count);
+                for (int i = 0; i < array.Length; i++)
+                {
+                    array.SetValue(Value(type.GetElementType(), list[i], null), i);
+                }
+                return array;
             }
             if (type.IsEnum)
             {
@@ -226,9 +280,9 @@ namespace UnityStubs
 
         private static UnityEngine.Object Asset(string path)
         {
-            if (path.EndsWith(".json", StringComparison.Ordinal))
+            if (Array.IndexOf(Texts, Path.GetExtension(path)) >= 0)
             {
-                return new TextAsset(File.ReadAllText(path)) { name = Path.GetFileNameWithoutExtension(path) };
+                return new TextAsset(File.ReadAllBytes(path)) { name = Path.GetFileNameWithoutExtension(path) };
             }
             if (!path.EndsWith(".mat", StringComparison.Ordinal))
             {

@@ -1,4 +1,9 @@
-"""Writes the scenes, the package's prefab and materials, and the build's list of scenes: the same bytes every time.
+"""Writes the scenes with all that they name, twice, the package's prefab and materials, and the build's list of
+scenes: the same bytes every time.
+
+A scene of a package cannot be opened where it lies, and Unity sees nothing of a sample until it is copied into a
+project. So this project has the scenes in a folder of its own, and the package has the same bytes with the same GUIDs
+as a sample.
 
 Everything that a scene can leave to the scripts is left to them: a scene holds a camera, a light and the components
 with their fields. Meshes and everything that depends on the number of elements are made when it is played.
@@ -9,11 +14,13 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
-from tools.unitycheck.metas import stable_guid
+from tools.unitycheck.metas import meta_text, stable_guid
 from tools.unitycheck.scenetable import SCENES, Scene
 from tools.unitycheck.textfiles import HEADER
 
-FOLDER = "Assets/Guidewire/Scenes"
+FOLDER = "Assets/Scenes"
+SAMPLE = "Assets/Guidewire/Samples~/Scenes"
+REPOSITORY = Path(__file__).resolve().parents[2]
 MATERIALS = "Assets/Guidewire/Runtime/Resources/Guidewire"
 PREFABS = "Assets/Guidewire/Prefabs"
 BUILD = "ProjectSettings/EditorBuildSettings.asset"
@@ -152,6 +159,17 @@ def _script(file_id: int, game_object: int, path: str, fields: dict[str, Any]) -
     return document(114, file_id, "MonoBehaviour", _component(game_object, keys))
 
 
+def _place(parameters: str) -> str:
+    """Return where a scene has its copy of a parameter file, or of a mesh, which Unity shall take as a text."""
+    name = parameters.rpartition("/")[2]
+    return f"{FOLDER}/{name}" if name.endswith(".json") else f"{FOLDER}/{name}.txt"
+
+
+def _text_asset(parameters: str) -> dict[str, Any]:
+    """Return what refers to that copy; empty: nothing."""
+    return {"fileID": 4900000, "guid": stable_guid(_place(parameters)), "type": 3} if parameters else _NONE
+
+
 def scene_text(scene: Scene) -> str:
     """Return the whole .unity file of a scene."""
     upright = {"x": 0, "y": 0, "z": 0, "w": 1}
@@ -171,8 +189,10 @@ def scene_text(scene: Scene) -> str:
         _game_object(300, "Simulation", [301, 302, 303, 304], "Untagged"),
         _transform(301, 300, upright, _ZERO),
         _script(302, 300, "Loop/SimulationLoop", {
-            "_parameterFile": scene.parameters, "_overrides": list(scene.overrides),
-            "_alternativeFile": scene.alternative, "_alternativeOverrides": list(scene.alternative_overrides),
+            "_parameterFile": "", "_parameterAsset": _text_asset(scene.parameters), "_overrides": list(scene.overrides),
+            "_alternativeAsset": _text_asset(scene.alternative), "_alternativeOverrides":
+                list(scene.alternative_overrides),
+            "_files": [_text_asset(path) for path in scene.meshes],
             "_pace": scene.pace, "_isSteered": scene.is_steered}),
         _script(303, 300, "Loop/KeyboardControl", {
             "_loop": loop, "_wire": wire, "_contacts": contacts, "_hud": hud, "_camera": camera}),
@@ -227,7 +247,11 @@ def prefab_text() -> str:
 
 def files() -> dict[str, str]:
     """Return every file that this module writes, by repository path."""
-    result = {f"{FOLDER}/{scene.name}.unity": scene_text(scene) for scene in SCENES}
+    own = {f"{FOLDER}/{scene.name}.unity": scene_text(scene) for scene in SCENES}
+    for named in {path for scene in SCENES for path in (scene.parameters, scene.alternative, *scene.meshes) if path}:
+        own[_place(named)] = (REPOSITORY / named).read_text(encoding="utf-8")
+    own |= {f"{path}.meta": meta_text(path, False) for path in list(own)}
+    result = {**own, **{path.replace(FOLDER, SAMPLE, 1): text for path, text in own.items()}}
     result[f"{PREFABS}/WireInVessel.prefab"] = prefab_text()
     result[f"{MATERIALS}/Wire.mat"] = material_text("Wire", False, (1.0, 1.0, 1.0, 1.0))
     result[f"{MATERIALS}/Vessel.mat"] = material_text("Vessel", True, (0.85, 0.35, 0.3, 0.25))

@@ -35,8 +35,9 @@ namespace Guidewire.Io
         /// <summary>Expands the instrument, if one is named and the run's solver takes it.</summary>
         /// <param name="given">What the file and the command line say; gets the instrument's keys.</param>
         /// <param name="file">The parameter file, or null.</param>
+        /// <param name="held">Files in memory.</param>
         /// <exception cref="ParameterException">There is no such instrument, or its file is wrong.</exception>
-        public static void Expand(GivenParameters given, string? file)
+        public static void Expand(GivenParameters given, string? file, IReadOnlyDictionary<string, byte[]> held)
         {
             if (!given.TryGet(Key, out (JToken Value, string Source) named) || named.Value.Type != JTokenType.String
                 || ((string?)named.Value)!.Length == 0 || !IsTaken(given))
@@ -48,8 +49,8 @@ namespace Guidewire.Io
             {
                 return;    // the effective parameters of a run: it repeats without the instrument's file
             }
-            string path = InstrumentLibrary.Find((string)named.Value!, named.Source, file);
-            Instrument instrument = InstrumentReader.Read(path);
+            (Instrument instrument, string path) =
+                InstrumentLibrary.Read((string)named.Value!, named.Source, file, held);
             JObject keys = InstrumentKeys.Of(
                 instrument, Number(given, "guidewireLength"), Number(given, "metresPerUnit") ?? 1e-3);
             foreach (string key in SceneKeys)

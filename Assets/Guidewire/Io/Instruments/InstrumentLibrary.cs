@@ -4,9 +4,9 @@ using System.IO;
 
 namespace Guidewire.Io
 {
-    /// <summary>Finds an instrument's file by its name: in the folder <c>instruments</c> beside the parameter file
-    /// first, or in the current folder where there is no such file; then in that of the program, which is the nearest
-    /// above the program or above the current folder.</summary>
+    /// <summary>Finds an instrument's file by its name: among the files that a host has in memory; in the folder
+    /// <c>instruments</c> beside the parameter file, or in the current folder where there is no such file; then in that
+    /// of the program, which is the nearest above the program or above the current folder.</summary>
     public static class InstrumentLibrary
     {
         /// <summary>Under this name AppContext may hold the folder of the program, where that is a library in another
@@ -18,30 +18,28 @@ namespace Guidewire.Io
 
         private const string Ending = ".json";
 
-        /// <summary>Gives the file of an instrument.</summary>
+        /// <summary>Gives an instrument and its file.</summary>
         /// <param name="name">Its name: that of the file without its ending.</param>
         /// <param name="source">Who names it: a parameter file, or "command line".</param>
         /// <param name="parameterFile">The run's parameter file, or null.</param>
-        /// <exception cref="ParameterException">There is none of that name.</exception>
-        internal static string Find(string name, string source, string? parameterFile)
+        /// <param name="held">Files in memory.</param>
+        /// <exception cref="ParameterException">There is none of that name, or its file is wrong.</exception>
+        internal static (Instrument Instrument, string File) Read(string name, string source, string? parameterFile,
+            IReadOnlyDictionary<string, byte[]> held)
         {
             string? nearest = null;
             int best = int.MaxValue;
-            foreach (string folder in Folders(parameterFile))
+            foreach ((string known, string file, byte[]? content) in Known(parameterFile, held))
             {
-                foreach (string file in FilesOf(folder))
+                if (known == name)
                 {
-                    string known = Path.GetFileNameWithoutExtension(file);
-                    if (known == name)
-                    {
-                        return file;
-                    }
-                    int distance = Spelling.Distance(known.ToUpperInvariant(), name.ToUpperInvariant());
-                    if (distance < best)
-                    {
-                        best = distance;
-                        nearest = known;
-                    }
+                    return (InstrumentReader.Read(file, content), file);
+                }
+                int distance = Spelling.Distance(known.ToUpperInvariant(), name.ToUpperInvariant());
+                if (distance < best)
+                {
+                    best = distance;
+                    nearest = known;
                 }
             }
             throw new ParameterException(source + ": instrument = \"" + name + "\" is not known: " + (nearest == null
@@ -51,36 +49,53 @@ namespace Guidewire.Io
 
         /// <summary>Names of all instruments that a run can take, in their order: of two with one name that of the
         /// nearer folder counts.</summary>
-        /// <param name="parameterFile">The run's parameter file, or null.</param>
+        /// <param name="from">The run's parameters.</param>
         /// <param name="areCatheters">Whether only catheters are wanted.</param>
         /// <exception cref="ParameterException">A folder cannot be read.</exception>
-        public static IReadOnlyList<string> Names(string? parameterFile, bool areCatheters)
+        internal static IReadOnlyList<string> Names(ParameterSource from, bool areCatheters)
         {
-            var files = new SortedDictionary<string, string>(StringComparer.Ordinal);
-            foreach (string folder in Folders(parameterFile))
+            var files = new SortedDictionary<string, (string, byte[]?)>(StringComparer.Ordinal);
+            foreach ((string name, string file, byte[]? content) in Known(from.Name, from.Files))
             {
-                foreach (string file in FilesOf(folder))
-                {
-                    files.TryAdd(Path.GetFileNameWithoutExtension(file), file);
-                }
+                files.TryAdd(name, (file, content));
             }
             var names = new List<string>();
-            foreach (KeyValuePair<string, string> pair in files)
+            foreach ((string name, (string file, byte[]? content)) in files)
             {
-                if (!areCatheters || IsCatheter(pair.Value))
+                if (!areCatheters || IsCatheter(file, content))
                 {
-                    names.Add(pair.Key);
+                    names.Add(name);
                 }
             }
             return names;
         }
 
+        // All that there are, those first that count first.
+        private static IEnumerable<(string Name, string File, byte[]? Content)> Known(string? parameterFile,
+            IReadOnlyDictionary<string, byte[]> held)
+        {
+            foreach ((string name, byte[] content) in held)
+            {
+                if (!MeshFile.IsNamed(name))
+                {
+                    yield return (name, name + Ending, content);
+                }
+            }
+            foreach (string folder in Folders(parameterFile))
+            {
+                foreach (string file in FilesOf(folder))
+                {
+                    yield return (Path.GetFileNameWithoutExtension(file), file, null);
+                }
+            }
+        }
+
         // A file that is wrong in itself is refused where it is taken.
-        private static bool IsCatheter(string file)
+        private static bool IsCatheter(string file, byte[]? content)
         {
             try
             {
-                return InstrumentReader.Read(file).InnerRadius > 0.0;
+                return InstrumentReader.Read(file, content).InnerRadius > 0.0;
             }
             catch (ParameterException)
             {

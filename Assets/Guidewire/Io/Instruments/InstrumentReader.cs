@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
@@ -13,12 +14,16 @@ namespace Guidewire.Io
         private const double Largest = 100.0;   // m, of any length: beyond it a unit is wrong
 
         /// <summary>Gives the instrument of a file.</summary>
+        /// <param name="file">Its name.</param>
+        /// <param name="content">What stands in it; null: it is read.</param>
         /// <exception cref="ParameterException">It cannot be read, or holds no instrument.</exception>
-        public static Instrument Read(string file)
+        public static Instrument Read(string file, byte[]? content)
         {
-            var fields = new InstrumentFields(file, "", JsonText.ReadObject(file), "title", "kind", "diameter",
-                "innerDiameter", "length", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density",
-                "friction", "distalSections", "tip", "radiopaque");
+            JObject read = content == null ? JsonText.ReadObject(file)
+                : JsonText.ParseObject(PlainFile.Decode(content), file);
+            var fields = new InstrumentFields(file, "", read, "title", "kind", "diameter", "innerDiameter", "length",
+                "bendingStiffness", "flexuralModulus", "torsionalRatio", "density", "friction", "distalSections",
+                "tip", "radiopaque");
             fields.Text("title");
             bool isHollow = fields.Word("kind", Kinds) == "catheter";
             if (isHollow != fields.Has("innerDiameter"))

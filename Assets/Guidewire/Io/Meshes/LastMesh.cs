@@ -26,10 +26,12 @@ namespace Guidewire.Io
         /// <param name="scale">Units of the scene per unit of the file.</param>
         /// <param name="rims">A point near the middle of each rim that may be open, in the file's own units.</param>
         /// <param name="placement">In the scene.</param>
+        /// <param name="content">What stands in the file; null: it is read.</param>
         /// <exception cref="ParameterException">The file cannot be read or holds no such wall.</exception>
-        internal MeshShape Read(string file, double scale, Vector3d[] rims, in Placement placement)
+        internal MeshShape Read(string file, double scale, Vector3d[] rims, in Placement placement,
+            byte[]? content = null)
         {
-            byte[] bytes = MeshFile.ReadBytes(file);
+            byte[] bytes = content ?? MeshFile.ReadBytes(file);
             if (_wall != null && file == _file && scale == _scale && placement.Equals(_placement)
                 && rims.SequenceEqual(_rims) && bytes.AsSpan().SequenceEqual(_bytes))
             {

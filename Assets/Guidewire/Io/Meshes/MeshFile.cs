@@ -18,11 +18,17 @@ namespace Guidewire.Io
             return Make(file, ReadBytes(file), scale, rims);
         }
 
+        /// <summary>Whether a name ends as that of a mesh.</summary>
+        internal static bool IsNamed(string file)
+        {
+            return Extension(file) == ".obj" || Extension(file) == ".stl";
+        }
+
         /// <summary>What stands in a file.</summary>
         /// <exception cref="ParameterException">It cannot be read.</exception>
         internal static byte[] ReadBytes(string file)
         {
-            if (Extension(file) != ".obj" && Extension(file) != ".stl" && !Directory.Exists(file))
+            if (!IsNamed(file) && !Directory.Exists(file))
             {
                 throw new ParameterException(file + ": needs a name that ends in .obj or .stl");
             }

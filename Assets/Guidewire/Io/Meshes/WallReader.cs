@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Globalization;
+using System.IO;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -17,10 +18,10 @@ namespace Guidewire.Io
         /// <param name="values">Its parameters; a mesh's file name is replaced by the one that was found.</param>
         /// <param name="sourceOf">Who said what stands at a path: a parameter file, or "command line".</param>
         /// <param name="warnings">Gets a line for a wall that goes through itself.</param>
-        /// <param name="last">Has the mesh of the run before, or null.</param>
+        /// <param name="from">Where the parameters come from, with files in memory.</param>
         /// <exception cref="ParameterException">A wall that cannot be made.</exception>
         public static ContactShape[] Read(
-            RunParameters values, Func<string, string> sourceOf, List<string> warnings, LastMesh? last)
+            RunParameters values, Func<string, string> sourceOf, List<string> warnings, ParameterSource from)
         {
             var walls = new List<ContactShape>();
             PatientAxesReader.Read(values, sourceOf, warnings);
@@ -28,7 +29,7 @@ namespace Guidewire.Io
             if (values.Vessel != null)
             {
                 var fields = new JsonFields(sourceOf, "vessel", values.Vessel);
-                ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"), last);
+                ContactShape vessel = Vessel(fields, values, sourceOf("vessel.file"), from);
                 vessel.FrictionCoefficient = Friction(fields);
                 vessel.Softness = SoftnessReader.Read(fields);
                 SoftnessReader.ReadRegions(fields, vessel.Softness, values.Anatomy);
@@ -60,7 +61,7 @@ namespace Guidewire.Io
         }
 
         private static ContactShape Vessel(
-            JsonFields fields, RunParameters scene, string fileSource, LastMesh? last)
+            JsonFields fields, RunParameters scene, string fileSource, ParameterSource from)
         {
             var placement = new Placement(scene.Position, Placement.FromEulerDegrees(scene.Rotation), scene.Scale);
             try
@@ -77,7 +78,7 @@ namespace Guidewire.Io
                     case "mesh":
                         Allow(fields, "file", "metresPerUnit", "openRims",
                             "anatomy", SoftnessReader.Regions, Sha256);
-                        return Mesh(fields, scene, placement, fileSource, last);
+                        return Mesh(fields, scene, placement, fileSource, from);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
                 }
@@ -146,7 +147,7 @@ namespace Guidewire.Io
         }
 
         private static MeshShape Mesh(
-            JsonFields fields, RunParameters scene, in Placement placement, string fileSource, LastMesh? last)
+            JsonFields fields, RunParameters scene, in Placement placement, string fileSource, ParameterSource from)
         {
             if (scene.Scale.X == 0.0 || scene.Scale.Y == 0.0 || scene.Scale.Z == 0.0)
             {
@@ -157,7 +158,11 @@ namespace Guidewire.Io
             {
                 throw fields.Wrong("metresPerUnit", "a number > 0 (m)");
             }
-            string file = NamedFile.Find(fields.Text("file"), fileSource);
+            string file = Path.GetFileName(fields.Text("file"));
+            if (!from.Files.TryGetValue(file, out byte[]? held))
+            {
+                file = NamedFile.Find(fields.Text("file"), fileSource);
+            }
             if (file.Length == 0)
             {
                 throw fields.Wrong("file", "the name of an .obj or .stl file");
@@ -169,8 +174,8 @@ namespace Guidewire.Io
             {
                 rims = anatomy.OpenRims;
             }
-            last ??= new LastMesh();
-            MeshShape wall = last.Read(file, scale, rims, placement);
+            LastMesh last = from.Mesh ?? new LastMesh();
+            MeshShape wall = last.Read(file, scale, rims, placement, held);
             // The parameters of a run carry the sum of its vessel: who reads the run sees no other vessel.
             string stated = fields.Text(Sha256);
             if (stated.Length > 0 && stated != last.Sha256)

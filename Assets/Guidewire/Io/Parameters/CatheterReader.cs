@@ -39,8 +39,10 @@ namespace Guidewire.Io
         /// <param name="values">Its parameters.</param>
         /// <param name="sourceOf">Who said what stands at a path.</param>
         /// <param name="warnings">Takes what is allowed but most likely not meant.</param>
+        /// <param name="held">Files in memory.</param>
         /// <exception cref="ParameterException">An object that is no catheter.</exception>
-        public static void Read(RunParameters values, Func<string, string> sourceOf, List<string> warnings)
+        public static void Read(RunParameters values, Func<string, string> sourceOf, List<string> warnings,
+            IReadOnlyDictionary<string, byte[]> held)
         {
             var catheters = new List<Catheter>();
             var list = (JArray)(values.Catheters?.DeepClone() ?? new JArray());
@@ -53,13 +55,13 @@ namespace Guidewire.Io
                     throw new ParameterException(sourceOf(where), where, list[k].ToString(Formatting.None),
                         "an object {\"length\", \"wireRadius\", \"lumenRadius\", ...}");
                 }
-                catheters.Add(Read(values, item, sourceOf, where, warnings));
+                catheters.Add(Read(values, item, sourceOf, where, warnings, held));
             }
             values.Simulation.Scene.Catheters = catheters;
         }
 
         private static Catheter Read(RunParameters values, JObject item, Func<string, string> sourceOf, string where,
-            List<string> warnings)
+            List<string> warnings, IReadOnlyDictionary<string, byte[]> held)
         {
             string whole = sourceOf(where);
             var given = new List<(string Key, JToken Value, string Source)>
@@ -120,7 +122,7 @@ namespace Guidewire.Io
                     throw new ParameterException(whole + ": " + where + " needs " + name + ", or an instrument");
                 }
             }
-            ParameterHandler handler = Load(given, where);
+            ParameterHandler handler = Load(given, where, held);
             warnings.AddRange(handler.Warnings);
             SimulationParameters own = handler.Values.Simulation;
             if (own.Material.InnerRadius == 0.0 && item["lumenRadius"] == null)
@@ -165,11 +167,12 @@ namespace Guidewire.Io
         }
 
         // An error names the catheter, and its keys by their names in a catheter.
-        private static ParameterHandler Load(List<(string Key, JToken Value, string Source)> given, string where)
+        private static ParameterHandler Load(List<(string Key, JToken Value, string Source)> given, string where,
+            IReadOnlyDictionary<string, byte[]> held)
         {
             try
             {
-                return ParameterHandler.Load(given);
+                return ParameterHandler.Load(given, held);
             }
             catch (ParameterException error)
             {

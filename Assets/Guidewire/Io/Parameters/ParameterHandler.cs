@@ -100,15 +100,17 @@ namespace Guidewire.Io
                 WireStiffness.Replace(handler._given, pair.Key, file);
             }
             handler._given.RefuseUnknown();
-            InstrumentLayer.Expand(handler._given, file);
+            InstrumentLayer.Expand(handler._given, file, from.Files);
             handler.Apply();
             return handler;
         }
 
         /// <summary>The parameters of an object within a file.</summary>
         /// <param name="values">Its keys, and who said each: a file, or "command line".</param>
+        /// <param name="held">Files in memory.</param>
         /// <exception cref="ParameterException">As of a file of its own.</exception>
-        internal static ParameterHandler Load(IEnumerable<(string Key, JToken Value, string Source)> values)
+        internal static ParameterHandler Load(IEnumerable<(string Key, JToken Value, string Source)> values,
+            IReadOnlyDictionary<string, byte[]> held)
         {
             var handler = new ParameterHandler(ParameterSource.OfFile(null));
             foreach ((string key, JToken value, string source) in values)
@@ -116,7 +118,7 @@ namespace Guidewire.Io
                 handler._given.Take(key, value, source);
             }
             handler._given.RefuseUnknown();
-            InstrumentLayer.Expand(handler._given, handler._given.SourceOf(InstrumentLayer.Key));
+            InstrumentLayer.Expand(handler._given, handler._given.SourceOf(InstrumentLayer.Key), held);
             handler.Apply();
             return handler;
         }
@@ -209,7 +211,7 @@ namespace Guidewire.Io
 
         private void ReadCatheters()
         {
-            CatheterReader.Read(Values, _given.SourceOf, _warnings);
+            CatheterReader.Read(Values, _given.SourceOf, _warnings, _from.Files);
             foreach (Catheter catheter in Values.Simulation.Scene.Catheters)
             {
                 catheter.Drive.Steering = _isSteered ? new Steering() : null;
@@ -262,7 +264,7 @@ namespace Guidewire.Io
         private void ReadWalls(SimulationParameters simulation)
         {
             string vessel = _given.SourceOf("vessel");
-            ContactShape[] stated = WallReader.Read(Values, _given.SourceOf, _warnings, _from.Mesh);
+            ContactShape[] stated = WallReader.Read(Values, _given.SourceOf, _warnings, _from);
             simulation.Scene.Walls = stated.Concat(_from.Walls).ToArray();
             if (simulation.Scene.Walls.Length > 0 && !_given.Has("integrator"))
             {

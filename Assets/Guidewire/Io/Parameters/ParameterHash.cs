@@ -57,19 +57,29 @@ namespace Guidewire.Io
             using SHA256 sha = SHA256.Create();
             if (values.Vessel?.DeepClone() is JObject vessel)
             {
-                string[] files = { (string?)vessel["file"] ?? "", (string?)vessel["anatomy"] ?? "" };
+                string mesh = (string?)vessel[WallReader.Sha256] ?? "";
+                string anatomy = (string?)vessel["anatomy"] ?? "";
                 vessel.Remove("file");
                 vessel.Remove("anatomy");
                 vessel.Remove(WallReader.Sha256);
                 text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
-                foreach (string file in files)
-                {
-                    text.Append(file.Length == 0 ? ""
-                        : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(file))));
-                }
+                text.Append(Convert.ToBase64String(Bytes(mesh)));
+                text.Append(anatomy.Length == 0 ? ""
+                    : Convert.ToBase64String(sha.ComputeHash(File.ReadAllBytes(anatomy))));
             }
             byte[] digest = sha.ComputeHash(Encoding.UTF8.GetBytes(text.ToString()));
             return BitConverter.ToString(digest).Replace("-", "").ToLowerInvariant();
+        }
+
+        // Of a sum in hex.
+        private static byte[] Bytes(string hex)
+        {
+            var bytes = new byte[hex.Length / 2];
+            for (int k = 0; k < bytes.Length; k++)
+            {
+                bytes[k] = Convert.ToByte(hex.Substring(2 * k, 2), 16);
+            }
+            return bytes;
         }
 
         private static bool IsTableFile(string key)

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 using Newtonsoft.Json.Linq;
 
@@ -8,13 +9,14 @@ namespace Guidewire.Io
     /// program, such as an asset and the meshes of a scene.</summary>
     public sealed class ParameterSource
     {
+        private static readonly Dictionary<string, byte[]> None = new Dictionary<string, byte[]>();
+
         private readonly JObject? _content;
 
-        private ParameterSource(string? name, JObject? content, ContactShape[] walls, LastMesh? mesh)
+        private ParameterSource(string? name, JObject? content, LastMesh? mesh)
         {
             Name = name;
             _content = content;
-            Walls = walls;
             Mesh = mesh;
         }
 
@@ -23,7 +25,11 @@ namespace Guidewire.Io
         public string? Name { get; }
 
         /// <summary>Walls in addition to those of the keys, in units of the wire.</summary>
-        public ContactShape[] Walls { get; }
+        public ContactShape[] Walls { get; private set; } = Array.Empty<ContactShape>();
+
+        /// <summary>Files that the host has in memory: instruments by their names, meshes by those of their files
+        /// without a folder. They count before files on disk.</summary>
+        public IReadOnlyDictionary<string, byte[]> Files { get; private set; } = None;
 
         /// <summary>What errors name as the source of overrides.</summary>
         internal string OverridesFrom { get; private set; } = CommandLineHandler.Source;
@@ -36,7 +42,7 @@ namespace Guidewire.Io
         /// <param name="mesh">Keeps the vessel's mesh where one run follows another.</param>
         public static ParameterSource OfFile(string? file, LastMesh? mesh = null)
         {
-            return new ParameterSource(file, null, Array.Empty<ContactShape>(), mesh);
+            return new ParameterSource(file, null, mesh);
         }
 
         /// <summary>The file of a request; its overrides are those that the request sets.</summary>
@@ -44,7 +50,7 @@ namespace Guidewire.Io
         /// <param name="mesh">Keeps the vessel's mesh where one run follows another.</param>
         public static ParameterSource OfRequest(string? file, LastMesh? mesh)
         {
-            return new ParameterSource(file, null, Array.Empty<ContactShape>(), mesh)
+            return new ParameterSource(file, null, mesh)
             {
                 OverridesFrom = CommandLineHandler.RequestSource,
             };
@@ -56,13 +62,20 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">It is no JSON object.</exception>
         public static ParameterSource OfText(string name, string text)
         {
-            return new ParameterSource(name, JsonText.ParseObject(text, name), Array.Empty<ContactShape>(), null);
+            return new ParameterSource(name, JsonText.ParseObject(text, name), null);
         }
 
-        /// <summary>The same with walls beside those that the keys state.</summary>
-        public ParameterSource With(ContactShape[] walls)
+        /// <summary>The same with walls beside those that the keys state, and with files in memory.</summary>
+        /// <param name="walls">See <see cref="Walls"/>.</param>
+        /// <param name="files">See <see cref="Files"/>; null: none.</param>
+        public ParameterSource With(ContactShape[] walls, IReadOnlyDictionary<string, byte[]>? files = null)
         {
-            return new ParameterSource(Name, _content, walls, Mesh);
+            return new ParameterSource(Name, _content, Mesh)
+            {
+                OverridesFrom = OverridesFrom,
+                Walls = walls,
+                Files = files ?? None,
+            };
         }
 
         /// <summary>Gives its keys and values; null without any.</summary>

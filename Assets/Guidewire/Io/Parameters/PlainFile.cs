@@ -49,7 +49,13 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">As <see cref="ReadBytes"/>.</exception>
         public static string ReadText(string file, string needed)
         {
-            using var reader = new StreamReader(new MemoryStream(ReadBytes(file, needed)), Encoding.UTF8, true);
+            return Decode(ReadBytes(file, needed));
+        }
+
+        /// <summary>The text in bytes, by their byte order mark or else as UTF-8.</summary>
+        public static string Decode(byte[] bytes)
+        {
+            using var reader = new StreamReader(new MemoryStream(bytes), Encoding.UTF8, true);
             return reader.ReadToEnd();
         }
 

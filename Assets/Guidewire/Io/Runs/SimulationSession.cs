@@ -187,13 +187,13 @@ namespace Guidewire.Io
                 : InstrumentCount > 2 ? "catheter " + instrument : "catheter";
         }
 
-        /// <summary>Names of instruments that can replace one: those of the folder beside the parameter file, then the
-        /// program's; for a catheter only catheters. Empty where the run's method takes no instrument.</summary>
+        /// <summary>Names of instruments that can replace one: those in memory, of the folder beside the parameter file
+        /// and the program's; for a catheter only catheters. Empty where the method takes no instrument.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
         public IReadOnlyList<string> ChoicesOf(int instrument)
         {
             return ParameterTable.Find("instrument")!.IsTakenBy(Parameters.Method.Solver)
-                ? InstrumentLibrary.Names(_from.Name, instrument > 0) : Array.Empty<string>();
+                ? InstrumentLibrary.Names(_from, instrument > 0) : Array.Empty<string>();
         }
 
         /// <summary>The key that names an instrument.</summary>

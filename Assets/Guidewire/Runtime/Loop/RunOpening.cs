@@ -13,19 +13,23 @@ namespace Guidewire.Runtime
     {
         private readonly string _name;
         private readonly string? _text;            // of a parameter file; null: it is read
+        private readonly Dictionary<string, byte[]> _files;
         private readonly VesselMesh[] _vessels;
         private readonly string _logFolder;
         private readonly bool _isSteered;
 
         /// <param name="name">The parameter file, or what its text is called.</param>
         /// <param name="text">Its text; null: the file is read.</param>
+        /// <param name="files">What it names that is not read from disk.</param>
         /// <param name="vessels">Meshes of the scene.</param>
         /// <param name="logFolder">Folder of the results, or empty.</param>
         /// <param name="isSteered">Whether the hand moves the hubs.</param>
-        public RunOpening(string name, string? text, VesselMesh[] vessels, string logFolder, bool isSteered)
+        public RunOpening(string name, string? text, Dictionary<string, byte[]> files, VesselMesh[] vessels,
+            string logFolder, bool isSteered)
         {
             _name = name;
             _text = text;
+            _files = files;
             _vessels = vessels;
             _logFolder = logFolder;
             _isSteered = isSteered;
@@ -56,8 +60,8 @@ namespace Guidewire.Runtime
                 {
                     ParameterSource source = _text == null ? ParameterSource.OfFile(_name, new LastMesh())
                         : ParameterSource.OfText(_name, _text);
-                    SimulationSession session = SimulationSession.Open(source.With(walls), choices[k], _logFolder,
-                        _isSteered, limitsHubs: true, cancellation);
+                    SimulationSession session = SimulationSession.Open(source.With(walls, _files), choices[k],
+                        _logFolder, _isSteered, limitsHubs: true, cancellation);
                     taken(choices[k]);
                     return session;
                 }

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using Guidewire.Core;
 using Guidewire.Io;
 using UnityEngine;
@@ -25,6 +26,15 @@ namespace Guidewire.Runtime
             bool isExpected = error is ParameterException || error is ArgumentException;
             Problem = isExpected ? error.Message : "internal error: " + error.Message;
             Debug.LogError("guidewire: " + (isExpected ? error.Message : error.ToString()));
+        }
+
+        /// <summary>Says what of a run is allowed but most likely not meant.</summary>
+        public static void Warn(IReadOnlyList<string> warnings)
+        {
+            foreach (string warning in warnings)
+            {
+                Debug.LogWarning("guidewire: " + warning);
+            }
         }
 
         /// <summary>Takes a state.</summary>

@@ -23,6 +23,9 @@ namespace Guidewire.Runtime
         [Tooltip("Parameter file as an asset, instead of the file.")]
         [SerializeField] private TextAsset? _parameterAsset;
 
+        [Tooltip("Instruments and meshes that the parameters name, as assets from anywhere in the project.")]
+        [SerializeField] private TextAsset[] _files = Array.Empty<TextAsset>();
+
         [Tooltip("Vessels of the scene, in addition to those of the parameters.")]
         [SerializeField] private SceneVessel[] _vessels = Array.Empty<SceneVessel>();
 
@@ -35,11 +38,13 @@ namespace Guidewire.Runtime
         [Tooltip("Parameter file to which a key switches, and back; empty: none.")]
         [SerializeField] private string _alternativeFile = "";
 
+        [Tooltip("That file as an asset, instead of the file.")]
+        [SerializeField] private TextAsset? _alternativeAsset;
+
         [Tooltip("KEY=VALUE, one per line: parameters that override those of that file.")]
         [SerializeField] private string[] _alternativeOverrides = Array.Empty<string>();
 
-        [Header("Pace")]
-        [Tooltip("Who makes the steps: a thread, or Update or FixedUpdate between two frames.")]
+        [Header("Pace"), Tooltip("Who makes the steps: a thread, or Update or FixedUpdate between two frames.")]
         [SerializeField] private SteppingMode _stepping = SteppingMode.Worker;
 
         [Tooltip("Simulated seconds per second of real time.")]
@@ -51,8 +56,7 @@ namespace Guidewire.Runtime
         [Tooltip("Largest wall time of the steps of a frame, in ms, without a thread; at least one step is made.")]
         [SerializeField, Range(1f, 100f)] private float _frameBudget = 12f;
 
-        [Header("Steering")]
-        [Tooltip("Whether input pushes and turns the wire, instead of the parameter file's drive.")]
+        [Header("Steering"), Tooltip("Whether input pushes and turns the wire, instead of the parameter file's drive.")]
         [SerializeField] private bool _isSteered;
 
         [Tooltip("Speed of the hub at full push, in units per second of simulated time.")]
@@ -120,6 +124,9 @@ namespace Guidewire.Runtime
         /// k.</summary>
         public int Held { get; private set; }
 
+        /// <summary>Instruments and meshes that the parameters name, from the next <see cref="Load"/> on.</summary>
+        public TextAsset[] Files { get => _files; set => _files = value; }
+
         /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: a component of this object
         /// that is enabled, or else nobody but their setters.</summary>
         public IWireInput? Input { get; set; }
@@ -154,14 +161,14 @@ namespace Guidewire.Runtime
 
         /// <summary>Another text where the next run would be opened from something else.</summary>
         internal string OpeningKey => string.Join("\n", _overrides) + "\n" + _parameterFile + "\n" + _isSteered
-            + (_parameterAsset ? _parameterAsset!.text : "") + string.Join("\n", Array.ConvertAll(_vessels,
-                vessel => vessel ? vessel.Key(transform) : ""));
+            + AssetFiles.Key(_parameterAsset) + string.Concat(Array.ConvertAll(_files, AssetFiles.Key))
+            + string.Join("\n", Array.ConvertAll(_vessels, vessel => vessel ? vessel.Key(transform) : ""));
 
         /// <summary>Whether a view shows where the wire touches: it costs a little of each step.</summary>
         internal bool WantsContactPoints { get; set; }
 
         /// <summary>Names what the next <see cref="Load"/> reads, instead of the Inspector.</summary>
-        /// <param name="parameterFile">Parameter file, from <see cref="Root"/>.</param>
+        /// <param name="parameterFile">Parameter file, from <see cref="Root"/>; empty: the asset.</param>
         /// <param name="overrides">KEY=VALUE each.</param>
         /// <param name="logFolder">Folder of the results; empty for a run that is not logged.</param>
         /// <param name="isSteered">Whether input steers the wire instead of the drive.</param>
@@ -169,6 +176,7 @@ namespace Guidewire.Runtime
         {
             _isSteered = isSteered;
             _parameterFile = parameterFile;
+            _parameterAsset = parameterFile.Length > 0 ? null : _parameterAsset;
             _overrides = overrides;
             _logFolder = logFolder;
         }
@@ -203,13 +211,13 @@ namespace Guidewire.Runtime
         /// nothing where there is no alternative.</summary>
         public void TakeAlternative()
         {
-            if (_alternativeFile.Length == 0)
+            if (_alternativeFile.Length == 0 && !_alternativeAsset)
             {
                 return;
             }
             (_parameterFile, _alternativeFile) = (_alternativeFile, _parameterFile);
             (_overrides, _alternativeOverrides) = (_alternativeOverrides, _overrides);
-            _parameterAsset = null;
+            (_parameterAsset, _alternativeAsset) = (_alternativeAsset, _parameterAsset);
             Load();
         }
 
@@ -224,8 +232,7 @@ namespace Guidewire.Runtime
         /// <param name="instrument">0 the wire, k catheter k.</param>
         public void TakeNextInstrument(int instrument)
         {
-            IReadOnlyList<string[]>? choices = Description?.NextOf(instrument, _overrides);
-            if (choices != null && choices.Count > 0)
+            if (Description?.NextOf(instrument, _overrides) is { Count: > 0 } choices)
             {
                 Load(choices);
             }
@@ -267,8 +274,8 @@ namespace Guidewire.Runtime
             if (_opened != null)
             {
                 _speed.Ask(asked, _pace, _opened.Newest.Time);    // over a second
+                _opened.Show(IsPaused ? double.PositiveInfinity : _pace * (double)seconds);
             }
-            _opened?.Show(IsPaused ? double.PositiveInfinity : _pace * (double)seconds);
         }
 
         /// <summary>Makes one step, also while the loop is paused.</summary>
@@ -302,8 +309,7 @@ namespace Guidewire.Runtime
         public void Close()
         {
             WireRun? run = _run;
-            _run = null;
-            _opened = null;
+            (_run, _opened) = (null, null);
             run?.Stop(Patience);
             run?.Dispose();
         }
@@ -311,6 +317,7 @@ namespace Guidewire.Runtime
         private void Awake()
         {
             enabled &= !PlayerBatch.IsAsked;
+            Compilation.Begin(_stepping);
         }
 
         private void Update()
@@ -347,8 +354,7 @@ namespace Guidewire.Runtime
         private void Load(IReadOnlyList<string[]> choices)
         {
             WireRun? before = _run;
-            _run = null;
-            _opened = null;
+            (_run, _opened) = (null, null);
             _isLoaded = true;
             (RealTime, _taken) = (0.0, null);
             _report.Begin();
@@ -381,17 +387,14 @@ namespace Guidewire.Runtime
                 : throw new ArgumentException("an entry of the vessels names no object"));
             string log = _logFolder.Length == 0 || !isLogged ? "" : Path.Combine(Root, _logFolder);
             return new RunOpening(_parameterAsset ? _parameterAsset!.name : Path.Combine(Root, _parameterFile),
-                _parameterAsset ? _parameterAsset!.text : null, vessels, log, _isSteered);
+                _parameterAsset ? _parameterAsset!.text : null, AssetFiles.Read(_files), vessels, log, _isSteered);
         }
 
         private void Steer()
         {
-            _run!.Steer(new SteeringCommand
-            {
-                Held = Held,
-                Push = Mathf.Clamp(Push, -1f, 1f) * _pushSpeed,
-                Turn = Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed,
-            }, WantsContactPoints);
+            float push = Mathf.Clamp(Push, -1f, 1f) * _pushSpeed;
+            float turn = Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed;
+            _run!.Steer(new SteeringCommand { Held = Held, Push = push, Turn = turn }, WantsContactPoints);
             WantsContactPoints = false;    // views ask anew each frame
         }
 
@@ -427,10 +430,7 @@ namespace Guidewire.Runtime
                 Held = Held < Description!.Titles.Count ? Held : 0;
                 _touched.Begin(SphereCount);
                 Generation++;
-                foreach (string warning in Description.Warnings)
-                {
-                    Debug.LogWarning("guidewire: " + warning);
-                }
+                RunReport.Warn(Description.Warnings);
             }
             if (_run.Failure != null && Problem.Length == 0)
             {

@@ -268,6 +268,7 @@ namespace Guidewire.Runtime
         private bool Open()
         {
             SimulationSession session = _open(text => _progress = text, _cancellation);
+            Compilation.Wait();
             _mine = new WireState(session);
             _exchange = new StateExchange(new WireState(session));
             _description = new RunDescription(session, WallMesh.Of(session));
