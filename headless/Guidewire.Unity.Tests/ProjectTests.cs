@@ -182,19 +182,6 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void VariantsOfThePrefab_AreSetUpByScript()
-        {
-            var first = (GameObject)UnityEditor.PrefabUtility.InstantiatePrefab(
-                UnityEditor.AssetDatabase.LoadAssetAtPath<GameObject>("Assets/Guidewire/Prefabs/WireInVessel.prefab"));
-            SimulationLoop loop = first.GetComponent<SimulationLoop>();
-            loop.Stepping = SteppingMode.Frames;
-            loop.Choose("", new[] { "numberRodElements=12" }, "", isSteered: true);
-            Stage.Frames(2);
-            Assert.That(loop.Problem, Is.Empty);
-            Assert.That(loop.SphereCount, Is.EqualTo(13));
-        }
-
-        [Test]
         public void PlayTwice_WithoutReloadOfTheDomain_BeginsAnew()
         {
             for (int play = 0; play < 2; play++)
