@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 from tools.unitycheck import scenewriter
+from tools.unitycheck.metas import stable_guid
 from tools.unitycheck.scenetable import SCENES
 from tools.unitycheck.unityyaml import parse
 
@@ -16,13 +17,9 @@ def test_repository_holds_what_is_written() -> None:
         assert (ROOT / path).read_bytes() == text.encode("utf-8"), f"{path}: run tools.unitycheck --write-scenes"
 
 
-def test_parameter_files_exist() -> None:
-    for scene in SCENES:
-        assert (ROOT / scene.parameters).is_file(), scene.name
-
-
 def test_writing_twice_changes_nothing(tmp_path: Path) -> None:
-    assert len(scenewriter.write(tmp_path)) == len(SCENES) + 4
+    written = scenewriter.write(tmp_path)
+    assert sorted(written) == sorted(scenewriter.files())
     assert scenewriter.write(tmp_path) == []
 
 
@@ -30,5 +27,6 @@ def test_fields_arrive() -> None:
     scene = next(scene for scene in SCENES if scene.overrides)
     documents = {document.file_id: document for document in parse(scenewriter.scene_text(scene))}
     assert documents[302].data["_overrides"] == list(scene.overrides)
-    assert documents[302].data["_parameterFile"] == scene.parameters
+    copy = f"Assets/Scenes/{Path(scene.parameters).name}"
+    assert documents[302].data["_parameterAsset"]["guid"] == stable_guid(copy)
     assert documents[103].data["_target"] == {axis: f"{value:g}" for axis, value in zip("xyz", scene.target)}
