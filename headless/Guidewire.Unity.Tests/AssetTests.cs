@@ -51,7 +51,8 @@ namespace Guidewire.Unity.Tests
             }
             Assert.That(held.State!.Rod.Positions, Is.EqualTo(read.State!.Rod.Positions), "the same bits");
             Assert.That(held.Session!.NameOf(0), Is.EqualTo("Mine"));
-            Assert.That(held.Session.ChoicesOf(0), Has.Member("Mine").And.Member("My guide").And.Member("bentson-0.035"));
+            Assert.That(held.Session.ChoicesOf(0), Has.Member("Mine").And.Member("My guide")
+                .And.Member("bentson-0.035"));
             Assert.That(held.Session.ChoicesOf(1), Has.Member("My guide").And.No.Member("Mine"));
         }
 

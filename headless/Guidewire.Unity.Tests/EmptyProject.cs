@@ -1,11 +1,10 @@
-using System;
 using System.Text.RegularExpressions;
 
 namespace Guidewire.Unity.Tests
 {
     /// <summary>A project of somebody else that has the package below Packages, and nothing in Assets until a sample is
     /// imported.</summary>
-    internal sealed class EmptyProject : IDisposable
+    internal sealed class EmptyProject
     {
         private static readonly string Own = Path.Combine(Stage.Root, "Assets", "Guidewire");
 
@@ -13,7 +12,7 @@ namespace Guidewire.Unity.Tests
         public EmptyProject(string name)
         {
             Root = Path.Combine(TestContext.CurrentContext.WorkDirectory, name);
-            Dispose();
+            Delete();
             Directory.CreateDirectory(Path.Combine(Root, "Assets"));
             string package = Path.Combine(Root, "Packages", "org.guidewire.simulation");
             foreach (string part in new[] { "Runtime", "Prefabs" })
@@ -26,7 +25,8 @@ namespace Guidewire.Unity.Tests
         /// <summary>Folder that holds Assets.</summary>
         public string Root { get; }
 
-        /// <summary>Copies a sample as the Package Manager does: with its metas, to Samples/PACKAGE/VERSION/NAME.</summary>
+        /// <summary>Copies a sample as the Package Manager does: with its metas, to
+        /// Samples/PACKAGE/VERSION/NAME.</summary>
         /// <returns>Its folder, from <see cref="Root"/>.</returns>
         public string Import(string name)
         {
@@ -46,7 +46,8 @@ namespace Guidewire.Unity.Tests
             File.WriteAllText(Path.Combine(Root, path + ".meta"), "fileFormatVersion: 2\nguid: " + guid + "\n");
         }
 
-        public void Dispose()
+        /// <summary>Removes it.</summary>
+        public void Delete()
         {
             if (Directory.Exists(Root))
             {

@@ -25,7 +25,7 @@ namespace Guidewire.Unity.Tests
         [OneTimeTearDown]
         public void Remove()
         {
-            _project.Dispose();
+            _project.Delete();
         }
 
         [TearDown]
@@ -55,8 +55,8 @@ namespace Guidewire.Unity.Tests
                 foreach (string guid in file.EndsWith(".unity", System.StringComparison.Ordinal) ? Guid(copy)
                     : System.Array.Empty<string>())
                 {
-                    Assert.That(known.Contains(guid) || guid.StartsWith("0000000000000000", System.StringComparison.Ordinal),
-                        file + " refers to " + guid);
+                    bool isUnitys = guid.StartsWith("0000000000000000", System.StringComparison.Ordinal);
+                    Assert.That(isUnitys || known.Contains(guid), file + " refers to " + guid);
                 }
             }
         }

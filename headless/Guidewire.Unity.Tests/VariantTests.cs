@@ -14,7 +14,8 @@ namespace Guidewire.Unity.Tests
             + "  m_Modification:\n    serializedVersion: 3\n";
         private const string Head = "%YAML 1.1\n%TAG !u! tag:unity3d.com,2011:\n";
 
-        private static readonly string Prefab = Path.Combine(Stage.Root, "Assets/Guidewire/Prefabs/WireInVessel.prefab");
+        private static readonly string Prefab = Path.Combine(Stage.Root,
+            "Assets/Guidewire/Prefabs/WireInVessel.prefab");
 
         private EmptyProject _project = null!;
 
@@ -24,7 +25,8 @@ namespace Guidewire.Unity.Tests
             _project = new EmptyProject("variants");
             string source = GuidOf(Prefab);
             string changes = Change(102, "_pace", "0.5") + Change(102, "_overrides.Array.size", "1")
-                + Change(102, "_overrides.Array.data[0]", "numberRodElements=12") + Change(101, "m_LocalPosition.y", "3");
+                + Change(102, "_overrides.Array.data[0]", "numberRodElements=12")
+                + Change(101, "m_LocalPosition.y", "3");
             _project.Write("Assets/Variant.prefab", Head + "--- !u!1001 " + Instance
                 + "    m_TransformParent: {fileID: 0}\n    m_Modifications:\n" + changes
                 + "    m_RemovedComponents:\n    - {fileID: 103, guid: " + source + ", type: 3}\n"
@@ -46,15 +48,15 @@ namespace Guidewire.Unity.Tests
                 + "--- !u!1001 " + Instance + "    m_TransformParent: {fileID: 2}\n    m_Modifications:\n"
                 + Change(PrefabInstanceId(102, 1000), "_overrides.Array.data[0]", "numberRodElements=16", Variant)
                 + Change(wire, "m_LocalPosition.y", "1", Variant)
-                + "    m_RemovedComponents: []\n  m_SourcePrefab: {fileID: 100100000, guid: " + Variant + ", type: 3}\n",
-                Room);
+                + "    m_RemovedComponents: []\n"
+                + "  m_SourcePrefab: {fileID: 100100000, guid: " + Variant + ", type: 3}\n", Room);
         }
 
         [TearDown]
         public void Leave()
         {
             Engine.Unload();
-            _project.Dispose();
+            _project.Delete();
         }
 
         private static string GuidOf(string file)
@@ -132,7 +134,8 @@ namespace Guidewire.Unity.Tests
             loop.GetPositions(positions);
             Vector3 last = loop.Shown!.Rod.Positions[16].ToUnity();
             Vector3 expected = new Vector3(1f, 2f, 0f) + 0.002f * last;
-            Assert.That((positions[16] - expected).magnitude, Is.LessThan(1e-5f), "millimetres in a room of twice the size");
+            Assert.That((positions[16] - expected).magnitude, Is.LessThan(1e-5f),
+                "millimetres in a room of twice the size");
             Assert.That(loop.GetComponent<KeyInput>() == null, Is.True, "as in the variant");
         }
     }
