@@ -46,6 +46,16 @@ namespace Guidewire.Unity.Tests
             Assert.That(File.Exists("Build/Linux/instruments/c.json"), Is.True);
         }
 
+        [Test]
+        public void AProjectWithoutTheFolders_IsBuiltAllTheSame()
+        {
+            Directory.Delete("params", true);
+            Directory.Delete("instruments", true);
+            BuildPipeline.Next = BuildResult.Succeeded;
+            PlayerBuild.Linux();
+            Assert.That(Engine.ExitCode, Is.EqualTo(0));
+        }
+
         [TestCase(BuildResult.Failed)]
         [TestCase(BuildResult.Cancelled)]
         [TestCase(BuildResult.Unknown)]

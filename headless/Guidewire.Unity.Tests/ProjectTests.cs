@@ -30,7 +30,7 @@ namespace Guidewire.Unity.Tests
                 _shader = shader;
             }
 
-            public override Shader defaultShader => Shader.Find(_shader);
+            public override Shader defaultShader => _shader.Length == 0 ? null! : Shader.Find(_shader);
         }
 
         private static SimulationLoop Made(string name = "Wire", string file = "params/catheter.json")
@@ -44,6 +44,7 @@ namespace Guidewire.Unity.Tests
         [TestCase(null, "Standard")]
         [TestCase("Universal Render Pipeline/Lit", "Universal Render Pipeline/Lit")]
         [TestCase("HDRP/Lit", "HDRP/Lit")]
+        [TestCase("", "Standard")]
         public void Views_TakeTheLitShaderOfThePipeline(string? pipeline, string shader)
         {
             GraphicsSettings.currentRenderPipeline = pipeline == null ? null : new Pipeline(pipeline);
@@ -60,7 +61,7 @@ namespace Guidewire.Unity.Tests
                 Assert.That(material.shader.name, Is.EqualTo(shader));
                 Assert.That(layer, Is.EqualTo(9));
                 Assert.That(material.renderQueue, Is.EqualTo(material.color.a < 1f ? 3000 : 2000));
-                bool isTransparent = material.color.a < 1f && pipeline != null;
+                bool isTransparent = material.color.a < 1f && !string.IsNullOrEmpty(pipeline);
                 Assert.That(material.IsKeywordEnabled("_SURFACE_TYPE_TRANSPARENT"), Is.EqualTo(isTransparent));
             }
             Assert.That(Engine.Drawn.FindAll(one => one.Material.color.a < 1f), Has.Count.EqualTo(2));

@@ -9,7 +9,7 @@ using UnityEngine;
 namespace Guidewire.Editor
 {
     /// <summary>Builds players: <c>-executeMethod Guidewire.Editor.PlayerBuild.Linux</c> or <c>.Windows</c>, or the
-    /// menu. The parameter files go beside the program, where the scenes look for them.</summary>
+    /// menu. Parameter files and instruments go beside the program, where the project has folders of them.</summary>
     public static class PlayerBuild
     {
         /// <summary>Builds Build/Linux/Guidewire.x86_64; in batch mode it ends the editor with 0, or 70 where the build
@@ -74,7 +74,8 @@ namespace Guidewire.Editor
 
         private static void CopyAll(string source, string target)
         {
-            foreach (string file in Directory.GetFiles(source, "*", SearchOption.AllDirectories))
+            foreach (string file in Directory.Exists(source)
+                ? Directory.GetFiles(source, "*", SearchOption.AllDirectories) : Array.Empty<string>())
             {
                 string copy = Path.Combine(target, file);
                 Directory.CreateDirectory(Path.GetDirectoryName(copy)!);

@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Runtime.CompilerServices;
 using System.Threading;
 using System.Threading.Tasks;
 using Guidewire.Core;
@@ -12,8 +13,8 @@ namespace Guidewire.Editor
     /// of it: the problem of its start, or its keys with their values. Nothing is stepped or logged.</summary>
     internal sealed class StartCheck
     {
-        private static readonly Dictionary<SimulationLoop, StartCheck> Known =
-            new Dictionary<SimulationLoop, StartCheck>();
+        private static readonly ConditionalWeakTable<SimulationLoop, StartCheck> Known =
+            new ConditionalWeakTable<SimulationLoop, StartCheck>();
 
         private string _asked = "";
         private Task<Found>? _task;
@@ -28,11 +29,7 @@ namespace Guidewire.Editor
         /// <summary>What is known of a loop; asks again where its fields have changed.</summary>
         public static StartCheck Of(SimulationLoop loop)
         {
-            if (!Known.TryGetValue(loop, out StartCheck? check))
-            {
-                check = new StartCheck();
-                Known[loop] = check;
-            }
+            StartCheck check = Known.GetOrCreateValue(loop);
             check.Update(loop);
             return check;
         }

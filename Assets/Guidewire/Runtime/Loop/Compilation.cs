@@ -7,7 +7,7 @@ using Guidewire.Core;
 namespace Guidewire.Runtime
 {
     /// <summary>Compiles what frames call before they do. Mono compiles a method where it is first called: in the frame
-    /// that shows the first wire that took 20 ms.</summary>
+    /// that shows the first wire that took 10 to 20 ms.</summary>
     internal static class Compilation
     {
         // Of Core, what views ask of a state and steps do not.
@@ -22,11 +22,13 @@ namespace Guidewire.Runtime
         /// <summary>Begins it beside the frames, once; does nothing for a loop without a thread.</summary>
         public static void Begin(SteppingMode stepping)
         {
+#if !ENABLE_IL2CPP    // where all is compiled when the player is built
             if (!_isBegun && WireRun.TakesThread(stepping))
             {
                 _isBegun = true;
                 _done = Task.Run(Compile);
             }
+#endif
         }
 
         /// <summary>Waits until it is done, in another thread than that of the frames.</summary>

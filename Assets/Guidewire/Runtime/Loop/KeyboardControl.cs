@@ -25,7 +25,7 @@ namespace Guidewire.Runtime
         private readonly KeyAxis _turn = new KeyAxis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
         private HostInput _input;
 
-        private void Awake()
+        private void OnEnable()
         {
             _input = HostInput.Find();
             if (!_loop)

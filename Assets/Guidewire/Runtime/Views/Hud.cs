@@ -73,7 +73,7 @@ namespace Guidewire.Runtime
             Text = _builder.ToString();
         }
 
-        private void Awake()
+        private void OnEnable()
         {
             _input = HostInput.Find();
         }

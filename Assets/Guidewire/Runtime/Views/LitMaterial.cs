@@ -19,10 +19,11 @@ namespace Guidewire.Runtime
         {
             RenderPipelineAsset? pipeline = GraphicsSettings.currentRenderPipeline;
             bool isTransparent = colour.a < 1f;
+            Shader? lit = pipeline ? pipeline!.defaultShader : null;    // a pipeline of one's own may have none
             Material made;
-            if (pipeline)
+            if (lit)
             {
-                made = new Material(pipeline!.defaultShader);
+                made = new Material(lit!);
                 if (isTransparent)
                 {
                     SetTransparent(made);

@@ -43,7 +43,7 @@ namespace Guidewire.Runtime
             set => _distance = value;
         }
 
-        private void Awake()
+        private void OnEnable()
         {
             _input = HostInput.Find();
         }
