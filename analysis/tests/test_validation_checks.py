@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from analysis.validation import balance, dynamics, pictures, ring, scenes, stability
+from analysis.validation import balance, dynamics, pictures, ring, scenes, stability, tested
 from analysis.validation.beam import mode_numbers
 from analysis.validation.clamp import fit_frequency
 from analysis.validation.dynamics import rms_error
@@ -125,6 +125,19 @@ def test_frequency_is_found_beside_another_mode() -> None:
     assert fit_frequency(time, motion, 1.0) == pytest.approx(1.01, rel=1e-7)
 
 
+def test_rows_of_tests_are_read_the_worst_of_each_and_one_beyond_its_limit_fails(tmp_path: Path) -> None:
+    said = {"one": "row: order | 2.01 | 2 | 0.1",
+            "two": "more\nrow: order | 1.95 | 2 | 0.1\nrow: force | NaN | 1 | 1E-06"}
+    tests = "".join(f'<UnitTest id="{name}"><TestMethod className="Guidewire.Core.Tests.ClampTests"/></UnitTest>'
+                    for name in said)
+    cases = "".join(f'<UnitTestResult testId="{name}"><Output><StdOut>{text}</StdOut></Output></UnitTestResult>'
+                    for name, text in said.items())
+    (tmp_path / "a.trx").write_text(f'<TestRun xmlns="urn:x">{tests}{cases}</TestRun>')
+    force, order = tested.read(tmp_path / "a.trx")
+    assert (order.what, order.value, order.passed) == ("order (ClampTests)", 1.95, True)
+    assert force.passed is False
+
+
 def test_rms_error_is_relative_to_the_reference() -> None:
     reference = np.array([3.0, 4.0])
     assert rms_error(reference + np.array([0.3, -0.4]), reference) == pytest.approx(0.1)
@@ -226,5 +239,5 @@ def test_picture_shows_points_gate_and_caption() -> None:
 def test_every_check_has_its_own_name() -> None:
     assert len({check.name for check in ROWS}) == len(ROWS)
     assert {check.section for check in ROWS} == {
-        "The clamp", "Statics", "Stability limits", "Dynamics", "In the vessel", "Independence",
-        "A published suite", "A wire in a catheter"}
+        "Held by tests of Core", "The clamp", "Statics", "Stability limits", "Dynamics", "In the vessel",
+        "Independence", "A published suite", "A wire in a catheter"}

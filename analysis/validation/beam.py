@@ -1,4 +1,4 @@
-"""Small motions and deflections of a cantilever: modes, frequencies, compliances."""
+"""Small motions of a cantilever: modes and frequencies."""
 
 from __future__ import annotations
 
@@ -77,22 +77,3 @@ def mode_shape(number: float, arc: np.ndarray, derivative: int = 0) -> np.ndarra
 def _at_tip(b: float, c: float, growing: float, falling: float) -> float:
     """Return the mode's value at the tip, before it is scaled."""
     return growing * math.exp(b) + falling * math.exp(-b) - math.cos(b) + c * math.sin(b)
-
-
-def own_weight_compliance() -> float:
-    """Tip deflection over w L^4/EI of a thin cantilever under a small weight w per length."""
-    return 1.0 / 8.0
-
-
-def tip_load_compliance() -> float:
-    """Tip deflection over F L^3/EI of a thin cantilever under a small force F at the tip."""
-    return 1.0 / 3.0
-
-
-def hinged_chain_factor(elements: int) -> float:
-    """Tip-load compliance of a chain whose first joint sits at the clamp, over that of the beam.
-
-    n joints of stiffness EI/l at s = 0, l, ..., L - l: sum of (L - s)^2 l/EI, over L^3/(3 EI).
-    """
-    n = elements
-    return n * (n + 1) * (2 * n + 1) / (2.0 * n**3)

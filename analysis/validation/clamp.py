@@ -1,81 +1,20 @@
-"""Checks of the clamp: the order of the error in n, in statics and in the frequencies, for every rule."""
+"""Check of the clamp: the order in n of the error of frequencies; that of deflections is held by tests of Core."""
 
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import numpy as np
 from scipy.optimize import least_squares
 
 from analysis.validation import beam, pictures, scenes
-from analysis.validation.states import last_state, tip_motion, wall_time, wall_time_per_second
+from analysis.validation.states import tip_motion, wall_time_per_second
 from analysis.validation.wire import BASE
-from guidewire.figures.wording import number
-from guidewire.studies.table import Axis, Case, Grid
-from guidewire.sweeps.check import Check, Finding, Plan, Result, by_point
+from guidewire.studies.table import Case
+from guidewire.sweeps.check import Check, Finding, Plan, Result
 
 SECTION = "The clamp"
-SMALL = 1e-4  # F L^2/EI and w L^3/EI, small enough for the linear beam
-ROUNDING = 1e-7  # of the compliance: what is left of 1e-4 L in double precision, and of the load's square
-RULES = {"wholeElement": (1, "whole-element joint"), "halfElement": (2, "half-element joint"),
-         "fourthOrder": (4, "Gregory's weights")}
-_COUNTS = (10, 20, 30, 40, 80)
 _GATE = 0.1  # on the order
-
-
-def _compliance() -> Plan:
-    force = SMALL * BASE.bending / BASE.length**2
-    gravity = SMALL * BASE.bending / (BASE.length**3 * BASE.line_density)
-    loads: dict[str, dict[str, Any]] = {
-        "tip-load": {"tipForce": [0.0, -force, 0.0]}, "own-weight": {"gravity": [0.0, -gravity, 0.0]},
-    }
-    # Shear adds F L/GA and w L^2/(2 GA), which the chain takes into account too.
-    shear = BASE.bending / (BASE.shearing * BASE.length**2)
-    exact = {"tip-load": beam.tip_load_compliance() + shear, "own-weight": beam.own_weight_compliance() + 0.5 * shear}
-    grid = Grid(
-        (Axis("clampRule", tuple(RULES)), Axis("numberRodElements", _COUNTS)),
-        scenes.at_rest({"solverTolerance": 1e-13}), loads,
-    )
-    runs = by_point((yield grid.cases()))
-    results, series = [], {}
-    for load in loads:
-        for rule, (order, name) in RULES.items():
-            errors = []
-            for n in _COUNTS:
-                run = runs[load, rule, n]
-                tip = -last_state(run).positions[-1, 1] / BASE.length / SMALL
-                errors.append(abs(tip / exact[load] - 1.0))
-                if n == scenes.ELEMENTS:
-                    results.append(Result(f"{load.replace('-', ' ')}, {name}, n = {n}: compliance", "direct", tip,
-                                          exact[load], errors[-1], None, "L³/EI", wall_time(run)))
-                if load == "tip-load" and rule == "wholeElement":
-                    chain = beam.hinged_chain_factor(n) * beam.tip_load_compliance() + shear
-                    results.append(Result(
-                        f"tip load, {name}, n = {n}: compliance of such a chain", "direct", tip, chain,
-                        abs(tip / chain - 1.0), ROUNDING, "L³/EI", wall_time(run),
-                    ))
-            if load == "tip-load" and rule == "fourthOrder":
-                results.append(Result("tip load, Gregory's weights: compliance, worst of n = 10 to 80", "direct",
-                                      tip, exact[load], max(errors), ROUNDING, "L³/EI", wall_time(run)))
-                continue
-            measured = -math.log2(errors[1] / errors[0])
-            results.append(Result(
-                f"{load.replace('-', ' ')}, {name}: order of the compliance, n = 10 to 20", "direct",
-                measured, order, abs(measured - order), _GATE, "", wall_time(run), "absolute",
-            ))
-            series[f"{load.replace('-', ' ')}, {rule}"] = (_COUNTS, errors)
-    caption = (
-        "Error of the tip's deflection under small loads against the number of elements, for three rules for the "
-        "joints at the clamp. A joint of a whole element has an error of first order, as has a clamp that fixes sphere "
-        "0 and the frame of element 0. Gregory's weights are exact for a tip load (not drawn: "
-        f"{number(next(r.error for r in results if 'worst' in r.what), 1)}) and of fourth order for the own weight."
-    )
-    draw = pictures.orders("number of elements n", "relative error of the deflection", series,
-                           [(-1.0, "order 1"), (-2.0, "order 2"), (-4.0, "order 4")])
-    return Finding(tuple(results), draw, caption)
-
-
 _PERIODS = 12
 _STEPS = 400  # a period
 _AMPLITUDE = 1e-4  # of L
@@ -154,7 +93,4 @@ def fit_frequency(time: np.ndarray, motion: np.ndarray, guess: float) -> float:
     return float(fit.x[0]) * guess
 
 
-CHECKS = (
-    Check("clamp-compliance", SECTION, "order of the static compliance", _compliance),
-    Check("clamp-frequencies", SECTION, "order of the frequencies", _frequencies),
-)
+CHECKS = (Check("clamp-frequencies", SECTION, "order of the frequencies", _frequencies),)

@@ -1,4 +1,4 @@
-"""Checks of one joint and of a few elements: couples and forces against the energy, and rigid rotations.
+"""Checks of a few elements: couples and forces against the energy, and rigid rotations.
 
 What a run states of itself before its first step (summary.json: energy, force and couple of the clamps) belongs to the
 shape that its start file holds, at rest or not. So a joint's couple is read at any angle, and the energy's derivatives
@@ -18,7 +18,6 @@ from analysis.validation import pictures, scenes
 from analysis.validation.states import last_state, solver_report, wall_time, wall_time_per_second
 from analysis.validation.wire import BASE
 from guidewire.figures.wording import number
-from guidewire.studies.keys import run_key
 from guidewire.studies.table import Case
 from guidewire.sweeps.check import Check, Finding, Plan, Result, not_run
 
@@ -29,7 +28,6 @@ _NO_COUPLE = "its summary states no couple and no energy"
 
 # The whole wire is one element behind one joint of K = EI/L and GJ/L.
 _ONE = {"numberRodElements": 1, "clampRule": "wholeElement", "maxSimulationSteps": 0}
-_ANGLES = (0.1, 0.5, 1.0, 2.0, 3.0)  # rad
 _TURN = np.array([0.5, -0.9, 0.8])  # rad, about an axis that is none of the joint's own
 
 
@@ -45,56 +43,6 @@ def _start(nodes: np.ndarray, turns: Sequence[Rotation]) -> dict[str, Any]:
     """Return a start file of these places, m, shape (n+1, 3), and frames."""
     return {"positions": (nodes / scenes.UNIT).tolist(), "orientations": [turn.as_quat().tolist() for turn in turns],
             **scenes.CLAMPS_ALONG_Z}
-
-
-def _joint() -> Plan:
-    axes = {"bend": (np.array([1.0, 0.0, 0.0]), BASE.bending / BASE.length),
-            "twist": (np.array([0.0, 0.0, 1.0]), BASE.torsion / BASE.length)}
-    expected = {"rotationVector": lambda angle: angle, "darboux": math.sin}
-    stored = {"rotationVector": lambda angle: 0.5 * angle * angle, "darboux": lambda angle: 1.0 - math.cos(angle)}
-    cases = {
-        (law, kind, angle): Case(run_key(f"{law}-{kind}", {"angle": angle}), {**_ONE, "bendLaw": law},
-                                 start=_chain([Rotation.from_rotvec(angle * axis)], BASE.length))
-        for law in LAWS for kind, (axis, _) in axes.items() for angle in _ANGLES
-    }
-    runs = yield list(cases.values())
-    results, series = [], {}
-    for law, name in LAWS.items():
-        for kind, (axis, stiffness) in axes.items():
-            couples, errors, energies = [], [], []
-            for angle in _ANGLES:
-                run = runs[cases[law, kind, angle].key]
-                exact = expected[law](angle)
-                couple = -solver_report(run, "proximalMoment") / stiffness  # the wire's own, against the clamp's
-                couples.append(float(couple @ axis))
-                errors.append(float(np.linalg.norm(couple - exact * axis)) / abs(exact))
-                energies.append(abs(solver_report(run, "energy") / (stiffness * stored[law](angle)) - 1.0))
-            series[f"{name}, {kind}"] = couples
-            symbol = "EI/l" if kind == "bend" else "GJ/l"
-            formula = "K θ" if law == "rotationVector" else "K sin θ"
-            worst = int(np.argmax(errors))
-            results.append(Result(
-                f"one joint, K = {symbol}, {name}: couple {formula}, worst of θ = 0.1 to 3", "direct", couples[worst],
-                expected[law](_ANGLES[worst]), errors[worst], EXACT, "K", wall_time(run)))
-            results.append(Result(
-                f"one joint, K = {symbol}, {name}: energy, worst of θ = 0.1 to 3", "direct", 1.0 + max(energies), 1.0,
-                max(energies), EXACT, "of the closed form", wall_time(run)))
-    results += [not_run("one joint: couple at a given angle", solver, _NO_COUPLE) for solver in ("explicit", "xpbd")]
-
-    def draw(figure) -> None:
-        panel = figure.add_subplot()
-        fine = np.linspace(0.0, math.pi, 200)
-        panel.plot(fine, fine, color="0.6", linewidth=2.5, label="θ")
-        panel.plot(fine, np.sin(fine), "--", color="0.6", linewidth=2.5, label="sin θ")
-        pictures.marks(panel, {name: (_ANGLES, couples) for name, couples in series.items()},
-                       "angle θ of the joint (rad)", "couple (K)")
-
-    caption = (
-        "A wire of one element behind one joint, turned by θ: the clamp's couple as the run's summary states it, for "
-        "bending (K = EI/l) and twist (K = GJ/l) and both laws. Largest error of couple and energy "
-        f"{number(max(r.error for r in results if not r.reason), 1)}."
-    )
-    return Finding(tuple(results), draw, caption)
 
 
 _NODES = 4
@@ -224,47 +172,7 @@ def _rotated() -> Plan:
     return Finding(tuple(results), pictures.shapes({"start": start}, drawn, ("z/L", "y/L")), caption)
 
 
-def _joint_law() -> Plan:
-    """Between two elements of a wire under a couple stands one joint of K = EI/l."""
-    n = 8
-    couples = (0.05, 0.2, 0.5, 0.8)  # of K; above 1 the Darboux law has no rest shape
-    stiffness = BASE.bending * n / BASE.length
-    laws = {"rotationVector": lambda fraction: fraction, "darboux": math.asin}
-    cases = [
-        Case(run_key(law, {"fraction": fraction}), scenes.at_rest({
-            "bendLaw": law, "clampRule": "halfElement", "numberRodElements": n, "solverTolerance": 1e-12,
-            "tipMoment": [fraction * stiffness, 0.0, 0.0]}))
-        for law in laws for fraction in couples
-    ]
-    runs = yield cases
-    results, series = [], {}
-    for law, expected in laws.items():
-        angles = []
-        for fraction in couples:
-            run = runs[run_key(law, {"fraction": fraction})]
-            d = last_state(run).directors
-            angle = math.atan2(float(np.linalg.norm(np.cross(d[3], d[4]))), float(d[3] @ d[4]))
-            angles.append(angle)
-            exact = expected(fraction)
-            results.append(Result(f"one joint under the couple {fraction:g} K: its angle", f"direct, {law}", angle,
-                                  exact, abs(angle / exact - 1.0), 1e-6, "rad", wall_time(run)))
-        series[law] = angles
-
-    def draw(figure) -> None:
-        axes = figure.add_subplot()
-        fine = np.linspace(0.0, 0.8, 100)
-        axes.plot(fine, fine, color="0.6", linewidth=2.5, label="couple = K angle")
-        axes.plot(np.arcsin(fine), fine, "--", color="0.6", linewidth=2.5, label="couple = K sin(angle)")
-        pictures.marks(axes, {law: (angles, couples) for law, angles in series.items()},
-                       "angle of the joint (rad)", "couple (K)")
-
-    caption = "One joint in the middle of a wire under a couple: its angle by both laws, K = EI/l."
-    return Finding(tuple(results), draw, caption)
-
-
 CHECKS = (
-    Check("one-joint", SECTION, "one joint: couple and energy", _joint),
     Check("gradient", SECTION, "few elements: force and couple as gradient of the energy", _gradients),
     Check("rotated", SECTION, "few elements: everything rotated", _rotated),
-    Check("joint-law", SECTION, "one joint of a wire under a couple", _joint_law),
 )

@@ -1,78 +1,20 @@
-"""Check of the order in time of every scheme, on one mode: with many modes some are always badly resolved."""
+"""Check of the order in time of solvers with small steps, on one mode: with many some are always badly resolved."""
 
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
 from typing import Any
 
 import numpy as np
 
-from analysis.validation import beam, pictures, scenes
+from analysis.validation import pictures, scenes
 from analysis.validation.bar import BarChain
-from analysis.validation.dynamics import SCHEMES, SECTION, rms_error
-from analysis.validation.states import last_state, read_states, wall_time_per_second
-from analysis.validation.wire import BASE, Wire
+from analysis.validation.dynamics import SECTION, rms_error
+from analysis.validation.states import read_states, wall_time_per_second
+from analysis.validation.wire import Wire
 from guidewire.figures.wording import number
-from guidewire.logs.runs import Run
 from guidewire.studies.table import Case
 from guidewire.sweeps.check import Check, Finding, Plan, Result
-
-_ORDER_STEPS = (10, 20, 40, 80, 160)  # a period
-_FINEST = 1280
-
-
-def _order() -> Plan:
-    n = 20
-    first = float(beam.mode_numbers(1)[0])
-    shape = beam.mode_shape(first, np.linspace(0.0, 1.0, n + 1))
-    period = 1.0 / beam.thick_frequencies(BASE, 1)[0]
-    # The chain's own first mode: implicit Euler takes the higher ones out of the beam's within two periods.
-    steps = 40
-    filtered = Case("first-mode", {
-        "numberRodElements": n, "integrator": "implicitEuler", "timeStep": period / steps, "solverTolerance": 1e-13,
-        "maxSimulationSteps": 2 * steps, "logEvery": 2 * steps, "logOrientations": True,
-    }, start=scenes.mode_start(BASE, n, first, 2e-4))
-    runs = yield [filtered]
-    pure = last_state(runs[filtered.key])
-    start = {"positions": (pure.positions / scenes.UNIT).tolist(), "orientations": pure.orientations.tolist(),
-             **scenes.CLAMPS_ALONG_Z}
-
-    def case(name: str, steps: int, method: Mapping[str, Any]) -> Case:
-        return Case(f"{name}-{steps}", {
-            "numberRodElements": n, "timeStep": period / steps, "maxSimulationSteps": steps // 2,
-            "logEvery": steps // min(_ORDER_STEPS), "solverTolerance": 1e-13, **method,
-        }, start=start)
-
-    def swing(run: Run) -> np.ndarray:
-        """Return the motion in the first mode."""
-        return np.array([state.positions[:, 1] @ shape for state in read_states(run)])
-
-    finest = case("finest", _FINEST, {"integrator": "esdirk4"})
-    cases = {(s, k): case(s, k, {"integrator": s}) for s in SCHEMES for k in _ORDER_STEPS}
-    runs = yield [finest, *cases.values()]
-    exact = swing(runs[finest.key])
-    results, series = [], {}
-    for scheme, claimed in SCHEMES.items():
-        errors = []
-        for steps in _ORDER_STEPS:
-            errors.append(rms_error(swing(runs[cases[scheme, steps].key]), exact))
-        measured = -math.log2(errors[-1] / errors[-2])
-        results.append(Result(
-            "order in time on the first mode, 80 to 160 steps a period", f"direct, {scheme}", measured, claimed,
-            abs(measured - claimed), 0.1, "", wall_time_per_second(runs[cases[scheme, _ORDER_STEPS[-1]].key]),
-            "absolute",
-        ))
-        series[scheme] = (_ORDER_STEPS, errors)
-    caption = (
-        f"Half a period in the first mode, amplitude near 1e-4 L, n = {n}: RMS error of the mode against {_FINEST} "
-        "steps of esdirk4 a period. Orders from 80 to 160 steps: "
-        + ", ".join(f"{r.solver[8:]} {number(r.value)}" for r in results) + "."
-    )
-    draw = pictures.orders("steps a period", "relative error of the mode's motion", series,
-                           [(-1.0, "order 1"), (-2.0, "order 2"), (-3.0, "order 3"), (-4.0, "order 4")])
-    return Finding(tuple(results), draw, caption)
-
 
 _AXIAL_ELEMENTS = 4
 _AXIAL_WIRE = Wire(radius=50e-3)  # so thick that shear, which an axial motion does not know, does not set the step
@@ -127,6 +69,5 @@ def _axial() -> Plan:
 
 
 CHECKS = (
-    Check("order-in-time", SECTION, "order in time, direct", _order),
     Check("order-in-time-axial", SECTION, "order in time, explicit and xpbd", _axial),
 )

@@ -13,7 +13,8 @@ from matplotlib.figure import Figure
 
 from analysis.validation import (
     balance, clamp, coaxial, coil, couples, drum, dynamics, friction, heavy_rods, helix, hub_force, independence, joint,
-    order, planes, ring, soft_walls, stability, statics, suite, tube_buckling, turning, twisted_tube, vessel, whip,
+    order, planes, ring, soft_walls, stability, statics, suite, tested, tube_buckling, turning, twisted_tube, vessel,
+    whip,
 )
 from analysis.validation.pictures import SOLVER_MARKERS
 from guidewire.figures.style import captioned, new_figure, styled
@@ -22,15 +23,15 @@ from guidewire.logs.logs import LogError
 from guidewire.sweeps.check import Check, Finding, Result, replay
 
 ROWS: tuple[Check, ...] = (
-    *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS, *stability.CHECKS, *ring.CHECKS,
-    *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS, *vessel.CHECKS, *friction.CHECKS,
-    *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *soft_walls.CHECKS, *twisted_tube.CHECKS,
-    *whip.CHECKS, *tube_buckling.CHECKS, *coaxial.CHECKS, *independence.CHECKS, *suite.CHECKS,
+    *tested.CHECKS, *clamp.CHECKS, *joint.CHECKS, *statics.CHECKS, *couples.CHECKS, *heavy_rods.CHECKS,
+    *stability.CHECKS, *ring.CHECKS, *helix.CHECKS, *dynamics.CHECKS, *balance.CHECKS, *order.CHECKS, *turning.CHECKS,
+    *vessel.CHECKS, *friction.CHECKS, *hub_force.CHECKS, *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *soft_walls.CHECKS,
+    *twisted_tube.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS, *coaxial.CHECKS, *independence.CHECKS, *suite.CHECKS,
 )
 _QUICK = (
-    "clamp-compliance", "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar",
-    "force-balance", "force-balance-default", "order-in-time", "order-in-time-axial", "large-turns", "elements",
-    "tolerance", "twisted-tube",
+    "clamp-frequencies", "plane", "end-moment", "end-moment-darboux", "localised-helix", "bar", "force-balance",
+    "force-balance-default",
+    "order-in-time-axial", "large-turns", "elements", "tolerance", "twisted-tube",
     *(check.name for check in (*joint.CHECKS, *coaxial.CHECKS)),
 )
 FAST = (  # what tests run

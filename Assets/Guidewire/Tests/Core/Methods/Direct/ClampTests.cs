@@ -5,6 +5,7 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>The rod's stiffness between clamp and tip against beam theory: orders of convergence of the clamp's
     /// rules. </summary>
+    [Category("Row")]
     public sealed class ClampTests
     {
         // Deflections of 1e-6 L: the geometry's own nonlinearity, (1e-6)^2, is out of sight; positions round at 1e-16
@@ -20,14 +21,15 @@ namespace Guidewire.Core.Tests
             // A chain of n hinges, the first at the clamp: n (n + 1)(2n + 1)/(2 n^3) times F L^3/(3 EI), exactly;
             // shear adds F L/GA.
             double bending = n * (n + 1.0) * (2.0 * n + 1.0) / (2.0 * n * n * n);
-            Assert.That(TipCompliance(n, ClampRule.WholeElement), Is.EqualTo(bending).Within(Rounding));
+            Row.Holds("tip load, whole-element joint: compliance of such a chain, 3 EI/L³",
+                TipCompliance(n, ClampRule.WholeElement), bending, Rounding);
         }
 
         [TestCase(ClampRule.FourthOrder, 10)]
         [TestCase(ClampRule.FourthOrder, 31)]
         public void FourthOrderClamp_IsExactUnderATipLoad(ClampRule rule, int n)
         {
-            Assert.That(TipCompliance(n, rule), Is.EqualTo(1.0).Within(Rounding));
+            Row.Holds("tip load, Gregory's weights: compliance, 3 EI/L³", TipCompliance(n, rule), 1.0, Rounding);
         }
 
         [Test]
@@ -35,14 +37,15 @@ namespace Guidewire.Core.Tests
         {
             double order = Order(TipCompliance(10, ClampRule.HalfElement) - 1.0,
                 TipCompliance(20, ClampRule.HalfElement) - 1.0);
-            Assert.That(order, Is.EqualTo(2.0).Within(0.1));
+            Row.Holds("tip load, half-element joint: order of the compliance", order, 2.0, 0.1);
         }
 
         [TestCase(ClampRule.HalfElement, 2.0)]
         [TestCase(ClampRule.FourthOrder, 4.0)]
         public void SagUnderOwnWeight_HasTheRulesOrder(ClampRule rule, double expected)
         {
-            Assert.That(Order(SagError(10, rule), SagError(20, rule)), Is.EqualTo(expected).Within(0.1));
+            Row.Holds("own weight, " + rule + ": order of the compliance",
+                Order(SagError(10, rule), SagError(20, rule)), expected, 0.1);
         }
 
         [Test]

@@ -67,6 +67,7 @@ namespace Guidewire.Core.Tests
             Assert.That(term.Value(moved), Is.EqualTo(term.Value(shape)).Within(1e-12 * term.Value(shape)));
         }
 
+        [Category("Row")]
         [TestCase(1e-6)]
         [TestCase(0.3)]
         [TestCase(1.7)]
@@ -83,11 +84,13 @@ namespace Guidewire.Core.Tests
                 RodVector a = default;
                 RodVector b = default;
                 default(RotationVectorLaw).AddGradient(joint, relative, ref a, ref b);
-                Assert.That(Along(b, e), Is.EqualTo(stiffness * angle).Within(1e-6 * stiffness * angle));
+                Row.Holds("one joint, rotation vector: couple K θ, of K θ", Along(b, e) / (stiffness * angle), 1.0,
+                    1e-6);
                 Assert.That(Along(a, e), Is.EqualTo(-stiffness * angle).Within(1e-6 * stiffness * angle));
                 b = default;
                 default(DarbouxLaw).AddGradient(joint, relative, ref a, ref b);
-                Assert.That(Along(b, e), Is.EqualTo(stiffness * Math.Sin(angle)).Within(1e-6 * stiffness * angle));
+                Row.Holds("one joint, Darboux: couple K sin θ, of K θ", Along(b, e) / (stiffness * angle),
+                    Math.Sin(angle) / angle, 1e-6);
             }
         }
 
