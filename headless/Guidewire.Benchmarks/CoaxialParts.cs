@@ -40,7 +40,7 @@ namespace Guidewire.Benchmarks
             _shape = dynamics.Shape;
             var inertia = new InertiaEnergy(_all.Mass) { StageLength = parameters.Method.TimeStep };
             inertia.BeginStep(_shape, parameters.Method.TimeStep);
-            Array.Copy(_shape.X, inertia.FreePositions, _shape.X.Length);
+            Array.Copy(_shape.X, inertia.FreePositions, _shape.ElementCount + 1);
             _terms = _all.With(inertia);
             _system = new BlockTridiagonal(_all.Rod, _all.Supports);
             _gradient = new RodVector[_system.VectorCount];
@@ -112,7 +112,7 @@ namespace Guidewire.Benchmarks
 
         private void Blocks(EnergyTerm term)
         {
-            term.AddBlocks(_shape, _blocks, _gradient, 0, _shape.X.Length);
+            term.AddBlocks(_shape, _blocks, _gradient, 0, _shape.ElementCount + 1);
             term.AddTwistRows(_shape, _rows, 0, _twists);
         }
 

@@ -6,11 +6,23 @@ namespace Guidewire.Core
     public sealed class ContactRecord
     {
         private readonly Vector3d[] _impulses;
+        private int _spheres;
 
         internal ContactRecord(int sphereCount)
         {
             _impulses = new Vector3d[sphereCount];
             Forces = new Vector3d[sphereCount];
+            _spheres = sphereCount;
+        }
+
+        /// <summary>The wire has so many spheres, at most those that this is made for, and nothing touches it.
+        /// </summary>
+        internal void Remesh(int sphereCount)
+        {
+            _spheres = sphereCount;
+            Array.Clear(Forces, 0, Forces.Length);
+            Array.Clear(ElementForces, 0, ElementForces.Length);
+            Array.Clear(Displacements, 0, Displacements.Length);
         }
 
         /// <summary>Force of the walls on each of the n + 1 spheres in the last step, mass unit * unit/s^2. What a held
@@ -93,9 +105,9 @@ namespace Guidewire.Core
         {
             Total = total;
             LargestTotal = Math.Max(LargestTotal, total.Length);
-            foreach (Vector3d force in Forces)
+            for (int i = 0; i < _spheres; i++)
             {
-                LargestForce = Math.Max(LargestForce, force.Length);
+                LargestForce = Math.Max(LargestForce, Forces[i].Length);
             }
         }
 
@@ -120,13 +132,13 @@ namespace Guidewire.Core
             for (int j = 0; j < Displacements.Length; j++)
             {
                 int from = j - offset;
-                Displacements[j] = from >= 0 && from < other.Displacements.Length ? other.Displacements[from] : 0.0;
+                Displacements[j] = from >= 0 && from < other._spheres - 1 ? other.Displacements[from] : 0.0;
             }
             other.CopyForces(Forces, offset, 0);
             for (int j = 0; j < ElementForces.Length; j++)
             {
                 int from = j - offset;
-                ElementForces[j] = from >= 0 && from < other.ElementForces.Length ? other.ElementForces[from]
+                ElementForces[j] = from >= 0 && from < other._spheres - 1 ? other.ElementForces[from]
                     : Vector3d.Zero;
             }
         }
@@ -140,7 +152,7 @@ namespace Guidewire.Core
             for (int i = 0; i < forces.Length; i++)
             {
                 int from = i - offset;
-                forces[i] = from >= first && from < Forces.Length ? Forces[from] : Vector3d.Zero;
+                forces[i] = from >= first && from < _spheres ? Forces[from] : Vector3d.Zero;
             }
         }
 
@@ -163,8 +175,8 @@ namespace Guidewire.Core
             ReactionAtEnd = snapshot.Serialize(ReactionAtEnd);
             MeanTotal = snapshot.Serialize(MeanTotal);
             Pressure = snapshot.Serialize(Pressure);
-            snapshot.Serialize(Forces);
-            snapshot.Serialize(ElementForces);
+            snapshot.Serialize(Forces, _spheres);
+            snapshot.Serialize(ElementForces, _spheres - 1);
         }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls prevented,

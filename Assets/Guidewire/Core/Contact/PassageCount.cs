@@ -15,7 +15,8 @@ namespace Guidewire.Core
         private const int Halvings = 40;  // from a tenth of an element to less than a clearance
         private readonly IWallClearance _bounds;
         private readonly ContactShape[] _walls;
-        private readonly double _clearance;
+        private double _clearance;
+        private int _elements;
         private readonly int[] _hint;     // where the nearest point was, per wall and element
         private readonly bool[] _left;    // whether a point left across a wall in this step, per wall and point
 
@@ -25,10 +26,18 @@ namespace Guidewire.Core
         {
             _bounds = bounds;
             _walls = bounds.Walls;
-            _clearance = SweptSearch.ClearanceFor(bounds.Radius);
             _hint = new int[_walls.Length * elementCount];
-            Array.Fill(_hint, -1);
             _left = new bool[_walls.Length * PointsOf(elementCount)];
+            Remesh(elementCount);
+        }
+
+        /// <summary>The wire has so many elements, at most those that this is made for.</summary>
+        public void Remesh(int elementCount)
+        {
+            _elements = elementCount;
+            _clearance = SweptSearch.ClearanceFor(_bounds.Radius);
+            Array.Fill(_hint, -1);
+            Array.Clear(_left, 0, _left.Length);
         }
 
         /// <summary>Counts the passages so far.</summary>
@@ -39,7 +48,7 @@ namespace Guidewire.Core
         /// <param name="to">Where it ends.</param>
         public void AddPart(Vector3d[] from, Vector3d[] to)
         {
-            int n = to.Length - 1;
+            int n = _elements;
             for (int j = 0; j < n; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
@@ -70,7 +79,7 @@ namespace Guidewire.Core
         /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>
         public void EndStep(Vector3d[] from, Vector3d[] to)
         {
-            int points = PointsOf(to.Length - 1);
+            int points = PointsOf(_elements);
             for (int at = Array.IndexOf(_left, true); at >= 0; at = Array.IndexOf(_left, true, at + 1))
             {
                 ContactShape wall = _walls[at / points];
@@ -87,8 +96,8 @@ namespace Guidewire.Core
         // whatever lay on the straight path of a long step.
         private bool LeadsOut(ContactShape wall, Vector3d[] x)
         {
-            bool isWhole = wall.Contains(x[0]) || wall.Contains(x[x.Length - 1]);
-            for (int j = 0; j + 1 < x.Length && isWhole; j++)
+            bool isWhole = wall.Contains(x[0]) || wall.Contains(x[_elements]);
+            for (int j = 0; j < _elements && isWhole; j++)
             {
                 isWhole = IsFree(wall, x[j], x[j + 1]);
             }
@@ -107,7 +116,7 @@ namespace Guidewire.Core
         {
             Vector3d before = Point(from, k);
             Vector3d inside = before;
-            int points = PointsOf(from.Length - 1);
+            int points = PointsOf(_elements);
             for (int i = k + sense; i >= 0 && i < points; i += sense)
             {
                 Vector3d next = Point(from, i);
@@ -152,7 +161,7 @@ namespace Guidewire.Core
 
         private void MarkElement(int w, Vector3d[] from, Vector3d[] to, int j)
         {
-            int n = to.Length - 1;
+            int n = _elements;
             int end = j + 1 == n ? PointsOf(n) : (j + 1) * SamplesPerElement;
             for (int k = j * SamplesPerElement; k < end; k++)
             {
@@ -172,9 +181,9 @@ namespace Guidewire.Core
             return elementCount * SamplesPerElement + 1;
         }
 
-        private static Vector3d Point(Vector3d[] x, int k)
+        private Vector3d Point(Vector3d[] x, int k)
         {
-            int j = Math.Min(k / SamplesPerElement, x.Length - 2);
+            int j = Math.Min(k / SamplesPerElement, _elements - 1);
             return Vector3d.Lerp(x[j], x[j + 1], (double)(k - j * SamplesPerElement) / SamplesPerElement);
         }
     }

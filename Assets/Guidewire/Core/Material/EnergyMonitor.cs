@@ -43,9 +43,16 @@ namespace Guidewire.Core
             _terms = terms;
             _inertia = inertia;
             _ends = ends;
-            _before = new RodShape(shape.ElementCount, shape.InnerCount);
+            _before = new RodShape(shape.ElementCount, shape.InnerCount, shape.Q.Length);
+            Remesh();
+        }
+
+        /// <summary>The wire has other elements, and is at its start.</summary>
+        public void Remesh()
+        {
+            (_loadWork, _step) = (0.0, 0);
             Start();
-            _maxPutIn = Rounding * terms.Rod.BendStiffness1[0] / terms.Rod.TotalLength;
+            _maxPutIn = Rounding * _terms.Rod.BendStiffness1[0] / _terms.Rod.TotalLength;
         }
 
         /// <summary>What T may be over the energy put in.</summary>

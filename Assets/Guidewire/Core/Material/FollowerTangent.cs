@@ -19,7 +19,8 @@ namespace Guidewire.Core
         private readonly BlockTridiagonal _system;
         private readonly RodVector[][] _response = new RodVector[MaxSize][];
         private readonly RodVector[] _gradient;
-        private readonly int _tip;
+        private readonly MaterialRod _rod;
+        private int _tip;                                             // the last element
         private readonly double[] _part = new double[MaxSize * MaxSize];    // Z, by rows
         private readonly double[] _matrix = new double[MaxSize * MaxSize];  // 1 + Z G, then its triangles
         private readonly int[] _pivot = new int[MaxSize];
@@ -32,12 +33,20 @@ namespace Guidewire.Core
             _terms = terms;
             _followers = followers;
             _system = new BlockTridiagonal(rod, supports);
-            _gradient = new RodVector[_system.VectorCount];
-            _tip = rod.ElementCount - 1;
+            _rod = rod;
+            _gradient = new RodVector[_system.VectorCapacity];
             for (int k = 0; k < MaxSize; k++)
             {
-                _response[k] = new RodVector[_system.VectorCount];
+                _response[k] = new RodVector[_system.VectorCapacity];
             }
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            _system.Remesh();
+            _tip = _rod.ElementCount - 1;
         }
 
         /// <summary>Metric, supports and length of vectors.</summary>

@@ -19,8 +19,8 @@ namespace Guidewire.Core
         private double _carried;       // J
         private readonly double[] _lead;       // of inner hubs that are followed, m
         private readonly double[] _hubTwist;   // radians
-        private readonly double _stretch;  // the largest EA, N
-        private readonly double _twist;    // the largest GJ, N m^2
+        private double _stretch;       // the largest EA, N
+        private double _twist;         // the largest GJ, N m^2
 
         /// <summary>The ends of this rod, held by this schedule.</summary>
         public HeldEnds(RodTerms terms, RodSchedule schedule)
@@ -31,10 +31,17 @@ namespace Guidewire.Core
             _holdsLast = terms.Supports.Distal != DistalEnd.Free;
             _lead = new double[1 + terms.Supports.InnerCount];
             _hubTwist = new double[_lead.Length];
-            for (int j = 0; j < terms.Rod.ElementCount; j++)
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            (_stretch, _twist) = (0.0, 0.0);
+            for (int j = 0; j < _terms.Rod.ElementCount; j++)
             {
-                _stretch = Math.Max(_stretch, terms.Rod.StretchStiffness[j]);
-                _twist = Math.Max(_twist, terms.Rod.TwistStiffness[j]);
+                _stretch = Math.Max(_stretch, _terms.Rod.StretchStiffness[j]);
+                _twist = Math.Max(_twist, _terms.Rod.TwistStiffness[j]);
             }
         }
 

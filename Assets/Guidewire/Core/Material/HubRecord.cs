@@ -13,7 +13,13 @@ namespace Guidewire.Core
         internal HubRecord(MaterialRod rod, RodSupports supports)
         {
             _jointLength = rod.JointLengths(supports);
-            _turns = new Vector3d[rod.ElementCount + 1];
+            _turns = new Vector3d[_jointLength.Length];
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        internal void Remesh(MaterialRod rod, RodSupports supports)
+        {
+            rod.SetJointLengths(supports, _jointLength);
         }
 
         /// <summary>Insertion of the hub since the start, m.</summary>
@@ -65,7 +71,7 @@ namespace Guidewire.Core
             terms.Bending.Measure(shape, _turns);
             Twist = -ahead;
             LargestCurvature = 0.0;
-            for (int k = 0; k < _turns.Length; k++)
+            for (int k = 0; k <= shape.ElementCount; k++)
             {
                 Vector3d turn = _turns[k];
                 Twist += turn.Z;

@@ -41,6 +41,12 @@ namespace Guidewire.Core
             _end = end;
         }
 
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            _rod.SetJoints(_supports, _joints);
+        }
+
         /// <summary>What the wire has lost of its twist in this shape, or is about to, in one line; or null.</summary>
         /// <param name="time">s; the clamps have turned as they should by then.</param>
         /// <param name="done">How much of what the ends are asked to do at this time they have done, above 0 to
@@ -59,7 +65,7 @@ namespace Guidewire.Core
         public string? FindTurned(RodShape shape, double time, double done = 1.0)
         {
             Quaterniond[] q = shape.Q;
-            int n = q.Length;
+            int n = shape.ElementCount;
             double least = 1.0;
             int worst = 0;
             for (int k = 1; k < n; k++)
@@ -106,10 +112,11 @@ namespace Guidewire.Core
         {
             double most = 0.0;
             int worst = 0;
-            for (int k = 0; k < _joints.Length; k++)
+            int n = _rod.ElementCount;
+            for (int k = 0; k <= n; k++)
             {
                 bool counts = k == 0 ? _supports.HasProximalJoint
-                    : k < _joints.Length - 1 || _supports.HasDistalJoint;
+                    : k < n || _supports.HasDistalJoint;
                 if (counts && _joints[k].Rest.Length > most)
                 {
                     most = _joints[k].Rest.Length;
@@ -134,10 +141,10 @@ namespace Guidewire.Core
         {
             double shortest = double.PositiveInfinity;
             double longest = 0.0;
-            foreach (double length in _rod.Length)
+            for (int j = 0; j < _rod.ElementCount; j++)
             {
-                shortest = Math.Min(shortest, length);
-                longest = Math.Max(longest, length);
+                shortest = Math.Min(shortest, _rod.Length[j]);
+                longest = Math.Max(longest, _rod.Length[j]);
             }
             return string.Format(CultureInfo.InvariantCulture, longest > (1.0 + Even) * shortest
                 ? "elements there of {1:G3} of their length would suffice (numberRodElements, or that of the "
@@ -151,7 +158,7 @@ namespace Guidewire.Core
         private static bool IsAlone(RodShape shape, int joint, double angle)
         {
             double most = -1.0;
-            for (int k = Math.Max(1, joint - 1); k <= Math.Min(shape.Q.Length - 1, joint + 1); k++)
+            for (int k = Math.Max(1, joint - 1); k <= Math.Min(shape.ElementCount - 1, joint + 1); k++)
             {
                 double cosine = k == joint ? 1.0 : Cosine(shape.Q[k - 1], shape.Q[k]);
                 most = k == joint ? most : Math.Max(most, 2.0 * Math.Acos(Math.Max(-1.0, Math.Min(1.0, cosine))));

@@ -56,9 +56,9 @@ namespace Guidewire.Core
             {
                 return false;
             }
-            for (int j = 0; j <= shape.Q.Length; j++)
+            for (int j = 0; j <= shape.ElementCount; j++)
             {
-                if (!Twist(back * (j < shape.Q.Length ? shape.Q[j] : shape.DistalFrame), out double psi))
+                if (!Twist(back * (j < shape.ElementCount ? shape.Q[j] : shape.DistalFrame), out double psi))
                 {
                     return false;
                 }

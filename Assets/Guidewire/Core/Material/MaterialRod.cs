@@ -12,24 +12,30 @@ namespace Guidewire.Core
         private readonly JointSide[]?[] _sides;  // of an element that is not the same all along: start and end
 
         /// <summary>A rod of n elements, all of whose numbers are still 0.</summary>
-        public MaterialRod(int elementCount)
+        /// <param name="capacity">The most elements that it will have.</param>
+        public MaterialRod(int elementCount, int capacity = 0)
         {
-            Length = new double[elementCount];
-            StretchStiffness = new double[elementCount];
-            ShearStiffness = new double[elementCount];
-            BendStiffness1 = new double[elementCount];
-            BendStiffness2 = new double[elementCount];
-            TwistStiffness = new double[elementCount];
-            LineDensity = new double[elementCount];
-            RotaryInertia1 = new double[elementCount];
-            RotaryInertia2 = new double[elementCount];
-            RestCurvature = new Vector3d[elementCount];
-            Radius = new double[elementCount];
-            _sides = new JointSide[]?[elementCount];
+            ElementCount = elementCount;
+            Capacity = Math.Max(elementCount, capacity);
+            Length = new double[Capacity];
+            StretchStiffness = new double[Capacity];
+            ShearStiffness = new double[Capacity];
+            BendStiffness1 = new double[Capacity];
+            BendStiffness2 = new double[Capacity];
+            TwistStiffness = new double[Capacity];
+            LineDensity = new double[Capacity];
+            RotaryInertia1 = new double[Capacity];
+            RotaryInertia2 = new double[Capacity];
+            RestCurvature = new Vector3d[Capacity];
+            Radius = new double[Capacity];
+            _sides = new JointSide[]?[Capacity];
         }
 
-        /// <summary>The number of elements n.</summary>
-        public int ElementCount => Length.Length;
+        /// <summary>The number of elements n; what is made for a rod has its <see cref="Capacity"/>.</summary>
+        public int ElementCount { get; set; }
+
+        /// <summary>The most elements that the rod will have.</summary>
+        public int Capacity { get; }
 
         /// <summary>Rest length l of each element, m.</summary>
         public double[] Length { get; }
@@ -76,9 +82,9 @@ namespace Guidewire.Core
             get
             {
                 double sum = 0.0;
-                foreach (double l in Length)
+                for (int j = 0; j < ElementCount; j++)
                 {
-                    sum += l;
+                    sum += Length[j];
                 }
                 return sum;
             }
@@ -185,16 +191,23 @@ namespace Guidewire.Core
         /// elsewhere the half element replaces them.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
+            var joints = new Joint[Capacity + 1];
+            SetJoints(supports, joints);
+            return joints;
+        }
+
+        /// <summary>Sets the same.</summary>
+        public void SetJoints(RodSupports supports, Joint[] joints)
+        {
             int n = ElementCount;
-            double[] weights = JointWeights(supports);
-            Joint[] joints = new Joint[n + 1];
+            (ClampRule Proximal, ClampRule Distal) rules = JointRules(supports);
             for (int k = 0; k <= n; k++)
             {
                 int before = Math.Max(k - 1, 0);
                 int after = Math.Min(k, n - 1);
                 JointSide left = k == 0 ? StartOf(0) : EndOf(before);
                 JointSide right = k == n ? EndOf(n - 1) : StartOf(after);
-                double half = 0.5 * weights[k];
+                double half = 0.5 * WeightOf(k, supports, rules);
                 joints[k].Bend1 = 1.0 / (half * (Length[before] / left.Bend1 + Length[after] / right.Bend1));
                 joints[k].Bend2 = 1.0 / (half * (Length[before] / left.Bend2 + Length[after] / right.Bend2));
                 joints[k].Twist = 1.0 / (half * (Length[before] / left.Twist + Length[after] / right.Twist));
@@ -207,33 +220,39 @@ namespace Guidewire.Core
                 joints[0].Twist = whole.Twist;
                 joints[0].Rest = new Vector3d(joints[0].Rest.X, joints[0].Rest.Y, whole.Rest.Z);
             }
-            return joints;
         }
 
         /// <summary>The length of wire that each of the n+1 joints stands for, m.</summary>
         public double[] JointLengths(RodSupports supports)
         {
-            double[] lengths = JointWeights(supports);
-            for (int k = 0; k < lengths.Length; k++)
-            {
-                lengths[k] *= 0.5 * (Length[Math.Max(k - 1, 0)] + Length[Math.Min(k, ElementCount - 1)]);
-            }
+            var lengths = new double[Capacity + 1];
+            SetJointLengths(supports, lengths);
             return lengths;
         }
 
-        private double[] JointWeights(RodSupports supports)
+        /// <summary>Sets the same.</summary>
+        public void SetJointLengths(RodSupports supports, double[] lengths)
+        {
+            (ClampRule Proximal, ClampRule Distal) rules = JointRules(supports);
+            for (int k = 0; k <= ElementCount; k++)
+            {
+                lengths[k] = WeightOf(k, supports, rules)
+                    * (0.5 * (Length[Math.Max(k - 1, 0)] + Length[Math.Min(k, ElementCount - 1)]));
+            }
+        }
+
+        private (ClampRule Proximal, ClampRule Distal) JointRules(RodSupports supports)
         {
             int n = ElementCount;
             bool isLong = n >= (supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3);
-            ClampRule proximal = isLong ? Rule(supports, 0) : ShortRule(supports);
-            ClampRule distal = isLong ? Rule(supports, n - GregoryWeights.Length) : ShortRule(supports);
-            var weights = new double[n + 1];
-            for (int k = 0; k <= n; k++)
-            {
-                weights[k] = supports.HasProximalJoint ? Weight(proximal, k) : 1.0;
-                weights[k] *= supports.HasDistalJoint ? Weight(distal, n - k) : 1.0;
-            }
-            return weights;
+            return isLong ? (Rule(supports, 0), Rule(supports, n - GregoryWeights.Length))
+                : (ShortRule(supports), ShortRule(supports));
+        }
+
+        private double WeightOf(int joint, RodSupports supports, (ClampRule Proximal, ClampRule Distal) rules)
+        {
+            return (supports.HasProximalJoint ? Weight(rules.Proximal, joint) : 1.0)
+                * (supports.HasDistalJoint ? Weight(rules.Distal, ElementCount - joint) : 1.0);
         }
 
         private JointSide Even(int j)

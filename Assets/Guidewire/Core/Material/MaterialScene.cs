@@ -111,13 +111,14 @@ namespace Guidewire.Core
         public void Write(RodState state, RodShape shape, Vector3d[] velocities, Vector3d[] spins)
         {
             double units = 1.0 / Metres;
-            for (int i = 0; i < shape.X.Length; i++)
+            int n = shape.ElementCount;
+            for (int i = 0; i <= n; i++)
             {
                 state.PredictedPositions[i] = units * shape.X[i];
                 state.Velocities[i] = units * velocities[i];
             }
-            System.Array.Copy(shape.Q, state.PredictedOrientations, shape.Q.Length);
-            System.Array.Copy(spins, state.AngularVelocities, spins.Length);
+            System.Array.Copy(shape.Q, state.PredictedOrientations, n);
+            System.Array.Copy(spins, state.AngularVelocities, n);
             state.Advance();
         }
 
@@ -140,7 +141,7 @@ namespace Guidewire.Core
         private void AlignTurns()
         {
             Quaterniond before = Shape.ProximalFrame;
-            for (int j = 0; j < Shape.Q.Length; j++)
+            for (int j = 0; j < Shape.ElementCount; j++)
             {
                 before = Aligned(before, Shape.Q[j]);
                 Shape.Q[j] = before;

@@ -29,13 +29,13 @@ namespace Guidewire.Core
         private readonly Vector3d[] _spins;
         private readonly double _threshold;            // m
         private readonly double _end;                  // of the run, s
-        private readonly double _length;               // L, m
-        private readonly double _bendForce;            // N
-        private readonly double _regularisation;       // N
-        private readonly double _time;                 // t, s
+        private double _length;                        // L, m
+        private double _bendForce;                     // N
+        private double _regularisation;                // N
+        private double _time;                          // t, s
         private readonly BlockTridiagonal _system;
         private readonly FollowerTangent? _tangent;    // where a load at the tip has no potential
-        private readonly EquilibriumStability? _stability;
+        private EquilibriumStability? _stability;      // once it is asked
         private readonly RodVector[] _gradient;
         private readonly RodVector[] _step;
         private readonly RodVector[] _motion;
@@ -54,22 +54,38 @@ namespace Guidewire.Core
             _spins = spins;
             _threshold = scene.Metres * method.DeltaThreshold;
             _end = method.MaxSimulationSteps * method.TimeStep;
-            _length = scene.Rod.TotalLength;
-            _bendForce = scene.Rod.BendForce;
-            double softest = terms.SoftestStiffness;
-            _regularisation = Math.Min(Regularisation * _bendForce, MaxRegularisation * softest / (_length * _length));
-            _time = Math.Sqrt(terms.Mass.Total * _length * _length * _length / softest);
+            _gradient = new RodVector[terms.VectorCapacity];
+            _step = new RodVector[terms.VectorCapacity];
+            _motion = new RodVector[terms.VectorCapacity];
+            _swing = new RodVector[terms.VectorCapacity];
+            SetScales();
             _tangent = terms.HavePotential ? null
                 : new FollowerTangent(scene.Rod, scene.Supports, _all, terms.Followers);
             _system = _tangent == null ? new BlockTridiagonal(scene.Rod, scene.Supports) : _tangent.System;
-            _gradient = new RodVector[_system.VectorCount];
-            _step = new RodVector[_system.VectorCount];
-            _motion = new RodVector[_system.VectorCount];
-            _swing = new RodVector[_system.VectorCount];
-            if (_threshold > 0.0 && _tangent == null)
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            if (_threshold > 0.0)
             {
-                _stability = new EquilibriumStability(scene.Rod, scene.Supports, _all, _system, Neutral * _bendForce);
+                SetScales();
+                _nextCheck = 0.0;
+                _tangent?.Remesh();
+                _system.Remesh();
+                _stability = null;
+                Array.Clear(_motion, 0, _motion.Length);
+                Array.Clear(_swing, 0, _swing.Length);
             }
+        }
+
+        private void SetScales()
+        {
+            _length = _scene.Rod.TotalLength;
+            _bendForce = _scene.Rod.BendForce;
+            double softest = _terms.SoftestStiffness;
+            _regularisation = Math.Min(Regularisation * _bendForce, MaxRegularisation * softest / (_length * _length));
+            _time = Math.Sqrt(_terms.Mass.Total * _length * _length * _length / softest);
         }
 
         /// <summary>How the wire is at rest at this time, s, in one line; or null.</summary>
@@ -104,9 +120,18 @@ namespace Guidewire.Core
             SetMomentum();
             Solve(_swing);
             double swing = Math.Sqrt(speed * Size(_swing));
-            if (!(swing <= _threshold) || (_stability != null && !_stability.IsStable(_scene.Shape)))
+            if (!(swing <= _threshold))
             {
                 return null;
+            }
+            if (_tangent == null)
+            {
+                _stability ??= new EquilibriumStability(_scene.Rod, _scene.Supports, _all, _system,
+                    Neutral * _bendForce);
+                if (!_stability.IsStable(_scene.Shape))
+                {
+                    return null;
+                }
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "the wire is at rest: {0:G3} units from its rest shape, swinging by {1:G3}; deltaThreshold = {2} units",
@@ -151,10 +176,11 @@ namespace Guidewire.Core
 
         private void SetMotion()
         {
-            for (int i = 0; i < _velocities.Length; i++)
+            int n = _scene.Rod.ElementCount;
+            for (int i = 0; i <= n; i++)
             {
                 Vector3d v = _velocities[i];
-                Vector3d w = i < _spins.Length ? _spins[i] : Vector3d.Zero;
+                Vector3d w = i < n ? _spins[i] : Vector3d.Zero;
                 _motion[i] = new RodVector { X1 = v.X, X2 = v.Y, X3 = v.Z, T1 = w.X, T2 = w.Y, T3 = w.Z };
             }
         }
@@ -163,7 +189,7 @@ namespace Guidewire.Core
         private void SetMomentum()
         {
             RodMass mass = _terms.Mass;
-            int last = _velocities.Length - 1;
+            int last = _scene.Rod.ElementCount;
             for (int i = 0; i <= last; i++)
             {
                 Vector3d p = mass.Diagonal[i] * _velocities[i];
@@ -187,7 +213,7 @@ namespace Guidewire.Core
         // The largest shift, or turn times L.
         private double Size(RodVector[] v)
         {
-            return _length * RodStep.Size(v, _spins.Length, _length, out _);
+            return _length * RodStep.Size(v, _scene.Rod.ElementCount, _length, out _, _terms.VectorCount);
         }
     }
 }

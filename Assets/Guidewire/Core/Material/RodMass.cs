@@ -5,14 +5,33 @@ namespace Guidewire.Core
     /// <summary>Distribution of a rod's mass over its nodes and elements.</summary>
     internal sealed class RodMass
     {
+        private readonly MaterialRod _rod;
+        private readonly MassRule _rule;
+
         /// <summary>The mass of a rod under one rule.</summary>
         public RodMass(MaterialRod rod, MassRule rule)
         {
+            _rod = rod;
+            _rule = rule;
+            Nodal = new double[rod.Capacity + 1];
+            Diagonal = new double[rod.Capacity + 1];
+            Coupling = new double[rod.Capacity];
+            Rotary = new Vector3d[rod.Capacity];
+            Remesh();
+        }
+
+        /// <summary>Elements of the rod.</summary>
+        public int ElementCount => _rod.ElementCount;
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            MaterialRod rod = _rod;
+            MassRule rule = _rule;
             int n = rod.ElementCount;
-            Nodal = new double[n + 1];
-            Diagonal = new double[n + 1];
-            Coupling = new double[n];
-            Rotary = new Vector3d[n];
+            Total = 0.0;
+            Array.Clear(Nodal, 0, n + 1);
+            Array.Clear(Diagonal, 0, n + 1);
             for (int j = 0; j < n; j++)
             {
                 double mass = rod.LineDensity[j] * rod.Length[j];
@@ -29,13 +48,13 @@ namespace Guidewire.Core
             }
             if (rule == MassRule.Uniform)
             {
-                Array.Fill(Nodal, Total / (n + 1));
-                Array.Fill(Diagonal, Total / (n + 1));
+                Array.Fill(Nodal, Total / (n + 1), 0, n + 1);
+                Array.Fill(Diagonal, Total / (n + 1), 0, n + 1);
             }
         }
 
         /// <summary>The rod's mass, kg.</summary>
-        public double Total { get; }
+        public double Total { get; private set; }
 
         /// <summary>Mass of each node, kg, n+1: half of each neighbouring element, or an equal part.</summary>
         public double[] Nodal { get; }
@@ -53,10 +72,10 @@ namespace Guidewire.Core
         public Vector3d Momentum(Vector3d[] velocities)
         {
             Vector3d sum = Vector3d.Zero;
-            for (int i = 0; i < Diagonal.Length; i++)
+            for (int i = 0; i <= ElementCount; i++)
             {
                 sum += Diagonal[i] * velocities[i];
-                if (i < Coupling.Length)
+                if (i < ElementCount)
                 {
                     sum += Coupling[i] * (velocities[i] + velocities[i + 1]);
                 }
@@ -75,10 +94,10 @@ namespace Guidewire.Core
         public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
         {
             double sum = 0.0;
-            for (int i = 0; i < Diagonal.Length; i++)
+            for (int i = 0; i <= ElementCount; i++)
             {
                 sum += 0.5 * Diagonal[i] * velocities[i].LengthSquared;
-                if (i < Coupling.Length)
+                if (i < ElementCount)
                 {
                     Vector3d w = spins[i];
                     sum += Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1])

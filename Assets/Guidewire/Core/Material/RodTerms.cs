@@ -12,6 +12,7 @@ namespace Guidewire.Core
         private readonly EnergyTerm[] _elastic;
         private readonly EnergyTerm[] _loads;
         private readonly RodVector[] _endGradient;
+        private readonly Joint[] _joints;
 
         /// <summary>The terms of a rod on which nothing acts yet.</summary>
         public RodTerms(MaterialRod rod, RodSupports supports)
@@ -37,7 +38,8 @@ namespace Guidewire.Core
             Mass = new RodMass(rod, supports.Mass);
             Stretch = new StretchEnergy(rod);
             CoaxialBending = supports.InnerCount > 0 ? new CoaxialBendTwist(supports.Coaxial!) : null;
-            Bending = CoaxialBending ?? BendTwistTerm.Create(rod.Joints(supports), supports);
+            _joints = rod.Joints(supports);
+            Bending = CoaxialBending ?? BendTwistTerm.Create(_joints, supports);
             Release = supports.Coaxial == null ? null
                 : new Release(supports.Coaxial, Bending, CoaxialBending, Stretch);
             Loads = new DeadLoads(Mass, rod.Length);
@@ -60,7 +62,18 @@ namespace Guidewire.Core
             Contact = contact;
             All = Joined(_elastic, _loads);
             All = contact == null ? All : Joined(All, contact.All);
-            _endGradient = new RodVector[VectorCount];
+            _endGradient = new RodVector[VectorCapacity];
+        }
+
+        /// <summary>The rod has other elements, and the terms are as they are made.</summary>
+        public void Remesh()
+        {
+            Mass.Remesh();
+            Rod.SetJoints(Supports, _joints);
+            foreach (EnergyTerm term in All)
+            {
+                term.Remesh();
+            }
         }
 
         /// <summary>The rod.</summary>
@@ -104,6 +117,9 @@ namespace Guidewire.Core
 
         /// <summary>Length of a gradient: n + 2, and n + 1 where there are twist angles.</summary>
         public int VectorCount => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.ElementCount + 1) + 1;
+
+        /// <summary>The same of the most elements that the rod may have.</summary>
+        public int VectorCapacity => (Supports.InnerCount == 0 ? 1 : 2) * (Rod.Capacity + 1) + 1;
 
         /// <summary>Whether every term is a true energy, so that rest shapes are its minima.</summary>
         public bool HavePotential => Array.TrueForAll(All, term => term.HasPotential);
@@ -224,7 +240,7 @@ namespace Guidewire.Core
         public Vector3d EndGradient(RodShape shape, int node)
         {
             int from = Math.Max(node - 1, 0);
-            Array.Clear(_endGradient, from, Math.Min(3, _endGradient.Length - from));
+            Array.Clear(_endGradient, from, Math.Min(3, VectorCount - from));
             var measured = default(GradientMeasures);
             foreach (EnergyTerm term in _elastic)
             {

@@ -70,8 +70,8 @@ namespace Guidewire.Core
             int n = shape.ElementCount;
             if (_turns.Length < n + 1)
             {
-                _turns = new Vector3d[n + 1];
-                _stretch = new double[n];
+                _turns = new Vector3d[rod.Capacity + 1];
+                _stretch = new double[rod.Capacity];
             }
             terms.Bending.Measure(shape, _turns);
             CoaxialJoints? coaxial = terms.Supports.Coaxial?.Joints;

@@ -21,11 +21,12 @@ namespace Guidewire.Core
         /// <summary>The direction in which the sheath leads, a unit vector.</summary>
         public Vector3d Axis { get; }
 
-        /// <summary>How many nodes, from the first on, are in the sheath.</summary>
-        public int NodesInside(Vector3d[] x)
+        /// <summary>How many nodes of a shape, from the first on, are in the sheath.</summary>
+        public int NodesInside(RodShape shape)
         {
+            Vector3d[] x = shape.X;
             int inside = 0;
-            while (inside < x.Length && Outside(x[inside]) < 0.0)
+            while (inside <= shape.ElementCount && Outside(x[inside]) < 0.0)
             {
                 inside++;
             }

@@ -10,12 +10,18 @@ namespace Guidewire.Core
     {
         internal StressRecord(MaterialRod rod, RodSupports supports)
         {
-            int n = rod.ElementCount;
+            int n = rod.Capacity;
             Strain = new Vector3d[n];
             Force = new Vector3d[n];
             Curvature = new Vector3d[n + 1];
             Couple = new Vector3d[n + 1];
             JointLength = rod.JointLengths(supports);
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        internal void Remesh(MaterialRod rod, RodSupports supports)
+        {
+            rod.SetJointLengths(supports, JointLength);
         }
 
         /// <summary>Shear along d1 and d2 and stretch along d3 of each of the n elements, dimensionless.</summary>
@@ -52,10 +58,11 @@ namespace Guidewire.Core
         internal void Take(StressRecord outside, MaterialRod rod, int first, in Vector3d axis, double thrust,
             double torque)
         {
-            Array.Copy(outside.Strain, 0, Strain, first, outside.Strain.Length);
-            Array.Copy(outside.Force, 0, Force, first, outside.Force.Length);
-            Array.Copy(outside.Curvature, 0, Curvature, first, outside.Curvature.Length);
-            Array.Copy(outside.Couple, 0, Couple, first, outside.Couple.Length);
+            int n = rod.ElementCount - first;
+            Array.Copy(outside.Strain, 0, Strain, first, n);
+            Array.Copy(outside.Force, 0, Force, first, n);
+            Array.Copy(outside.Curvature, 0, Curvature, first, n + 1);
+            Array.Copy(outside.Couple, 0, Couple, first, n + 1);
             // Joint 0 of that part has the twist of all of the sheathed part.
             Vector3d bend = outside.Curvature[0];
             Curvature[first] = new Vector3d(bend.X, bend.Y, torque / rod.TwistStiffness[first]);

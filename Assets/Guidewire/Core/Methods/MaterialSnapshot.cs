@@ -14,8 +14,8 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref time);
             shape.Serialize(snapshot);
-            snapshot.Serialize(velocities);
-            snapshot.Serialize(spins);
+            snapshot.Serialize(velocities, shape.ElementCount + 1);
+            snapshot.Serialize(spins, shape.ElementCount);
             schedule.Serialize(snapshot, time);
         }
     }

@@ -1,6 +1,5 @@
 using System;
 using System.Buffers.Binary;
-using System.Collections.Generic;
 using System.Runtime.InteropServices;
 
 namespace Guidewire.Core
@@ -12,8 +11,6 @@ namespace Guidewire.Core
     /// differ. Every number takes 64 bits.</remarks>
     internal sealed class Snapshot
     {
-        private readonly List<object> _kept = new List<object>();   // in memory only
-        private int _nextKept;
         private long[] _bits = new long[256];
         private int _count;
         private int _at;
@@ -32,7 +29,6 @@ namespace Guidewire.Core
         public void RewindForWriting()
         {
             _count = 0;
-            _kept.Clear();
             IsWritten = true;
         }
 
@@ -40,7 +36,6 @@ namespace Guidewire.Core
         public void RewindForReading()
         {
             _at = 0;
-            _nextKept = 0;
             IsWritten = false;
         }
 
@@ -66,17 +61,10 @@ namespace Guidewire.Core
             return new Snapshot { _bits = bits, _count = bits.Length, IsWritten = false };
         }
 
-        /// <summary>Keeps what a step may replace as a whole, or takes it back. In memory only: it has no bytes.
-        /// </summary>
-        public void Keep<T>(ref T value)
-            where T : class
+        /// <summary>Makes room for some times what has been written.</summary>
+        public void Reserve(double times)
         {
-            if (IsWritten)
-            {
-                _kept.Add(value);
-                return;
-            }
-            value = (T)_kept[_nextKept++];
+            Array.Resize(ref _bits, Math.Max(_bits.Length, (int)Math.Ceiling(times * _count)));
         }
 
         /// <summary>Writes or reads a count.</summary>
@@ -211,31 +199,22 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Numbers; a reader has as many.</summary>
-        public void Serialize(double[] values)
+        /// <summary>Numbers, the first ones or all; a reader has as many.</summary>
+        public void Serialize(double[] values, int count = int.MaxValue)
         {
-            Serialize(MemoryMarshal.Cast<double, long>(values));
+            Serialize(MemoryMarshal.Cast<double, long>(values.AsSpan(0, Math.Min(count, values.Length))));
         }
 
-        /// <summary>Vectors; a reader has as many.</summary>
-        public void Serialize(Vector3d[] values)
+        /// <summary>Vectors, the first ones or all; a reader has as many.</summary>
+        public void Serialize(Vector3d[] values, int count = int.MaxValue)
         {
-            Serialize(MemoryMarshal.Cast<Vector3d, long>(values));
+            Serialize(MemoryMarshal.Cast<Vector3d, long>(values.AsSpan(0, Math.Min(count, values.Length))));
         }
 
-        /// <summary>Several lists of vectors; a reader has as many, of the same lengths.</summary>
-        public void Serialize(Vector3d[][] values)
+        /// <summary>Orientations, the first ones or all; a reader has as many.</summary>
+        public void Serialize(Quaterniond[] values, int count = int.MaxValue)
         {
-            foreach (Vector3d[] list in values)
-            {
-                Serialize(list);
-            }
-        }
-
-        /// <summary>Orientations; a reader has as many.</summary>
-        public void Serialize(Quaterniond[] values)
-        {
-            Serialize(MemoryMarshal.Cast<Quaterniond, long>(values));
+            Serialize(MemoryMarshal.Cast<Quaterniond, long>(values.AsSpan(0, Math.Min(count, values.Length))));
         }
 
         /// <summary>A section that means something only to a reader made like its writer: written whole, and read where

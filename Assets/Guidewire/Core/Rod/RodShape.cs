@@ -8,12 +8,16 @@ namespace Guidewire.Core
     {
         /// <summary>Makes a rod of <paramref name="elementCount"/> elements, all at the origin and unturned.</summary>
         /// <param name="innerCount">Instruments inside it.</param>
-        public RodShape(int elementCount, int innerCount = 0)
+        /// <param name="capacity">The most elements that it will have.</param>
+        public RodShape(int elementCount, int innerCount = 0, int capacity = 0)
         {
-            X = new Vector3d[elementCount + 1];
-            Q = new Quaterniond[elementCount];
+            capacity = Math.Max(capacity, elementCount);
+            X = new Vector3d[capacity + 1];
+            Q = new Quaterniond[capacity];
             Array.Fill(Q, Quaterniond.Identity);
-            Twist = innerCount > 0 ? new double[innerCount * elementCount] : Array.Empty<double>();
+            Twist = innerCount > 0 ? new double[innerCount * capacity] : Array.Empty<double>();
+            InnerCount = innerCount;
+            ElementCount = elementCount;
         }
 
         /// <summary>Positions of the n+1 nodes.</summary>
@@ -33,18 +37,22 @@ namespace Guidewire.Core
         /// <summary>The frame to which the distal end is clamped, if it is.</summary>
         public Quaterniond DistalFrame { get; set; } = Quaterniond.Identity;
 
-        /// <summary>The number of elements n.</summary>
-        public int ElementCount => Q.Length;
+        /// <summary>The number of elements n; arrays may have room for more.</summary>
+        public int ElementCount { get; set; }
 
         /// <summary>Angles that each element has.</summary>
-        public int InnerCount => Twist.Length / Q.Length;
+        public int InnerCount { get; }
 
-        /// <summary>Takes over another shape of the same n.</summary>
+        /// <summary>The number of all angles.</summary>
+        public int TwistCount => InnerCount * ElementCount;
+
+        /// <summary>Takes over another shape.</summary>
         public void CopyFrom(RodShape other)
         {
-            other.X.AsSpan().CopyTo(X);
-            other.Q.AsSpan().CopyTo(Q);
-            other.Twist.AsSpan().CopyTo(Twist);
+            ElementCount = other.ElementCount;
+            other.X.AsSpan(0, ElementCount + 1).CopyTo(X);
+            other.Q.AsSpan(0, ElementCount).CopyTo(Q);
+            other.Twist.AsSpan(0, TwistCount).CopyTo(Twist);
             ProximalFrame = other.ProximalFrame;
             DistalFrame = other.DistalFrame;
         }
@@ -52,12 +60,9 @@ namespace Guidewire.Core
         /// <summary>Writes this shape into a snapshot, or takes over one of the same n.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            snapshot.Serialize(X);
-            snapshot.Serialize(Q);
-            if (Twist.Length > 0)
-            {
-                snapshot.Serialize(Twist);
-            }
+            snapshot.Serialize(X, ElementCount + 1);
+            snapshot.Serialize(Q, ElementCount);
+            snapshot.Serialize(Twist, TwistCount);
             ProximalFrame = snapshot.Serialize(ProximalFrame);
             DistalFrame = snapshot.Serialize(DistalFrame);
         }
@@ -70,7 +75,7 @@ namespace Guidewire.Core
         {
             Vector3d axis = frame.Director3;
             X[0] = start;
-            for (int j = 0; j < Q.Length; j++)
+            for (int j = 0; j < ElementCount; j++)
             {
                 Q[j] = frame;
                 X[j + 1] = start + stations[j + 1] * axis;

@@ -18,7 +18,6 @@ namespace Guidewire.Core
     internal sealed class AxialForces
     {
         private readonly CoaxialJoints _joints;
-        private readonly int _n;
         private readonly Vector3d[] _load;      // on each element, of each instrument, N
         private readonly Vector3d[] _levered;   // times the fraction of its length where they are
         private readonly double[] _shift;       // e of each element, m
@@ -31,36 +30,49 @@ namespace Guidewire.Core
         public AxialForces(CoaxialJoints joints)
         {
             _joints = joints;
-            _n = joints.ElementCount;
-            _load = new Vector3d[joints.Count * _n];
-            _levered = new Vector3d[joints.Count * _n];
-            _shift = new double[_n];
-            _force = new double[_n];
-            _strain = new double[_n];
-            _slide = new double[joints.Count * (_n + 1)];
-            _compliance = new double[_n];
+            int capacity = joints.Capacity;
+            _load = new Vector3d[joints.Count * capacity];
+            _levered = new Vector3d[joints.Count * capacity];
+            _shift = new double[capacity];
+            _force = new double[capacity];
+            _strain = new double[capacity];
+            _slide = new double[joints.Count * (capacity + 1)];
+            _compliance = new double[capacity];
+        }
+
+        // Elements.
+        private int N => _joints.ElementCount;
+
+        /// <summary>The chain has other elements, without loads.</summary>
+        public void Remesh()
+        {
+            ClearLoads();
+            Array.Clear(_shift, 0, N);
+            Array.Clear(_force, 0, N);
+            Array.Clear(_strain, 0, N);
+            Array.Clear(_slide, 0, _joints.Count * (N + 1));
         }
 
         /// <summary>There are no loads.</summary>
         public void ClearLoads()
         {
-            Array.Clear(_load, 0, _load.Length);
-            Array.Clear(_levered, 0, _levered.Length);
+            Array.Clear(_load, 0, _joints.Count * N);
+            Array.Clear(_levered, 0, _joints.Count * N);
         }
 
         /// <summary>Adds a load on an instrument, N.</summary>
         /// <param name="fraction">Of the element's length.</param>
         public void AddLoad(int instrument, int element, double fraction, in Vector3d load)
         {
-            _load[instrument * _n + element] += load;
-            _levered[instrument * _n + element] += fraction * load;
+            _load[instrument * N + element] += load;
+            _levered[instrument * N + element] += fraction * load;
         }
 
         /// <summary>How far the material of an instrument in an element is ahead of the chain's, m.</summary>
         /// <param name="fraction">Of the element's length.</param>
         public double SlideAt(int instrument, int element, double fraction)
         {
-            int at = instrument * (_n + 1) + element;
+            int at = instrument * (N + 1) + element;
             return _joints.CarrierOf(element) == instrument ? 0.0
                 : (1.0 - fraction) * _slide[at] + fraction * _slide[at + 1];
         }
@@ -80,7 +92,7 @@ namespace Guidewire.Core
         public double StrainOf(int instrument, int element, double force)
         {
             double rest = _joints.Stations[element + 1] - _joints.Stations[element];
-            int at = instrument * (_n + 1) + element;
+            int at = instrument * (N + 1) + element;
             double stretch = _slide[at + 1] - _slide[at] + _shift[element];
             return (stretch + (force - _force[element]) * _joints.AxialOf(element)) / rest;
         }
@@ -139,7 +151,7 @@ namespace Guidewire.Core
             get
             {
                 double sum = 0.0;
-                for (int j = 0; j < _n; j++)
+                for (int j = 0; j < N; j++)
                 {
                     sum += 0.5 * _compliance[j] * _force[j] * _force[j];
                 }
@@ -157,27 +169,27 @@ namespace Guidewire.Core
         /// <returns>The largest change of what an element is longer by, m.</returns>
         public double Take(RodShape shape)
         {
-            Array.Clear(_force, 0, _n);
-            Array.Clear(_strain, 0, _n);
+            Array.Clear(_force, 0, N);
+            Array.Clear(_strain, 0, N);
             for (int i = 0; i < _joints.Count; i++)
             {
                 Stretch(shape, i);
             }
             double largest = 0.0;
             double before = 0.0;     // of the chain's node before the element
-            for (int j = 0; j < _n; j++)
+            for (int j = 0; j < N; j++)
             {
-                double after = _slide[_joints.CarrierOf(j) * (_n + 1) + j + 1];
+                double after = _slide[_joints.CarrierOf(j) * (N + 1) + j + 1];
                 largest = Math.Max(largest, Math.Abs(after - before - _shift[j]));
                 _shift[j] = after - before;
                 before = after;
             }
-            for (int k = _n; k >= 0; k--)
+            for (int k = N; k >= 0; k--)
             {
-                double node = k == 0 ? 0.0 : _slide[_joints.CarrierOf(k - 1) * (_n + 1) + k];
+                double node = k == 0 ? 0.0 : _slide[_joints.CarrierOf(k - 1) * (N + 1) + k];
                 for (int i = 0; i < _joints.Count; i++)
                 {
-                    _slide[i * (_n + 1) + k] -= node;
+                    _slide[i * (N + 1) + k] -= node;
                 }
             }
             return largest;
@@ -186,10 +198,10 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what the loads do to the chain.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            snapshot.Serialize(_shift);
-            snapshot.Serialize(_force);
-            snapshot.Serialize(_strain);
-            snapshot.Serialize(_slide);
+            snapshot.Serialize(_shift, N);
+            snapshot.Serialize(_force, N);
+            snapshot.Serialize(_strain, N);
+            snapshot.Serialize(_slide, _joints.Count * (N + 1));
         }
 
         // Whether an instrument is in all of an element at a tip.
@@ -213,12 +225,12 @@ namespace Guidewire.Core
         // How much farther from its hub an instrument's loads bring it at each node; first N before each.
         private void Stretch(RodShape shape, int instrument)
         {
-            int at = instrument * (_n + 1);
+            int at = instrument * (N + 1);
             double force = 0.0;
-            for (int j = _n - 1; j >= 0; j--)
+            for (int j = N - 1; j >= 0; j--)
             {
                 Vector3d axis = shape.Q[j].Director3;
-                double levered = Vector3d.Dot(axis, _levered[instrument * _n + j]);
+                double levered = Vector3d.Dot(axis, _levered[instrument * N + j]);
                 _force[j] += force + levered;
                 double length = _joints.Stations[j + 1] - _joints.Stations[j];
                 double part = Math.Min(1.0, (_joints.EndOf(instrument) - _joints.Stations[j]) / length);
@@ -226,10 +238,10 @@ namespace Guidewire.Core
                 double stretch = _joints.StretchOf(instrument, j) * mean;
                 _strain[j] = Math.Max(_strain[j], part > 0.0 ? Math.Abs(stretch) / (part * length) : 0.0);
                 _slide[at + j + 1] = stretch;
-                force += Vector3d.Dot(axis, _load[instrument * _n + j]);
+                force += Vector3d.Dot(axis, _load[instrument * N + j]);
             }
             _slide[at] = _joints.LeadStretchOf(instrument) * force;
-            for (int j = 0; j < _n; j++)
+            for (int j = 0; j < N; j++)
             {
                 _slide[at + j + 1] += _slide[at + j];
             }

@@ -213,7 +213,7 @@ namespace Guidewire.Core
             int n = _joints.ElementCount;
             if (from == 0)
             {
-                Array.Clear(_rows.Rows, 0, _rows.Rows.Length);
+                Array.Clear(_rows.Rows, 0, _joints.InnerCount * _rows.Count);
             }
             for (int k = FirstJoint(from); k < EndJoint(to); k++)
             {
@@ -247,7 +247,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddTwistRows(RodShape shape, TwistRow[] rows, int from, int to)
         {
-            int second = _hasSecond ? _joints.ElementCount + 1 : 0;
+            int second = _hasSecond ? _rows.Count : 0;
             for (int j = from; j < to; j++)
             {
                 rows[j].Add(_rows.Rows[j]);

@@ -34,15 +34,13 @@ namespace Guidewire.Core
             return Vector3d.Dot(_hub[0].PositionAt(time) - _hub[instrument].PositionAt(time), _axis);
         }
 
-        /// <summary>Gives the distance of all behind the outermost one at a time, m.</summary>
-        public double[] LeadsAt(double time)
+        /// <summary>Sets the distance of all behind the outermost one at a time, m.</summary>
+        public void SetLeads(double[] leads, double time)
         {
-            var leads = new double[_hub.Length];
             for (int i = 1; i < leads.Length; i++)
             {
                 leads[i] = LeadAt(i, time);
             }
-            return leads;
         }
 
         /// <summary>Gives the axial speed of one relative to another, m/s.</summary>

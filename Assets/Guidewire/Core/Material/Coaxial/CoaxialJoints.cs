@@ -44,40 +44,65 @@ namespace Guidewire.Core
         /// <param name="first">Elements of the outermost instrument before the chain.</param>
         public CoaxialJoints(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed, int first)
         {
-            First = first;
             int count = instruments.Length;
             _instrument = instruments;
-            _beyond = (int[])beyond.Clone();
+            foreach (CoaxialInstrument instrument in instruments)
+            {
+                Capacity += instrument.Rod.ElementCount;
+            }
+            _beyond = new int[count];
             _tip = new int[count];
             Hubs = new HubPlaces(count);
             _active = new int[count];
-            _tip[0] = instruments[0].Rod.ElementCount - first;
-            for (int i = 1; i < count; i++)
-            {
-                _tip[i] = _tip[i - 1] + beyond[i];
-            }
-            _station = new double[_tip[count - 1] + 1];
-            _carrier = new int[_station.Length - 1];
-            for (int j = _tip[0]; j < _carrier.Length; j++)
-            {
-                _carrier[j] = j < _tip[1] ? 1 : 2;
-            }
-            Array.Copy(instruments[0].Stations, first, _station, 0, _tip[0] + 1);
-            _joint = new CoaxialJoint[_station.Length];
-            _stretch = new double[count * _carrier.Length];
+            _station = new double[Capacity + 1];
+            _carrier = new int[Capacity];
+            _joint = new CoaxialJoint[Capacity + 1];
+            _stretch = new double[count * Capacity];
             _leadStretch = new double[count];
-            _axial = new double[_carrier.Length];
-            _shear = new double[_carrier.Length];
+            _axial = new double[Capacity];
+            _shear = new double[Capacity];
             _before = CreatePieces();
             _after = CreatePieces();
             _compliance = new double[count];
             _rest = new double[count];
+            Remesh(beyond, leads, sheathed, first);
+        }
+
+        /// <summary>The chain has other elements.</summary>
+        public void Remesh(int[] beyond, double[] leads, double sheathed, int first)
+        {
+            First = first;
+            Array.Copy(beyond, _beyond, Count);
+            _tip[0] = _instrument[0].Rod.ElementCount - first;
+            for (int i = 1; i < Count; i++)
+            {
+                _tip[i] = _tip[i - 1] + beyond[i];
+            }
+            for (int j = 0; j < ElementCount; j++)
+            {
+                _carrier[j] = j < _tip[0] ? 0 : j < _tip[1] ? 1 : 2;
+            }
+            Array.Copy(_instrument[0].Stations, first, _station, 0, _tip[0] + 1);
             Hubs.Sheathed = double.NaN;
             SetHubs(leads, sheathed);
         }
 
+        /// <summary>Takes over which elements there are and where, but no joint.</summary>
+        public void CopyFrom(CoaxialJoints other)
+        {
+            First = other.First;
+            Array.Copy(other._beyond, _beyond, Count);
+            Array.Copy(other._tip, _tip, Count);
+            Array.Copy(other._active, _active, Count);
+            Array.Copy(other._carrier, _carrier, ElementCount);
+            Array.Copy(other._station, _station, ElementCount + 1);
+        }
+
         /// <summary>Elements of the outermost instrument before the chain, which are straight.</summary>
-        public int First { get; }
+        public int First { get; private set; }
+
+        /// <summary>The most elements that the chain can have.</summary>
+        public int Capacity { get; }
 
         /// <summary>How many instruments there are.</summary>
         public int Count => _instrument.Length;
@@ -86,7 +111,7 @@ namespace Guidewire.Core
         public int InnerCount => _instrument.Length - 1;
 
         /// <summary>Elements of the chain.</summary>
-        public int ElementCount => _station.Length - 1;
+        public int ElementCount => _tip[_tip.Length - 1];
 
         /// <summary>Elements of the outermost instrument.</summary>
         public int OuterCount => _tip[0];
@@ -121,7 +146,7 @@ namespace Guidewire.Core
         /// <summary>The instrument on whose frame the joint at node k stands.</summary>
         public int FrameOf(int k)
         {
-            return _carrier[Math.Min(k, _carrier.Length - 1)];
+            return _carrier[Math.Min(k, ElementCount - 1)];
         }
 
         /// <summary>Sums over pieces of these instruments.</summary>
@@ -185,7 +210,7 @@ namespace Guidewire.Core
         /// <summary>Compliance along the axis of an instrument in an element, m/N, as far as it is in it.</summary>
         public double StretchOf(int instrument, int element)
         {
-            return _stretch[instrument * _carrier.Length + element];
+            return _stretch[instrument * ElementCount + element];
         }
 
         /// <summary>Gives the same of its length before the chain.</summary>
@@ -209,7 +234,7 @@ namespace Guidewire.Core
         /// <summary>Whether node k is the tip of an instrument with another one going on beyond it.</summary>
         public bool IsTip(int k)
         {
-            return k > 0 && k < _carrier.Length && _carrier[k] != _carrier[k - 1];
+            return k > 0 && k < ElementCount && _carrier[k] != _carrier[k - 1];
         }
 
         /// <summary>Whether several instruments are in the last half element.</summary>
@@ -218,22 +243,13 @@ namespace Guidewire.Core
         /// <summary>The length of the chain that the joint at node k stands for, m.</summary>
         public double LengthOf(int k)
         {
-            return 0.5 * (_station[Math.Min(k + 1, _station.Length - 1)] - _station[Math.Max(k - 1, 0)]);
+            return 0.5 * (_station[Math.Min(k + 1, ElementCount)] - _station[Math.Max(k - 1, 0)]);
         }
 
         /// <summary>The fraction of that, weighted by the joint's hat function, that is not in a sheath.</summary>
         public double FractionOutside(int k)
         {
-            double node = _station[k];
-            if (Sheathed <= (k > 0 ? _station[k - 1] : node))
-            {
-                return 1.0;
-            }
-            double before = k > 0 ? node - _station[k - 1] : 0.0;
-            double after = k < ElementCount ? _station[k + 1] - node : 0.0;
-            double beyond = Sheathed < node ? after + (node - Sheathed) * (1.0 + (Sheathed - node + before) / before)
-                : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - Sheathed), 2.0) / after : 0.0;
-            return beyond / (before + after);
+            return Hubs.FractionOutside(k, _station, ElementCount);
         }
 
         /// <summary>Gives the joint at node k of an instrument alone.</summary>
@@ -254,17 +270,13 @@ namespace Guidewire.Core
         public double NextBreak(double position)
         {
             double next = double.PositiveInfinity;
-            foreach (double station in _station)
+            for (int k = 0; k <= ElementCount; k++)
             {
-                next = station > position ? Math.Min(next, station) : next;
+                next = _station[k] > position ? Math.Min(next, _station[k]) : next;
             }
             for (int i = 0; i < Count; i++)
             {
-                foreach (double border in _instrument[i].Profile.Borders)
-                {
-                    double at = border - Hubs.Leads[i];
-                    next = at > position ? Math.Min(next, at) : next;
-                }
+                next = Math.Min(next, _instrument[i].Profile.NextBorder(position, Hubs.Leads[i]));
             }
             return next;
         }
@@ -280,13 +292,7 @@ namespace Guidewire.Core
         /// it.</summary>
         public ref readonly CrossSection PieceAtHub(int instrument)
         {
-            InstrumentProfile profile = _instrument[instrument].Profile;
-            int p = 0;
-            while (p < profile.Pieces.Length - 1 && profile.Borders[p + 1] - Hubs.Leads[instrument] < _station[0])
-            {
-                p++;
-            }
-            return ref profile.Pieces[p];
+            return ref _instrument[instrument].Profile.PieceUpTo(_station[0], Hubs.Leads[instrument]);
         }
 
         /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
@@ -312,7 +318,7 @@ namespace Guidewire.Core
                 }
             }
             int end = 0;
-            for (; end < _joint.Length && (slides || end == 0 || _station[end - 1] < most); end++)
+            for (; end <= ElementCount && (slides || end == 0 || _station[end - 1] < most); end++)
             {
                 SetJoint(end);
             }
@@ -359,7 +365,7 @@ namespace Guidewire.Core
             {
                 AddSide(ref joint, k, k - 1, frame, _before);
             }
-            if (k < _joint.Length - 1)
+            if (k < ElementCount)
             {
                 AddSide(ref joint, k, k + 1, frame, _after);
                 SetElement(k);
@@ -389,7 +395,7 @@ namespace Guidewire.Core
             _shear[j] = _after.Shear;
             for (int i = 0; i < Count; i++)
             {
-                _stretch[i * _carrier.Length + j] = _after.Stretch[i];
+                _stretch[i * ElementCount + j] = _after.Stretch[i];
             }
         }
 

@@ -49,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>Places the same loads anew where the instruments are.</summary>
         public void Place(Vector3d[] force)
         {
-            Array.Clear(force, 0, force.Length);
+            Array.Clear(force, 0, _joints.ElementCount + 1);
             _axial.ClearLoads();
             AddAll(force);
         }

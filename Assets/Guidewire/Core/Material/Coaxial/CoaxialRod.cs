@@ -25,15 +25,30 @@ namespace Guidewire.Core
             _instrument = instruments;
             Joints = new CoaxialJoints(instruments, beyond, leads, sheathed, first);
             Axial = new AxialForces(Joints);
-            int n = Joints.ElementCount;
-            InnerSpin = new double[Joints.InnerCount * n];
+            InnerSpin = new double[Joints.InnerCount * Joints.Capacity];
             LumenDrag = new double[InnerSpin.Length];
-            Rod = new MaterialRod(n)
+            Rod = new MaterialRod(Joints.ElementCount, Joints.Capacity)
             {
                 MassDamping = instruments[0].Rod.MassDamping,
                 MaterialDamping = instruments[0].Rod.MaterialDamping,
             };
-            for (int j = 0; j < n; j++)
+            TakeElements(leads, sheathed);
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh(int[] beyond, double[] leads, double sheathed, int first)
+        {
+            Joints.Remesh(beyond, leads, sheathed, first);
+            Axial.Remesh();
+            Array.Clear(InnerSpin, 0, InnerSpin.Length);
+            Array.Clear(LumenDrag, 0, LumenDrag.Length);
+            TakeElements(leads, sheathed);
+        }
+
+        private void TakeElements(double[] leads, double sheathed)
+        {
+            Rod.ElementCount = Joints.ElementCount;
+            for (int j = 0; j < Joints.ElementCount; j++)
             {
                 Rod.Take(j, Carrier(j), OwnElement(j));
             }
@@ -140,13 +155,14 @@ namespace Guidewire.Core
             double from = first + Joints.LeadOf(instrument);
             double to = last + Joints.LeadOf(instrument);
             double perLength = 1.0 / (to - from);
-            Rod.LineDensity[j] += perLength * profile.Integral(from, to, piece => piece.LineDensity);
-            Rod.RotaryInertia1[j] += perLength * profile.Integral(from, to, piece => piece.RotaryInertia1);
-            Rod.RotaryInertia2[j] += perLength * profile.Integral(from, to, piece => piece.RotaryInertia2);
+            Rod.LineDensity[j] += perLength * profile.Integral(from, to, (piece, _) => piece.LineDensity);
+            Rod.RotaryInertia1[j] += perLength * profile.Integral(from, to, (piece, _) => piece.RotaryInertia1);
+            Rod.RotaryInertia2[j] += perLength * profile.Integral(from, to, (piece, _) => piece.RotaryInertia2);
             int at = (instrument - 1) * Joints.ElementCount + j;
-            InnerSpin[at] = profile.Integral(from, to, piece => piece.RotaryInertia1 + piece.RotaryInertia2);
-            double lumen = _instrument[AroundOf(instrument, j)].LumenRadius;
-            LumenDrag[at] = profile.Integral(from, to, piece => DragOf(piece, lumen));
+            InnerSpin[at] = profile.Integral(from, to,
+                (piece, _) => piece.RotaryInertia1 + piece.RotaryInertia2);
+            LumenDrag[at] = profile.Integral(from, to, (piece, lumenRadius) => DragOf(piece, lumenRadius),
+                _instrument[AroundOf(instrument, j)].LumenRadius);
         }
 
         /// <summary>Gives the next instrument around one on an element.</summary>

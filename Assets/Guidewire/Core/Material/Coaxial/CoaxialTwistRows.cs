@@ -11,16 +11,17 @@ namespace Guidewire.Core
     internal sealed class CoaxialTwistRows
     {
         private readonly CoaxialJoints _joints;
-        private readonly int _count;           // rows of each angle
         private TwistRow _clamp;               // what falls on the hub's angles, which are not unknown
 
         /// <summary>Makes the rows of these joints.</summary>
         public CoaxialTwistRows(CoaxialJoints joints)
         {
             _joints = joints;
-            _count = joints.ElementCount + 1;
-            Rows = new TwistRow[joints.InnerCount * _count];
+            Rows = new TwistRow[joints.InnerCount * (joints.Capacity + 1)];
         }
+
+        /// <summary>How many there are of each angle.</summary>
+        public int Count => _joints.ElementCount + 1;
 
         /// <summary>The rows.</summary>
         public TwistRow[] Rows { get; }
@@ -200,7 +201,7 @@ namespace Guidewire.Core
 
         private ref TwistRow Row(int element, int instrument)
         {
-            return ref element < 0 ? ref _clamp : ref Rows[(instrument - 1) * _count + element];
+            return ref element < 0 ? ref _clamp : ref Rows[(instrument - 1) * Count + element];
         }
 
         // Where they are to be positive, at least as much as all of them together have.

@@ -29,5 +29,23 @@ namespace Guidewire.Core
 
         /// <summary>Where the sheath ends, m from the outermost hub.</summary>
         public double Sheathed { get; set; }
+
+        /// <summary>The fraction of what joint k of a chain stands for, weighted by its hat function, that is not in
+        /// the sheath.</summary>
+        /// <param name="station">Of the nodes, m from the outermost hub.</param>
+        /// <param name="last">Of them.</param>
+        public double FractionOutside(int k, double[] station, int last)
+        {
+            double node = station[k];
+            if (Sheathed <= (k > 0 ? station[k - 1] : node))
+            {
+                return 1.0;
+            }
+            double before = k > 0 ? node - station[k - 1] : 0.0;
+            double after = k < last ? station[k + 1] - node : 0.0;
+            double beyond = Sheathed < node ? after + (node - Sheathed) * (1.0 + (Sheathed - node + before) / before)
+                : after > 0.0 ? Math.Pow(Math.Max(0.0, node + after - Sheathed), 2.0) / after : 0.0;
+            return beyond / (before + after);
+        }
     }
 }

@@ -43,15 +43,41 @@ namespace Guidewire.Core
             return p;
         }
 
+        /// <summary>What the instrument is made of at a position behind which its hub is by a lead, m; at a border what
+        /// is before it.</summary>
+        public ref readonly CrossSection PieceUpTo(double position, double lead)
+        {
+            int p = 0;
+            while (p < _piece.Length - 1 && _border[p + 1] - lead < position)
+            {
+                p++;
+            }
+            return ref _piece[p];
+        }
+
+        /// <summary>The next border after a position behind which the hub is by a lead, m; infinite after the
+        /// last.</summary>
+        public double NextBorder(double position, double lead)
+        {
+            double next = double.PositiveInfinity;
+            foreach (double border in _border)
+            {
+                next = border - lead > position ? Math.Min(next, border - lead) : next;
+            }
+            return next;
+        }
+
         /// <summary>Integral over a part of the length of what a piece has per length.</summary>
         /// <param name="from">m from the hub, as is <paramref name="to"/>.</param>
-        public double Integral(double from, double to, Func<CrossSection, double> density)
+        /// <param name="density">Of a piece, in a lumen of some radius, m.</param>
+        public double Integral(double from, double to, Func<CrossSection, double, double> density,
+            double lumenRadius = 0.0)
         {
             double sum = 0.0;
             for (int p = 0; p < _piece.Length; p++)
             {
                 double length = Math.Min(to, _border[p + 1]) - Math.Max(from, _border[p]);
-                sum += length > 0.0 ? length * density(_piece[p]) : 0.0;
+                sum += length > 0.0 ? length * density(_piece[p], lumenRadius) : 0.0;
             }
             return sum;
         }

@@ -43,7 +43,7 @@ namespace Guidewire.Core
             _after = _joints.CreatePieces();
             _shared = _joints.CreatePieces();
             _own = new double[_joints.Count];
-            _station = new double[_joints.ElementCount + 1];
+            _station = new double[_joints.Capacity + 1];
         }
 
         /// <summary>Force of an inner hub on its instrument along the axis, N: dE/dp, loads among it. Negative where

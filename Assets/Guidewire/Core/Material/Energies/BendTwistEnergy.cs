@@ -45,6 +45,14 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override void Remesh()
+        {
+            _proximalRest = _joint[0].Rest.Z;
+            _proximalTurn = 0.0;
+            Wind(0.0);
+        }
+
+        /// <inheritdoc/>
         public override void TurnProximal(double turn)
         {
             _proximalTurn = turn;
@@ -286,8 +294,8 @@ namespace Guidewire.Core
         public override void Couples(RodShape shape, Vector3d[] couples)
         {
             int n = shape.ElementCount;
-            _onBefore ??= new RodVector[n + 1];
-            _onAfter ??= new RodVector[n + 1];
+            _onBefore ??= new RodVector[_joint.Length];
+            _onAfter ??= new RodVector[_joint.Length];
             Array.Clear(_onAfter, 0, n + 1);
             if (_hasProximal)
             {

@@ -40,7 +40,7 @@ namespace Guidewire.Core
         public void AddAt(double length, in Vector3d force)
         {
             int j = 0;
-            while (j < _length.Length - 1 && length > _length[j])
+            while (j < _mass.ElementCount - 1 && length > _length[j])
             {
                 length -= _length[j++];
             }
@@ -53,17 +53,17 @@ namespace Guidewire.Core
         /// at the tip (N).</summary>
         public void Set(in Vector3d gravity, in Vector3d tipForce)
         {
-            for (int i = 0; i < Force.Length; i++)
+            for (int i = 0; i <= _mass.ElementCount; i++)
             {
                 Force[i] = _mass.Nodal[i] * gravity;
             }
-            Force[Force.Length - 1] += tipForce;
+            Force[_mass.ElementCount] += tipForce;
         }
 
         /// <summary>Adds a force per length of the wire at rest, N/m: half of each element's on either node.</summary>
         public void AddPerLength(in Vector3d force)
         {
-            for (int j = 0; j < _length.Length; j++)
+            for (int j = 0; j < _mass.ElementCount; j++)
             {
                 Vector3d half = (0.5 * _length[j]) * force;
                 Force[j] += half;
@@ -75,7 +75,7 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double sum = 0.0;
-            for (int i = 0; i < Force.Length; i++)
+            for (int i = 0; i <= _mass.ElementCount; i++)
             {
                 sum -= Vector3d.Dot(Force[i], shape.X[i]);
             }

@@ -73,6 +73,11 @@ namespace Guidewire.Core
         {
         }
 
+        /// <summary>The rod has other elements, and the term is as it is made.</summary>
+        public virtual void Remesh()
+        {
+        }
+
         /// <summary>Sets what is prescribed at this time, s: a target that moves, a load that grows. Called before each
         /// stage, and before the forces of each explicit or compliant substep.</summary>
         public virtual void SetTime(double time)

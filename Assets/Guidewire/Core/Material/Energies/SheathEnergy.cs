@@ -20,7 +20,13 @@ namespace Guidewire.Core
         {
             _rod = rod;
             _bending = bending;
-            Cut(rod.Joints.ElementCount);
+            Remesh();
+        }
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            Cut(_rod.Joints.ElementCount);
         }
 
         /// <inheritdoc/>

@@ -11,6 +11,7 @@ namespace Guidewire.Core
     /// The third column of M is 0: a turn about the element's own axis leaves a straight element alone.</remarks>
     internal sealed class StretchEnergy : EnergyTerm
     {
+        private readonly MaterialRod _rod;
         private readonly double[] _length;   // m
         private readonly double[] _shear;    // GA, N
         private readonly double[] _stretch;  // EA, N
@@ -23,6 +24,7 @@ namespace Guidewire.Core
         public StretchEnergy(MaterialRod rod, Vector3d[]? rest = null)
         {
             _rest = rest;
+            _rod = rod;
             _length = rod.Length;
             _shear = rod.ShearStiffness;
             _stretch = rod.StretchStiffness;
@@ -43,10 +45,10 @@ namespace Guidewire.Core
 #if NET8_0_OR_GREATER
             if (HasLanes)
             {
-                first = StretchLanes.AddValue(shape, _length, _shear, _stretch, 0, _length.Length, ref sum);
+                first = StretchLanes.AddValue(shape, _length, _shear, _stretch, 0, _rod.ElementCount, ref sum);
             }
 #endif
-            for (int j = first; j < _length.Length; j++)
+            for (int j = first; j < _rod.ElementCount; j++)
             {
                 Vector3d n = Stress(shape, j, out Vector3d p);
                 Vector3d strain = p - (_rest == null ? Vector3d.UnitZ : _rest[j]);
@@ -70,7 +72,7 @@ namespace Guidewire.Core
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
             ref GradientMeasures measured)
         {
-            int end = to < _length.Length ? to : _length.Length;
+            int end = to < _rod.ElementCount ? to : _rod.ElementCount;
             double largest = 0.0;
 #if NET8_0_OR_GREATER
             if (HasLanes)
@@ -91,7 +93,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            int end = to < _length.Length ? to : _length.Length;
+            int end = to < _rod.ElementCount ? to : _rod.ElementCount;
 #if NET8_0_OR_GREATER
             if (HasLanes)
             {

@@ -13,30 +13,25 @@ namespace Guidewire.Core
         private const int Piece = 32;  // blocks; 12 KB
 
         private readonly RodBlock[] _block;
-        private readonly int _count;
+        private readonly MaterialRod _rod;
         private readonly double[] _weight;  // of theta_i in the metric, m
-        private readonly double _perLengthSquared;
+        private int _count;
+        private double _perLengthSquared;
         private readonly bool _holdsStart;
         private readonly DistalEnd _distalEnd;
         private readonly Vector3d _slidingAxis;
         private readonly CoaxialJoints? _coaxial;
         private readonly TwistRow[] _twist = Array.Empty<TwistRow>();   // of the first angles, then of the second
         private readonly bool _isPair;      // whether there are second ones
-        private readonly int _entryCount;   // of vectors, behind the placeholder
+        private int _entryCount;            // of vectors, behind the placeholder
         private int _twistCount;            // elements with an angle that is unknown
 
         /// <summary>Makes a system for this rod between these supports.</summary>
         public BlockTridiagonal(MaterialRod rod, RodSupports supports)
         {
-            _count = rod.ElementCount + 1;
-            _block = new RodBlock[_count + 1];
-            _weight = new double[_count];
-            for (int j = 0; j < rod.ElementCount; j++)
-            {
-                _weight[j] += rod.Length[j];
-            }
-            _weight[_count - 1] = rod.Length[rod.ElementCount - 1];
-            _perLengthSquared = 1.0 / (rod.TotalLength * rod.TotalLength);
+            _rod = rod;
+            _block = new RodBlock[rod.Capacity + 2];
+            _weight = new double[rod.Capacity + 1];
             _holdsStart = supports.Proximal != ProximalEnd.Free && !supports.HasSpring;
             _distalEnd = supports.Distal;
             _slidingAxis = supports.SlidingAxis;
@@ -44,14 +39,27 @@ namespace Guidewire.Core
             if (_coaxial != null)
             {
                 _isPair = _coaxial.InnerCount > 1;
-                _entryCount = _count;
-                _twist = new TwistRow[_coaxial.InnerCount * _count];
+                _twist = new TwistRow[_coaxial.InnerCount * (rod.Capacity + 1)];
             }
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            _count = _rod.ElementCount + 1;
+            _entryCount = _coaxial == null ? 0 : _count;
+            Array.Copy(_rod.Length, _weight, _rod.ElementCount);
+            _weight[_count - 1] = _rod.Length[_rod.ElementCount - 1];
+            _perLengthSquared = 1.0 / (_rod.TotalLength * _rod.TotalLength);
         }
 
         /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, and as many as
         /// blocks again where there are twist angles.</summary>
         public int VectorCount => _count + 1 + _entryCount;
+
+        /// <summary>The same of the most elements that the rod may have.</summary>
+        public int VectorCapacity => (_coaxial == null ? 1 : 2) * (_rod.Capacity + 1) + 1;
 
         /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
         /// and factorises; with it goes the right-hand side -gradient.</summary>
@@ -142,12 +150,12 @@ namespace Guidewire.Core
         public GradientMeasures Gradient(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y)
         {
             var measured = default(GradientMeasures);
-            Array.Clear(gradient, 0, gradient.Length);
+            Array.Clear(gradient, 0, VectorCount);
             for (int k = 0; k < terms.Length; k++)
             {
                 terms[k].AddGradient(shape, gradient, 0, _count, ref measured);
             }
-            Array.Clear(y, 0, y.Length);
+            Array.Clear(y, 0, VectorCount);
             Subtract(gradient, y, 0, _count);
             if (_coaxial != null)
             {
@@ -292,7 +300,7 @@ namespace Guidewire.Core
                 return;
             }
             _twistCount = _coaxial.ActiveCount;
-            Array.Clear(_twist, 0, _twist.Length);
+            Array.Clear(_twist, 0, _coaxial.InnerCount * _count);
             Array.Clear(gradient, _count + 1, _count);
             Array.Clear(y, _count + 1, _count);
         }
@@ -434,12 +442,6 @@ namespace Guidewire.Core
             end.A21 = along * a.X * a.Y;
             end.A31 = along * a.X * a.Z;
             end.A32 = along * a.Y * a.Z;
-            if (_distalEnd != DistalEnd.Sliding)
-            {
-                end.A11 = 1.0;
-                end.A22 = 1.0;
-                end.A33 = 1.0;
-            }
         }
     }
 }

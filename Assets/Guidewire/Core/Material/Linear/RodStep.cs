@@ -103,7 +103,7 @@ namespace Guidewire.Core
         private static void ApplyTwist(RodShape shape, RodVector[] direction, double scale, RodShape to)
         {
             int n = shape.ElementCount;
-            for (int j = 0; j < shape.Twist.Length; j++)
+            for (int j = 0; j < shape.TwistCount; j++)
             {
                 double turn = j < n ? direction[n + 2 + j].T3 : direction[2 + j].T2;
                 to.Twist[j] = shape.Twist[j] + scale * turn;
@@ -121,7 +121,7 @@ namespace Guidewire.Core
             Vector3d x = start;
             Vector3d old = shape.X[0];
             shape.X[0] = x;
-            for (int j = 0; j < orientations.Length; j++)
+            for (int j = 0; j < shape.ElementCount; j++)
             {
                 Quaterniond q = orientations[j];
                 Vector3d next = shape.X[j + 1];
@@ -154,7 +154,9 @@ namespace Guidewire.Core
         /// <summary>Gives the size of a direction: the largest turn of an element in radians or shift of a node over
         /// L.</summary>
         /// <param name="relative">The largest difference between the turns of two successive elements, radians.</param>
-        public static double Size(RodVector[] direction, int elementCount, double length, out double relative)
+        /// <param name="count">Vectors of the direction that count.</param>
+        public static double Size(RodVector[] direction, int elementCount, double length, out double relative,
+            int count = int.MaxValue)
         {
             double turn = 0.0;
             double shift = 0.0;
@@ -173,7 +175,7 @@ namespace Guidewire.Core
                     difference = Math.Max(difference, a * a + b * b + c * c);
                 }
             }
-            for (int j = elementCount + 2; j < direction.Length; j++)
+            for (int j = elementCount + 2; j < Math.Min(count, direction.Length); j++)
             {
                 turn = Math.Max(turn, direction[j].T3 * direction[j].T3);
                 turn = Math.Max(turn, direction[j].T2 * direction[j].T2);

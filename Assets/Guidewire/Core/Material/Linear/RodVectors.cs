@@ -5,11 +5,11 @@ namespace Guidewire.Core
     /// <summary>Sums over whole vectors of a rod.</summary>
     internal static class RodVectors
     {
-        /// <summary>Takes the scalar product a . b.</summary>
-        public static double Dot(RodVector[] a, RodVector[] b)
+        /// <summary>Takes the scalar product a . b, of the first vectors or of all.</summary>
+        public static double Dot(RodVector[] a, RodVector[] b, int count = int.MaxValue)
         {
             double sum = 0.0;
-            for (int i = 0; i < a.Length; i++)
+            for (int i = 0; i < Math.Min(count, a.Length); i++)
             {
                 sum += a[i].X1 * b[i].X1 + a[i].X2 * b[i].X2 + a[i].X3 * b[i].X3
                     + a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
@@ -18,15 +18,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the largest sum of the forces on nodes 0 to k, over all k.</summary>
+        /// <param name="count">Vectors that count.</param>
         /// <param name="couples">Sum of the magnitudes of all components of the couples.</param>
-        public static double LargestPartialForce(RodVector[] v, out double couples)
+        public static double LargestPartialForce(RodVector[] v, int count, out double couples)
         {
             double x = 0.0;
             double y = 0.0;
             double z = 0.0;
             double largest = 0.0;
             couples = 0.0;
-            for (int i = 0; i < v.Length; i++)
+            for (int i = 0; i < count; i++)
             {
                 x += v[i].X1;
                 y += v[i].X2;

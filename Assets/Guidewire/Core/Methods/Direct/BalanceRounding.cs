@@ -18,36 +18,42 @@ namespace Guidewire.Core
         private const double Resolution = 1e-7;   // N: forces below do not matter
 
         private readonly MaterialRod _rod;
-        private readonly double _mass;
+        private readonly RodMass _mass;
         private readonly double _factor;
-        private readonly double _totalLength;
+        private double _totalLength;
         private readonly bool _holdsEnd;
         private double _ofMass;                   // N
         private double _distance;                 // of one unit in the last place, m
 
         /// <summary>Estimates it for a rod.</summary>
-        /// <param name="mass">kg.</param>
         /// <param name="factor">On EA/l: more than 1 where a spring holds node 0 that is stiffer than the
         /// rod.</param>
-        public BalanceRounding(MaterialRod rod, RodSupports supports, double mass, double factor)
+        public BalanceRounding(MaterialRod rod, RodSupports supports, RodMass mass, double factor)
         {
             _rod = rod;
             _mass = mass;
             _factor = factor;
-            _totalLength = rod.TotalLength;
-            for (int j = 0; j < rod.ElementCount; j++)
-            {
-                AxialSpring = Math.Max(AxialSpring, rod.StretchStiffness[j] / rod.Length[j]);
-            }
             _holdsEnd = supports.Distal != DistalEnd.Free;
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            _totalLength = _rod.TotalLength;
+            AxialSpring = 0.0;
+            for (int j = 0; j < _rod.ElementCount; j++)
+            {
+                AxialSpring = Math.Max(AxialSpring, _rod.StretchStiffness[j] / _rod.Length[j]);
+            }
             IsLarge = MachineEpsilon * _totalLength * AxialSpring > Resolution;
         }
 
         /// <summary>The largest EA/l, N/m.</summary>
-        public double AxialSpring { get; }
+        public double AxialSpring { get; private set; }
 
         /// <summary>Whether it may hide forces that matter.</summary>
-        public bool IsLarge { get; }
+        public bool IsLarge { get; private set; }
 
         /// <summary>By how much the forces of two supports may be wrong, N; 0 of one, or where it does not
         /// matter.</summary>
@@ -59,7 +65,7 @@ namespace Guidewire.Core
         public double BeginStage(RodShape shape, double stageLength)
         {
             _distance = MachineEpsilon * (shape.X[0].Length + _totalLength);
-            double perMass = _mass / (stageLength * stageLength);
+            double perMass = _mass.Total / (stageLength * stageLength);
             _ofMass = _distance * perMass;
             return IsLarge ? 0.0 : _distance * (_factor * AxialSpring + perMass);
         }
@@ -67,7 +73,8 @@ namespace Guidewire.Core
         /// <summary>The largest force on a piece of the rod from any node to its tip, or the sum of the couples over L,
         /// N, each less the rounding of its element.</summary>
         /// <param name="forces">On nodes, and couples on elements.</param>
-        public double Unbalanced(RodVector[] forces)
+        /// <param name="count">Of them.</param>
+        public double Unbalanced(RodVector[] forces, int count)
         {
             Vector3d sum = Vector3d.Zero;
             double largest = 0.0;
@@ -85,7 +92,7 @@ namespace Guidewire.Core
                     couples += Math.Max(0.0, couple - Of(i) * _rod.Length[i]);
                 }
             }
-            for (int i = _rod.ElementCount + 1; i < forces.Length; i++)
+            for (int i = _rod.ElementCount + 1; i < count; i++)
             {
                 couples += Math.Abs(forces[i].T1) + Math.Abs(forces[i].T2) + Math.Abs(forces[i].T3);
             }

@@ -34,18 +34,12 @@ namespace Guidewire.Core
         {
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             var contact = new BarrierEnergy(scene.Rod, scene.Walls, scene.Metres, barrier, scene.Supports.SheathEnd);
-            CoaxialJoints? coaxial = scene.Supports.Coaxial?.Joints;
-            IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
-            bool hasOwn = coaxial != null && catheters.Any(catheter => catheter.FrictionCoefficient > 0.0);
+            bool hasOwn = scene.Supports.Coaxial != null
+                && parameters.Scene.Catheters.Any(catheter => catheter.FrictionCoefficient > 0.0);
             FrictionEnergy? friction = hasOwn
                 || Array.Exists(scene.Walls, wall => wall.FrictionCoefficient > 0.0)
-                ? new FrictionEnergy(contact, scene.Rod.ElementCount, parameters.Contact.ElasticSlip > 0.0
-                    ? parameters.Contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(scene.Rod)) : null;
-            for (int i = 0; coaxial != null && i < catheters.Count; i++)
-            {
-                friction?.SetCoefficient(i == 0 ? 0 : coaxial.TipOf(i - 1), coaxial.TipOf(i),
-                    catheters[i].FrictionCoefficient);
-            }
+                ? new FrictionEnergy(contact, scene.Rod.ElementCount, 0.0, scene.Rod.Capacity) : null;
+            SetFriction(parameters, scene, friction);
             // Searched for on demand: the rule measures the narrowest width of the whole vessel.
             ContactParameters given = parameters.Contact;
             Func<string?>? advice = null;
@@ -55,6 +49,25 @@ namespace Guidewire.Core
                     scene.Walls, scene.Metres, move));
             }
             return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice);
+        }
+
+        /// <summary>Sets the coefficients of instruments, and the elastic slip by the rule.</summary>
+        /// <param name="friction">Null: there is none.</param>
+        public static void SetFriction(SimulationParameters parameters, MaterialScene scene, FrictionEnergy? friction)
+        {
+            if (friction == null)
+            {
+                return;
+            }
+            friction.ElasticSlip = parameters.Contact.ElasticSlip > 0.0 ? parameters.Contact.ElasticSlip
+                : FrictionEnergy.ElasticSlipOf(scene.Rod);
+            CoaxialJoints? coaxial = scene.Supports.Coaxial?.Joints;
+            IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
+            for (int i = 0; coaxial != null && i < catheters.Count; i++)
+            {
+                friction.SetCoefficient(i == 0 ? 0 : coaxial.TipOf(i - 1), coaxial.TipOf(i),
+                    catheters[i].FrictionCoefficient);
+            }
         }
 
         /// <summary>Gives the scheme of an integrator of the direct solver; null for BDF2.</summary>

@@ -18,7 +18,7 @@ namespace Guidewire.Core
         {
             _instruments = instruments;
             _timeStep = timeStep;
-            _start = new StepStart(SerializeStep);
+            _start = new StepStart(SerializeStep, Dynamics.Terms.Rod);
             _hubs = new SlippingHubs(instruments, _start, StepAsRequested);
         }
 

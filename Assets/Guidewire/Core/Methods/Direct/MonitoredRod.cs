@@ -58,7 +58,8 @@ namespace Guidewire.Core
                 if (record != null)
                 {
                     record.WallForces = walls.Barrier.Resultants;
-                    record.SetElements(scene.Rod.ElementCount, scene.Walls);
+                    record.SetElements(scene.Rod.Capacity, scene.Walls);
+                    record.Remesh(scene.Rod.ElementCount + 1);
                 }
             }
             report.Extremes ??= new RunExtremes();
@@ -72,6 +73,31 @@ namespace Guidewire.Core
             {
                 _spinLoss = new SpinLoss(method.Integrator);
             }
+        }
+
+        /// <summary>The rod has other elements, and moves on from where they are.</summary>
+        public void Remesh()
+        {
+            MaterialRod rod = _scene.Rod;
+            (Failure, Divergence, SteadyState, PredictionError) = (null, null, null, 0.0);
+            _scene.Joints.Remesh();
+            _ends.Remesh();
+            _rest.Remesh();
+            _texts.Remesh();
+            if (_monitor != null)
+            {
+                Terms.Walls()!.Spring.Position = Schedule.Hub.PositionAt(Time);
+                _monitor.Remesh();
+                _elementForces!.Remesh();
+            }
+            Contacts?.Remesh(rod.ElementCount + 1);
+            rod.SetJoints(_scene.Supports, _joints);
+            rod.SetJointLengths(_scene.Supports, _jointLengths);
+            _hub?.Remesh(rod, _scene.Supports);
+            _stress?.Remesh(rod, _scene.Supports);
+            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
+            FollowEnds();
+            _energy.Remesh();
         }
 
         /// <summary>The motion.</summary>

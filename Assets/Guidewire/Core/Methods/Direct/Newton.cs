@@ -58,9 +58,10 @@ namespace Guidewire.Core
         private readonly ContactMultipliers? _multipliers;
         private readonly bool _hasFriction;
         private readonly int _maxReused;
-        private readonly double _totalLength;
-        private readonly double _bendForce;       // EI/L^2 of the stiffest element, N
-        private readonly double _softestForce;    // softest stiffness/L^2, N
+        private readonly RodTerms _rodTerms;
+        private double _totalLength;
+        private double _bendForce;                // EI/L^2 of the stiffest element, N
+        private double _softestForce;             // softest stiffness/L^2, N
         private readonly double[] _values;        // of the terms in the shape evaluated last, J
         private double _shift;                    // N, kept from one iteration to the next
 
@@ -69,6 +70,7 @@ namespace Guidewire.Core
         /// <param name="terms">Those whose sum is minimised.</param>
         public Newton(RodTerms rodTerms, EnergyTerm[] terms)
         {
+            _rodTerms = rodTerms;
             _rod = rodTerms.Rod;
             _supports = rodTerms.Supports;
             _terms = terms;
@@ -76,16 +78,31 @@ namespace Guidewire.Core
             _multipliers = _barrier?.Multipliers;
             _hasFriction = rodTerms.Walls()?.Friction != null;
             _maxReused = _barrier != null ? MaxReusedWithWalls : MaxReusedWithout;
-            _totalLength = _rod.TotalLength;
-            _bendForce = _rod.BendForce;
-            _softestForce = rodTerms.SoftestStiffness / (_totalLength * _totalLength);
             _values = new double[terms.Length];
-            BalanceRounding = new BalanceRounding(_rod, _supports, rodTerms.Mass.Total,
+            BalanceRounding = new BalanceRounding(_rod, _supports, rodTerms.Mass,
                 _barrier != null ? OfSpring : 1.0);
             System = new BlockTridiagonal(_rod, _supports);
-            Gradient = new RodVector[System.VectorCount];
-            Direction = new RodVector[System.VectorCount];
-            Trial = new RodShape(_rod.ElementCount, _supports.InnerCount);
+            Gradient = new RodVector[System.VectorCapacity];
+            Direction = new RodVector[System.VectorCapacity];
+            Trial = new RodShape(_rod.ElementCount, _supports.InnerCount, _rod.Capacity);
+            SetScales();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            BalanceRounding.Remesh();
+            System.Remesh();
+            Trial.ElementCount = _rod.ElementCount;
+            _shift = _barrier == null ? 0.0 : _shift;
+            SetScales();
+        }
+
+        private void SetScales()
+        {
+            _totalLength = _rod.TotalLength;
+            _bendForce = _rod.BendForce;
+            _softestForce = _rodTerms.SoftestStiffness / (_totalLength * _totalLength);
         }
 
         /// <summary>Error that a stage's shape may have where forces are small, or the last step to a rest shape:
@@ -252,7 +269,7 @@ namespace Guidewire.Core
         /// <param name="relative">The largest turn of one element against the next, radians.</param>
         public double Size(out double relative)
         {
-            return RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative);
+            return RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative, System.VectorCount);
         }
 
         /// <summary>Largest part of the motion that a step of this direction may take, 0 to 1.</summary>
@@ -288,11 +305,11 @@ namespace Guidewire.Core
             double largest = System.Gradient(_terms, shape, Gradient, Direction).LargestForce;
             if (BalanceRounding.IsLarge)
             {
-                left = BalanceRounding.Unbalanced(Direction);
+                left = BalanceRounding.Unbalanced(Direction, System.VectorCount);
             }
             else
             {
-                double force = RodVectors.LargestPartialForce(Direction, out double couples);
+                double force = RodVectors.LargestPartialForce(Direction, System.VectorCount, out double couples);
                 left = Math.Max(force, couples / _totalLength);
             }
             // A wire that touches walls has a shorter free length.
@@ -303,7 +320,7 @@ namespace Guidewire.Core
         // Along a direction that costs no energy rounding alone makes steps: there the energy that they gain is asked.
         private bool IsSmall(double size, bool isPlain)
         {
-            double gain = Math.Max(0.0, -RodVectors.Dot(Gradient, Direction)) / (_softestForce * _totalLength);
+            double gain = Math.Max(0.0, -Slope) / (_softestForce * _totalLength);
             return size <= Tolerance || (isPlain && gain <= Tolerance * Tolerance);
         }
 
@@ -394,7 +411,7 @@ namespace Guidewire.Core
         // own rounding hides the decrease the step is Newton's, and small, and is taken without its energies.
         private bool Search(RodShape shape, bool isNew, ref double scale, double size, out bool decreaseBelowRounding)
         {
-            double slope = RodVectors.Dot(Gradient, Direction);
+            double slope = Slope;
             double start = isNew ? EnergySum.Value(_terms, shape, _values, out double magnitude)
                 : EnergySum.AnchoredValue(_terms, _values, out magnitude);
             double rounding = Rounding * magnitude;
@@ -411,6 +428,9 @@ namespace Guidewire.Core
             }
             return false;
         }
+
+        /// <summary>Of the energy along the direction, J.</summary>
+        public double Slope => RodVectors.Dot(Gradient, Direction, System.VectorCount);
 
         private static string Text(double value)
         {

@@ -23,7 +23,7 @@ namespace Guidewire.Core
         private readonly MaterialScene _scene;
         private readonly RodDynamics _dynamics;
         private readonly WallTerms? _walls;
-        private readonly double _thrust;      // that no wire bears without a jam, N
+        private double _thrust;               // that no wire bears without a jam, N
 
         /// <summary>Makes one of the motion of a scene's rod.</summary>
         public StepFailure(MaterialScene scene, RodDynamics dynamics)
@@ -31,7 +31,14 @@ namespace Guidewire.Core
             _scene = scene;
             _dynamics = dynamics;
             _walls = dynamics.Terms.Walls();
-            MaterialRod rod = scene.Rod;
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            MaterialRod rod = _scene.Rod;
+            _thrust = 0.0;
             for (int j = 0; j < rod.ElementCount; j++)
             {
                 double free = FreeLength * rod.Radius[j];

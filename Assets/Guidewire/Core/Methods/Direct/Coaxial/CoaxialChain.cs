@@ -2,26 +2,29 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>What is simulated of coaxial instruments: one <see cref="MonitoredRod"/>, built anew wherever nodes
-    /// come or go.</summary>
-    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. It is also built anew where a tip inside comes
-    /// into another element. Of an instrument alone the part in its sheath is left out: it is straight, massless, and
-    /// evenly stretched and twisted. What comes in has the strain and the twist of that.</remarks>
+    /// <summary>What is simulated of coaxial instruments: one <see cref="MonitoredRod"/>, with room for the elements of
+    /// all of them. Nodes come and go in place.</summary>
+    /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. The rod is as one that is made anew, too, where
+    /// a tip inside comes into another element. Of an instrument alone the part in its sheath is left out: it is
+    /// straight, massless, and evenly stretched and twisted. What comes in has the strain and the twist of
+    /// that.</remarks>
     internal sealed class CoaxialChain
     {
         private readonly MethodParameters _method;
-        private readonly SolverReport _report;
         private readonly CoaxialSetup _setup;
         private readonly MaterialDrive[] _drives;
         private readonly CoaxialHubs _hubs;
         private readonly CoaxialNodes _nodes;
         private readonly InnerInstrument _wire;
         private readonly bool _isAlone;           // in a sheath
-        private readonly int[] _active;           // elements with each angle, when the rod was built
-        private double[] _leads = null!;          // between the hubs, when it was built, m
+        private readonly int[] _active;           // elements with each angle, when nodes came or went last
+        private readonly double[] _leads;         // between the hubs, at that time, m
+        private readonly MaterialScene _scene;
+        private readonly CoaxialChange _change;
+        private readonly CoaxialJoints _oldJoints;     // of the elements that were
+        private readonly RodMotion _oldMotion;
+        private double _sheathed;                 // length in the sheath, at that time, m
         private double _frameTurn;                // where the frame of an instrument alone is held, radians
-        private CoaxialRod _rod;
-        private MonitoredRod _whole = null!;
 
         /// <summary>Lays the chain at the start of all instruments.</summary>
         /// <param name="drives">Of the hubs.</param>
@@ -31,7 +34,6 @@ namespace Guidewire.Core
             MaterialDrive[] drives, CoaxialHubs hubs, InnerInstrument wire, out string? failure)
         {
             _method = parameters.Method;
-            _report = report;
             _setup = setup;
             _drives = drives;
             _hubs = hubs;
@@ -39,34 +41,46 @@ namespace Guidewire.Core
             _nodes = new CoaxialNodes(setup.Instruments, hubs);
             _isAlone = drives.Length == 1;
             _active = new int[drives.Length];
+            _leads = new double[drives.Length];
             _nodes.Find(0.0, 0.0);
             int first = !_isAlone ? 0
                 : _nodes.FirstOf(setup.Wire.Shape, 0, setup.Sheath!, hubs.SheathedAt(0.0), 0.0);
-            _rod = RodAt(0.0, first);
-            var shape = new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount);
-            shape.SetStraight(hubs.Outer.PositionAt(0.0), hubs.Outer.Frame, Rod.Joints.Stations);
-            CoaxialShape.SetTwists(shape, Rod.Joints, hubs);
-            MaterialScene scene = SceneOf(shape);
+            _hubs.SetLeads(_leads, 0.0);
+            _sheathed = hubs.SheathedAt(0.0);
+            Rod = setup.Rod(_nodes.Beyond, _leads, first, hubs, _sheathed);
+            CoaxialJoints joints = Rod.Joints;
+            RodShape shape = CreateShape();
+            shape.SetStraight(hubs.Outer.PositionAt(0.0), hubs.Outer.Frame, joints.Stations);
+            CoaxialShape.SetTwists(shape, joints, hubs);
+            _scene = new MaterialScene(setup.Catheter, Rod, shape, drives[0], hubs.Inner, setup.Wire.Schedule.Loads);
             double turn = hubs.Outer.TurnAt(0.0);
             if (_isAlone)
             {
-                setup.CopyStart(scene, first);
+                setup.CopyStart(_scene, first);
                 turn = _frameTurn = setup.HasStart ? wire.TurnAt(setup.Wire.Shape, first) : 0.0;
                 HoldFrame(shape);
             }
             else if (setup.HasStart)
             {
-                setup.CopyStart(scene, hubs);
+                setup.CopyStart(_scene, hubs);
             }
-            RodTerms terms = setup.Terms(scene);
-            failure = scene.Joints.FindTurnedAtRest();
+            RodTerms terms = setup.Terms(_scene);
+            failure = _scene.Joints.FindTurnedAtRest();
             IsAtRest = parameters.Scene.InitialState == InitialState.Equilibrium && failure == null;
             if (IsAtRest)
             {
-                failure = setup.FindRestShape(scene, terms, report);
+                failure = setup.FindRestShape(_scene, terms, report);
                 IsAtRest = failure == null;
             }
-            Start(scene, terms, 0.0, turn);
+            RodDynamics dynamics = setup.Dynamics(_scene, terms);
+            dynamics.ResumeAt(0.0, turn);
+            terms.SetTime(_scene.Schedule, 0.0);
+            Whole = new MonitoredRod(_scene, dynamics, _method, report,
+                terms.Walls() == null ? null : new ContactRecord(shape.X.Length));
+            SetActive();
+            _change = new CoaxialChange(joints);
+            _oldJoints = new CoaxialJoints(setup.Instruments, _nodes.Beyond, _leads, _sheathed, first);
+            _oldMotion = new RodMotion(CreateShape());
             if (setup.HasStart)
             {
                 TakeLoads();
@@ -77,13 +91,13 @@ namespace Guidewire.Core
         public bool IsAtRest { get; }
 
         /// <summary>All instruments as one rod.</summary>
-        public CoaxialRod Rod => _rod;
+        public CoaxialRod Rod { get; }
 
         /// <summary>The motion of the chain.</summary>
         public RodDynamics Dynamics => Whole.Dynamics;
 
         /// <summary>The same with its monitors.</summary>
-        public MonitoredRod Whole => _whole;
+        public MonitoredRod Whole { get; }
 
         /// <summary>Sets what is prescribed at the present time.</summary>
         public void TakeTime()
@@ -109,9 +123,9 @@ namespace Guidewire.Core
             double length = Math.Min(_nodes.TimeToNode(Dynamics.Time), left);
             length = left - length < CoaxialNodes.SameTime * _method.TimeStep ? left : length;
             _nodes.Find(Dynamics.Time, length);
-            if (!IsAsBuilt())
+            if (HasOthers())
             {
-                Rebuild(this, 0);
+                Remesh(this, 0);
             }
             return length;
         }
@@ -127,7 +141,7 @@ namespace Guidewire.Core
                     Math.Max(0.0, _drives[0].NextMove(time)));
                 if (first != Rod.Joints.First)
                 {
-                    Rebuild(this, first);
+                    Remesh(this, first);
                 }
             }
         }
@@ -143,10 +157,14 @@ namespace Guidewire.Core
                 _nodes.Beyond[i] = isOther[i] ? 0 : former._nodes.Beyond[i];
             }
             _nodes.Find(former.Dynamics.Time, 0.0);
-            Rebuild(former, 0, isOther, shift);
+            Remesh(former, 0, isOther, shift);
+            var counts = new Snapshot();
+            former.Whole.SerializeCounts(counts);
+            Whole.SerializeCounts(counts.ToRead());
+            Whole.Contacts?.Take(former.Whole.Contacts!, Rod.Rod.ElementCount + 1);
         }
 
-        /// <summary>Writes or restores what says which rod there is.</summary>
+        /// <summary>Writes or restores what says which elements there are.</summary>
         public void SerializeNodes(Snapshot snapshot, ref int first)
         {
             if (_isAlone)
@@ -168,48 +186,52 @@ namespace Guidewire.Core
         {
             if (!snapshot.IsWritten)
             {
-                _rod = _setup.Rod(_nodes.Beyond, _leads, first, _hubs, time);
-                MaterialScene scene = SceneOf(new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount));
-                // Placed on the axis until its own state is read.
-                scene.Shape.SetStraight(_hubs.Outer.PositionAt(time), _hubs.Outer.Frame, Rod.Joints.Stations);
-                HoldFrame(scene.Shape);
-                Start(scene, _setup.Terms(scene), time, _frameTurn);
+                _sheathed = _hubs.SheathedAt(time);
+                Lay(first, time);
             }
             Whole.Serialize(snapshot);
-            Rod.Axial.Serialize(snapshot);
+            SerializeAxial(snapshot);
             if (!snapshot.IsWritten)
             {
-                Rod.SetLengths();
                 TakeTime();
             }
         }
 
-        /// <summary>Keeps what was simulated when a step began, or goes back to it: the step may build it
-        /// anew.</summary>
+        /// <summary>Keeps what was simulated when a step began, or goes back to it.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
-            snapshot.Keep(ref _rod);
-            snapshot.Keep(ref _whole);
-            snapshot.Keep(ref _leads);
-            for (int i = 0; i < _active.Length; i++)
+            int first = snapshot.Serialize(Rod.Joints.First);
+            bool isOther = first != Rod.Joints.First;
+            for (int i = 1; i < _drives.Length; i++)
             {
-                snapshot.Serialize(ref _active[i]);
+                double lead = _leads[i];
                 snapshot.Serialize(ref _nodes.Beyond[i]);
+                snapshot.Serialize(ref _leads[i]);
+                isOther |= lead != _leads[i] || _nodes.Beyond[i] != Rod.Joints.BeyondOf(i);
             }
+            snapshot.Serialize(ref _sheathed);
             snapshot.Serialize(ref _frameTurn);
+            if (isOther && !snapshot.IsWritten)
+            {
+                Lay(first, Dynamics.Time);
+            }
             HoldFrame(Dynamics.Shape);
             Whole.SerializeStep(snapshot);
+            SerializeAxial(snapshot);
         }
 
-        private CoaxialRod RodAt(double time, int first)
+        private void SerializeAxial(Snapshot snapshot)
         {
-            _leads = _hubs.LeadsAt(time);
-            return _setup.Rod(_nodes.Beyond, _leads, first, _hubs, time);
+            Rod.Axial.Serialize(snapshot);
+            if (!snapshot.IsWritten)
+            {
+                Rod.SetLengths();
+            }
         }
 
-        private MaterialScene SceneOf(RodShape shape)
+        private RodShape CreateShape()
         {
-            return new MaterialScene(_setup.Catheter, Rod, shape, _drives[0], _hubs.Inner, _setup.Wire.Schedule.Loads);
+            return new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount, Rod.Joints.Capacity);
         }
 
         // An instrument alone winds up against its frame, which does not turn with the hub.
@@ -222,96 +244,93 @@ namespace Guidewire.Core
             }
         }
 
-        private bool IsAsBuilt()
-        {
-            for (int i = 1; i < _active.Length; i++)
-            {
-                if (_nodes.Beyond[i] != Rod.Joints.BeyondOf(i) || Rod.Joints.ActiveCountOf(i) != _active[i])
-                {
-                    return false;
-                }
-            }
-            return true;
-        }
-
-        // From where a chain is, this one or that of other instruments.
-        private void Rebuild(CoaxialChain from, int first, bool[]? isOther = null, double shift = 0.0)
-        {
-            RodDynamics was = from.Dynamics;
-            double time = was.Time;
-            RodShape oldShape = was.Shape;
-            RodTerms former = was.Terms;
-            CoaxialRod old = from.Rod;
-            MonitoredRod before = from.Whole;
-            _rod = RodAt(time, first);
-            var change = new CoaxialChange(old.Joints, Rod.Joints, isOther, shift);
-            MaterialScene scene = SceneOf(change.Take(oldShape));
-            double[] rates = was.TwistRates;
-            change.TakeMotion(oldShape, was.Velocities, was.Spins, rates, scene);
-            double turn = was.ProximalTurn;
-            if (_isAlone)
-            {
-                _wire.TakeForces(former, oldShape);
-                turn = change.Enter(oldShape, scene, _setup.Axis, turn + former.Bending.TurnOf(oldShape, 0).Z,
-                    _wire.Thrust, _wire.Torque);
-                _frameTurn = turn;
-                HoldFrame(scene.Shape);
-            }
-            RodTerms terms = _setup.Terms(scene);
-            Start(scene, terms, time, turn);
-            for (int i = 1; i < _drives.Length; i++)
-            {
-                for (int j = 0; j < Rod.Joints.ActiveCountOf(i); j++)
-                {
-                    Dynamics.TwistRates[(i - 1) * Rod.Joints.ElementCount + j] = change.RateOf(oldShape, rates, j, i);
-                }
-            }
-            Whole.Contacts?.Take(before.Contacts!, Rod.Rod.ElementCount + 1);
-            if (former.Walls()?.Friction != null)
-            {
-                terms.Walls()!.Friction?.Anchors.Take(former.Walls()!.Friction!.Anchors, change.Node);
-            }
-            if (former.Walls()?.Barrier.Lag != null)
-            {
-                terms.Walls()!.Barrier.Lag?.Take(former.Walls()!.Barrier.Lag!, change.Node);
-            }
-            if (_isAlone)
-            {
-                TakeHub(former, oldShape, change.Entered);
-            }
-            TakeLoads();
-            var counts = new Snapshot();
-            before.SerializeCounts(counts);
-            Whole.SerializeCounts(counts.ToRead());
-        }
-
-        // What the hub and the walls were before elements came in or went.
-        private void TakeHub(RodTerms former, RodShape oldShape, int entered)
-        {
-            WallTerms before = former.Walls()!;
-            WallTerms walls = Dynamics.Terms.Walls()!;
-            walls.Spring.ReleaseForce = before.Spring.ReleaseForce;   // the hub's force stays within its limit
-            walls.Barrier.TakeNeighbours(before.Barrier, entered);
-            // An element that leaves may have another force than the springs that take its place.
-            Whole.Contacts!.DriveShortfall -= _drives[0].AxialProgress(before.Spring.HeldPosition(oldShape),
-                walls.Spring.HeldPosition(Dynamics.Shape)) / _setup.Wire.Metres;
-        }
-
-        private void Start(MaterialScene scene, RodTerms terms, double time, double turn)
+        private void SetActive()
         {
             for (int i = 1; i < _active.Length; i++)
             {
                 _active[i] = Rod.Joints.ActiveCountOf(i);
             }
-            RodDynamics dynamics = _setup.Dynamics(scene, terms);
-            dynamics.ResumeAt(time, turn);
-            terms.SetTime(scene.Schedule, time);
-            if (terms.Walls() != null)
+        }
+
+        // Whether other elements are to be there than are.
+        private bool HasOthers()
+        {
+            bool hasOthers = false;
+            for (int i = 1; i < _active.Length; i++)
             {
-                terms.Walls()!.Spring.Axis = _setup.Axis;
+                hasOthers |= _nodes.Beyond[i] != Rod.Joints.BeyondOf(i) || Rod.Joints.ActiveCountOf(i) != _active[i];
             }
-            _whole = new MonitoredRod(scene, dynamics, _method, _report,
-                terms.Walls() == null ? null : new ContactRecord(scene.Shape.X.Length));
+            return hasOthers;
+        }
+
+        // From where a chain is, this one or that of other instruments.
+        private void Remesh(CoaxialChain from, int first, bool[]? isOther = null, double shift = 0.0)
+        {
+            RodDynamics was = from.Dynamics;
+            RodTerms former = was.Terms;
+            double time = was.Time;
+            double turn = was.ProximalTurn;
+            Vector3d held = default;
+            if (_isAlone)
+            {
+                _wire.TakeForces(former, was.Shape);
+                turn += former.Bending.TurnOf(was.Shape, 0).Z;
+                held = former.Walls()!.Spring.HeldPosition(was.Shape);
+            }
+            CoaxialJoints joints = from.Rod.Joints;
+            RodMotion motion = was.Motion;
+            if (from == this)
+            {
+                _oldJoints.CopyFrom(joints);
+                _oldMotion.CopyFrom(motion);
+                (joints, motion) = (_oldJoints, _oldMotion);
+            }
+            _hubs.SetLeads(_leads, time);
+            _sheathed = _hubs.SheathedAt(time);
+            Rod.Remesh(_nodes.Beyond, _leads, _sheathed, first);
+            _change.Begin(joints, isOther, shift);
+            _change.Take(motion, Dynamics.Motion);
+            if (_isAlone)
+            {
+                _frameTurn = _change.Enter(motion.Shape, Rod.Rod, Dynamics.Motion, _setup.Axis, turn, _wire.Thrust,
+                    _wire.Torque);
+                turn = _frameTurn;
+            }
+            Begin(time, turn, former.Walls(), _isAlone ? _change.Entered : (int?)null);
+            if (_isAlone)
+            {
+                // An element that leaves may have another force than the springs that take its place.
+                Whole.Contacts!.DriveShortfall -= _drives[0].AxialProgress(held,
+                    Dynamics.Terms.Walls()!.Spring.HeldPosition(Dynamics.Shape)) / _setup.Wire.Metres;
+            }
+            TakeLoads();
+        }
+
+        // With the nodes that were set, on the axis until their own state is read.
+        private void Lay(int first, double time)
+        {
+            Rod.Remesh(_nodes.Beyond, _leads, _sheathed, first);
+            Dynamics.Shape.ElementCount = Rod.Joints.ElementCount;
+            Dynamics.Shape.SetStraight(_hubs.Outer.PositionAt(time), _hubs.Outer.Frame, Rod.Joints.Stations);
+            _change.Forget();
+            Begin(time, _frameTurn, Dynamics.Terms.Walls(), null);
+        }
+
+        private void Begin(double time, double turn, WallTerms? former, int? entered)
+        {
+            SetActive();
+            HoldFrame(Dynamics.Shape);
+            RodTerms terms = Dynamics.Terms;
+            _setup.Remesh(_scene, terms);
+            if (former != null)
+            {
+                terms.Walls()!.Barrier.FollowElements(entered);
+                terms.Walls()!.Take(former, _change.Node, Rod.Joints.ElementCount);
+            }
+            Dynamics.Remesh();
+            Dynamics.ResumeAt(time, turn);
+            terms.SetTime(Whole.Schedule, time);
+            Whole.Remesh();
         }
     }
 }

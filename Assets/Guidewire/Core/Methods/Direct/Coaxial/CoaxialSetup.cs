@@ -100,10 +100,10 @@ namespace Guidewire.Core
         /// <param name="beyond">Nodes of each beyond the tips around it.</param>
         /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
         /// <param name="first">Elements of the outermost one that are left out.</param>
-        /// <param name="time">s.</param>
-        public CoaxialRod Rod(int[] beyond, double[] leads, int first, CoaxialHubs hubs, double time)
+        /// <param name="sheathed">Length in the sheath, m.</param>
+        public CoaxialRod Rod(int[] beyond, double[] leads, int first, CoaxialHubs hubs, double sheathed)
         {
-            var rod = new CoaxialRod(Instruments, beyond, leads, hubs.SheathedAt(time), first)
+            var rod = new CoaxialRod(Instruments, beyond, leads, sheathed, first)
             {
                 Sheath = Sheath,
                 Hubs = hubs,
@@ -182,10 +182,11 @@ namespace Guidewire.Core
         public void CopyStart(MaterialScene scene, int first)
         {
             RodShape shape = scene.Shape;
-            Array.Copy(Wire.Shape.X, first, shape.X, 0, shape.X.Length);
-            Array.Copy(Wire.Shape.Q, first, shape.Q, 0, shape.Q.Length);
-            Array.Copy(Wire.Velocities, first, scene.Velocities, 0, shape.X.Length);
-            Array.Copy(Wire.Spins, first, scene.Spins, 0, shape.Q.Length);
+            int n = shape.ElementCount;
+            Array.Copy(Wire.Shape.X, first, shape.X, 0, n + 1);
+            Array.Copy(Wire.Shape.Q, first, shape.Q, 0, n);
+            Array.Copy(Wire.Velocities, first, scene.Velocities, 0, n + 1);
+            Array.Copy(Wire.Spins, first, scene.Spins, 0, n);
             shape.DistalFrame = Wire.Shape.DistalFrame;
         }
 
@@ -244,15 +245,34 @@ namespace Guidewire.Core
         /// <summary>Gives the energies and loads of all, which follow their hubs.</summary>
         public RodTerms Terms(MaterialScene scene)
         {
-            CoaxialJoints joints = scene.Supports.Coaxial!.Joints;
-            SupportSpring hub = new SupportSpring(joints.First > 0 ? Catheter.Rod : scene.Rod, _limit)
-                .InSeries(joints.LeadStretchOf(0), Axis, joints.Stations[0]);
+            var hub = new SupportSpring(scene.Rod, _limit) { Axis = Axis };
+            Hold(scene, hub);
             WallTerms? walls = Wire.Walls.Length == 0 ? null
                 : DirectSetup.WallTermsOf(_parameters, scene, _barrier, hub);
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             terms.CoaxialLoads = Scenes.Length == 1 ? null : new CoaxialLoads(scene.Supports.Coaxial!, Instruments,
                 Array.ConvertAll(Scenes, one => one.Schedule.Loads));
             return terms;
+        }
+
+        /// <summary>The terms of a scene whose elements are others, as they are made.</summary>
+        public void Remesh(MaterialScene scene, RodTerms terms)
+        {
+            terms.Remesh();
+            WallTerms? walls = terms.Walls();
+            if (walls != null)
+            {
+                Hold(scene, walls.Spring);
+                walls.Friction?.Remesh(scene.Rod.ElementCount);
+                DirectSetup.SetFriction(_parameters, scene, walls.Friction);
+            }
+        }
+
+        // The hub's spring, in series with what is before the chain.
+        private void Hold(MaterialScene scene, SupportSpring hub)
+        {
+            CoaxialJoints joints = scene.Supports.Coaxial!.Joints;
+            hub.Hold(joints.First > 0 ? Catheter.Rod : scene.Rod, joints.LeadStretchOf(0), joints.Stations[0]);
         }
 
         /// <summary>What the run may take.</summary>
@@ -375,7 +395,7 @@ namespace Guidewire.Core
         private string? FindProblemBeyondSheath(SheathEnd sheath)
         {
             Vector3d[] x = Catheter.Shape.X;
-            int inside = sheath.NodesInside(x);
+            int inside = sheath.NodesInside(Catheter.Shape);
             if (inside == 0)
             {
                 return Text(CatheterName + " has to start with its hub in the sheath: it is {0:G4} m beyond the exit",
@@ -393,7 +413,7 @@ namespace Guidewire.Core
             for (int i = 0; i < Scenes.Length - 1 && problem == null; i++)
             {
                 x = Scenes[i].Shape.X;
-                inside = sheath.NodesInside(x);
+                inside = sheath.NodesInside(Scenes[i].Shape);
                 problem = inside == x.Length ? null : MaterialStart.FindProblemFrom(Scenes[i], inside - 1,
                     (1.0 / Wire.Metres) * sheath.Exit, "catheters[" + i + "]");
             }

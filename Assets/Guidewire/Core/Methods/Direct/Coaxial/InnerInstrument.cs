@@ -121,10 +121,11 @@ namespace Guidewire.Core
         private void TakeAlone(RodDynamics dynamics, int first)
         {
             RodShape shape = dynamics.Shape;
-            Array.Copy(shape.X, 0, Shape.X, first, shape.X.Length);
-            Array.Copy(shape.Q, 0, Shape.Q, first, shape.Q.Length);
-            Array.Copy(dynamics.Velocities, 0, Velocities, first, shape.X.Length);
-            Array.Copy(dynamics.Spins, 0, Spins, first, shape.Q.Length);
+            int n = shape.ElementCount;
+            Array.Copy(shape.X, 0, Shape.X, first, n + 1);
+            Array.Copy(shape.Q, 0, Shape.Q, first, n);
+            Array.Copy(dynamics.Velocities, 0, Velocities, first, n + 1);
+            Array.Copy(dynamics.Spins, 0, Spins, first, n);
             TakeForces(dynamics.Terms, shape);
             for (int j = first - 1; j >= 0; j--)
             {

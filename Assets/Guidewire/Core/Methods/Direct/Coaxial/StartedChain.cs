@@ -29,7 +29,7 @@ namespace Guidewire.Core
         public void Take(MaterialScene scene)
         {
             RodShape shape = scene.Shape;
-            for (int k = 0; k < shape.X.Length; k++)
+            for (int k = 0; k <= shape.ElementCount; k++)
             {
                 int carrier = CarrierAt(k);
                 int own = NodeOf(carrier, k);

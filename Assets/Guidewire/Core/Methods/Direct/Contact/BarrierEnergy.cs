@@ -25,14 +25,16 @@ namespace Guidewire.Core
         private readonly ContactShape[] _walls;
         private readonly WallLaw[] _laws;         // by wall
         private readonly double _units;           // per metre
+        private readonly MaterialRod _rod;
         private readonly double[] _elementRadius; // m
+        private readonly double[] _range;         // by element, units
         private readonly Barrier _barrier;
         private readonly NeighbourList _near;
         private readonly SheathedNodes _nodes;
         private int _inside;                      // nodes in the sheath in the current shape
         private readonly Vector3d[] _x;           // of the current shape, units
         private readonly Vector3d[] _to;          // where its nodes move to, units
-        private readonly double _maxGap;         // the least range of all barriers, m
+        private double _maxGap;                   // the least range of all barriers, m
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
         private readonly GapMotion _motion;
@@ -55,30 +57,57 @@ namespace Guidewire.Core
         public BarrierEnergy(MaterialRod rod, ContactShape[] walls, double metresPerUnit, in Barrier barrier,
             SheathEnd? sheath = null)
         {
-            int n = rod.ElementCount;
+            int n = rod.Capacity;
+            _rod = rod;
             _units = 1.0 / metresPerUnit;
             _elementRadius = rod.Radius;
             _barrier = barrier;
             _laws = WallLaw.Of(rod, walls, _units, barrier);
-            _maxGap = WallLaw.MinDistanceOf(_laws);
             walls = Array.ConvertAll(_laws, law => law.Wall);
             _walls = walls;
             _nodes = new SheathedNodes(sheath, walls, metresPerUnit);
             _x = new Vector3d[n + 1];
             _to = new Vector3d[n + 1];
-            var range = new double[n];
-            Array.ForEach(_laws, law => law.AddRanges(_units, range));
+            _range = new double[n];
             // Lists of features of points grow with the square of the skin, all others hardly grow.
             double skin = Array.Exists(walls, wall => wall.IsSurface)
-                ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[n - 1])
-                : Math.Max(LongSkin * barrier.Distance, rod.Radius[n - 1]);
-            _near = new NeighbourList(walls, range, _units * skin);
+                ? Math.Max(barrier.Distance, SkinInMesh * rod.Radius[rod.ElementCount - 1])
+                : Math.Max(LongSkin * barrier.Distance, rod.Radius[rod.ElementCount - 1]);
+            _near = new NeighbourList(walls, _range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
-            _motion = new GapMotion(_laws, _near, (_x, _to), (_nodeGap, _edgeGap), _units);
+            _motion = new GapMotion(rod, _laws, _near, (_x, _to), (_nodeGap, _edgeGap), _units);
             _sums = new ContactSums(n, walls.Length);
             _resultant = new Vector3d[walls.Length];
-            _lag = WallLag.Of(_laws, n + 1);
+            _lag = WallLag.Of(_laws, rod);
+            Remesh();
+            FollowElements(null);
+        }
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            _near.KeepRanges();
+            Array.Clear(_range, 0, _range.Length);
+            _maxGap = double.PositiveInfinity;
+            for (int w = 0; w < _laws.Length; w++)
+            {
+                _laws[w].Remesh();
+                _laws[w].AddRanges(_units, _range);
+                _walls[w] = _laws[w].Wall;
+                _maxGap = Math.Min(_maxGap, _laws[w].MinDistance);
+            }
+            _nodes.Remesh();
+            _sums.Remesh(_rod.ElementCount);
+            (_inside, _minGap, _isKnown, SeesBehind) = (0, 0.0, false, false);
+        }
+
+        /// <summary>Follows the elements of a rod whose barriers are set.</summary>
+        /// <param name="entered">Of those that came in before the first one, where all others are as they were; null:
+        /// what is near is looked for anew.</param>
+        public void FollowElements(int? entered)
+        {
+            _near.Remesh(_rod.ElementCount, entered);
         }
 
         /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
@@ -204,7 +233,7 @@ namespace Guidewire.Core
             ref GradientMeasures measured)
         {
             // A shape is queried piece by piece from its first node on: each piece needs to compare its own nodes.
-            Update(shape, from, Math.Min(to, _x.Length));
+            Update(shape, from, Math.Min(to, _rod.ElementCount + 1));
             _sums.AddGradient(gradient, from, to, ref measured);
         }
 
@@ -247,28 +276,22 @@ namespace Guidewire.Core
             return _near;
         }
 
-        /// <summary>Takes the neighbours of another rod, see <see cref="NeighbourList.TakeOver"/>.</summary>
-        public void TakeNeighbours(BarrierEnergy other, int shift)
-        {
-            _near.TakeOver(other._near, shift);
-        }
-
         /// <summary>Gives the gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
         /// distance.</summary>
         public double NodeGap(int w, int i)
         {
-            return _nodeGap[w * _x.Length + i];
+            return _nodeGap[w * (_rod.ElementCount + 1) + i];
         }
 
         /// <summary>Gives the same between the interior of element j and convex edges of the wall.</summary>
         public double EdgeGap(int w, int j)
         {
-            return _edgeGap[w * _elementRadius.Length + j];
+            return _edgeGap[w * _rod.ElementCount + j];
         }
 
         private void Update(RodShape shape)
         {
-            Update(shape, 0, _x.Length);
+            Update(shape, 0, _rod.ElementCount + 1);
         }
 
         // Evaluates the shape, unless these of its nodes, without the last, are those of the last call.
@@ -301,7 +324,7 @@ namespace Guidewire.Core
 
         private void AddWall(int w)
         {
-            int n = _elementRadius.Length;
+            int n = _rod.ElementCount;
             for (int j = Math.Max(_inside - 1, 0); j <= n; j++)
             {
                 if (j >= _inside && _near.NodeMayBeInRange(w, j, _x))
@@ -334,7 +357,7 @@ namespace Guidewire.Core
             SeesBehind |= _walls[w].TurnToWire(_contactPoints);
             Vector3d gradient = Vector3d.Zero;
             Symmetric3 second = default;
-            ref double nearest = ref _nodeGap[w * _x.Length + i];
+            ref double nearest = ref _nodeGap[w * (_rod.ElementCount + 1) + i];
             // A spring that lags behind counts all points of the node as one.
             bool lags = _lag != null && _lag.IsOf(w);
             Barrier felt = lags ? new Barrier(barrier.Distance, barrier.Stiffness) : barrier;
@@ -386,7 +409,7 @@ namespace Guidewire.Core
             double radius = _laws[w].RadiusOf(j);
             double range = _laws[w].DistanceOf(j);
             _edgeContacts.Clear();
-            ref double nearest = ref _edgeGap[w * _elementRadius.Length + j];
+            ref double nearest = ref _edgeGap[w * _rod.ElementCount + j];
             _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + range),
                 _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
             int first = _sums.Contacts.Count;

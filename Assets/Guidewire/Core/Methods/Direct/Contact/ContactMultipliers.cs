@@ -15,7 +15,7 @@ namespace Guidewire.Core
     /// at the least of their gaps.</remarks>
     internal sealed class ContactMultipliers
     {
-        private readonly int _nodes;
+        private int _nodes;
         private readonly StructList<Contact> _contacts = new StructList<Contact>(64);    // of the current shape
         private readonly double[] _estimate;      // N, by wall and node, then element; NaN where there is none
         private readonly StructList<int> _estimated = new StructList<int>(64);    // where there is one
@@ -31,6 +31,14 @@ namespace Guidewire.Core
             _own = new Symmetric3[_nodes];
             _coupling = new Symmetric3[elementCount];
             Array.Fill(_estimate, double.NaN);
+        }
+
+        /// <summary>The wire has so many elements, at most those it was made for, and touches nothing.</summary>
+        public void Remesh(int elementCount)
+        {
+            Forget();
+            Clear();
+            _nodes = elementCount + 1;
         }
 
         /// <summary>Whether second derivatives are changed: not where nothing is estimated.</summary>
@@ -78,12 +86,12 @@ namespace Guidewire.Core
         /// <param name="barrier">Of the gap, but for how stiff it is.</param>
         public void AddNode(int w, int i, in Vector3d force, in Symmetric3 stiffness, double gap, in Barrier barrier)
         {
-            bool isLast = i == _coupling.Length;
+            bool isLast = i == _nodes - 1;
             double size = force.Length;
             if (size > 0.0)    // not too small for its square
             {
                 Vector3d normal = (1.0 / size) * force;
-                Add(w * (_nodes + _coupling.Length) + i, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, size, normal,
+                Add(w * (2 * _nodes - 1) + i, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, size, normal,
                     Vector3d.Dot(normal, stiffness.Times(normal)), gap, barrier);
             }
         }
@@ -95,7 +103,7 @@ namespace Guidewire.Core
             double size = force.Length;
             if (size > 0.0)
             {
-                Add(w * (_nodes + _coupling.Length) + _nodes + j, j, s, size, (1.0 / size) * force, stiffness, gap,
+                Add(w * (2 * _nodes - 1) + _nodes + j, j, s, size, (1.0 / size) * force, stiffness, gap,
                     barrier);
             }
         }

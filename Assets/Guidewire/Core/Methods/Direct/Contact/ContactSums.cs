@@ -16,12 +16,14 @@ namespace Guidewire.Core
         private readonly Symmetric3[] _couplingBending;
         private readonly Vector3d[] _couplingTurn;      // the same, t of the part v -> t x v
         private readonly bool[] _isTouched;       // by node: whether these are not 0
+        private int _elements;
 
         /// <summary>Of a wire of this many elements that touches none of so many walls.</summary>
         public ContactSums(int elementCount, int wallCount)
         {
             Multipliers = new ContactMultipliers(elementCount, wallCount);
             int nodes = elementCount + 1;
+            _elements = elementCount;
             _gradient = new Vector3d[nodes];
             _own = new Symmetric3[nodes];
             _coupling = new Symmetric3[elementCount];
@@ -36,6 +38,14 @@ namespace Guidewire.Core
 
         /// <summary>Estimates of their forces.</summary>
         public ContactMultipliers Multipliers { get; }
+
+        /// <summary>The wire has so many elements, at most those it was made for, and touches nothing.</summary>
+        public void Remesh(int elementCount)
+        {
+            Clear();
+            Multipliers.Remesh(elementCount);
+            _elements = elementCount;
+        }
 
         /// <summary>Removes all contacts.</summary>
         public void Clear()
@@ -70,7 +80,7 @@ namespace Guidewire.Core
         public void AddNode(int w, int i, in Vector3d gradient, in Symmetric3 second, in Symmetric3 bending, double gap,
             in Barrier barrier, double displacement)
         {
-            bool isLast = i == _coupling.Length;
+            bool isLast = i == _elements;
             Touch(w, isLast ? i - 1 : i, isLast ? 1.0 : 0.0, -gradient, true, displacement);
             Multipliers.AddNode(w, i, -gradient, second, gap, barrier);
             _gradient[i] += gradient;
@@ -150,7 +160,7 @@ namespace Guidewire.Core
         /// <summary>Adds the first derivatives of nodes from one (inclusive) to another (exclusive).</summary>
         public void AddGradient(RodVector[] gradient, int from, int to, ref GradientMeasures measured)
         {
-            int end = Math.Min(to, _gradient.Length);
+            int end = Math.Min(to, _elements + 1);
             double largest = 0.0;
             for (int i = from; i < end; i++)
             {
@@ -170,7 +180,7 @@ namespace Guidewire.Core
         /// the part proportional to the forces of elements' contacts.</summary>
         public void AddBlocks(RodBlock[] blocks, int from, int to, bool hasBending)
         {
-            int end = Math.Min(to, _gradient.Length);
+            int end = Math.Min(to, _elements + 1);
             bool hasEstimates = Multipliers.HasEstimates;
             for (int i = from; i < end; i++)
             {
@@ -183,7 +193,7 @@ namespace Guidewire.Core
                 a = hasEstimates ? a + Multipliers.OwnOf(i) : a;
                 b.A11 += a.A11; b.A21 += a.A21; b.A22 += a.A22;
                 b.A31 += a.A31; b.A32 += a.A32; b.A33 += a.A33;
-                if (i < _coupling.Length)
+                if (i < _elements)
                 {
                     Symmetric3 d = hasBending ? _coupling[i] + _couplingBending[i] : _coupling[i];
                     d = hasEstimates ? d + Multipliers.CouplingOf(i) : d;

@@ -9,20 +9,23 @@ namespace Guidewire.Core
     /// mesh. A contact that has ended has k = 0.</remarks>
     internal sealed class FrictionAnchors
     {
-        private readonly int _nodes;
         private readonly int _walls;
-        private readonly Anchor[] _anchors;       // of each wall the nodes', then the elements'
+        private int _nodes;
+        private Anchor[] _anchors;                // of each wall the nodes', then the elements'
+        private Anchor[] _spare;                  // for those of a wire whose elements change
 
         /// <summary>Of a wire that touches nothing.</summary>
-        public FrictionAnchors(int wallCount, int elementCount)
+        /// <param name="capacity">The most elements that it will have.</param>
+        public FrictionAnchors(int wallCount, int elementCount, int capacity = 0)
         {
             _walls = wallCount;
             _nodes = elementCount + 1;
-            _anchors = new Anchor[wallCount * (2 * elementCount + 1)];
+            _anchors = new Anchor[wallCount * (2 * Math.Max(elementCount, capacity) + 1)];
+            _spare = new Anchor[_anchors.Length];
         }
 
         /// <summary>Where anchors are kept.</summary>
-        public int Count => _anchors.Length;
+        public int Count => _walls * (2 * _nodes - 1);
 
         /// <summary>What friction has turned into heat so far, J.</summary>
         public double Dissipated { get; set; }
@@ -36,7 +39,7 @@ namespace Guidewire.Core
             get
             {
                 double sum = 0.0;
-                for (int k = 0; k < _anchors.Length; k++)
+                for (int k = 0; k < Count; k++)
                 {
                     sum += _anchors[k].StoredEnergy;
                 }
@@ -51,24 +54,31 @@ namespace Guidewire.Core
             return contact.Wall * (2 * _nodes - 1) + of;
         }
 
-        /// <summary>Takes over the anchors of another wire between the same walls, where nodes have come in or
-        /// gone.</summary>
+        /// <summary>Takes over the anchors of another wire between the same walls or of this one, where nodes have
+        /// come in or gone.</summary>
         /// <param name="node">What each node was in the other one, -1 where it comes in; an element was that which
         /// ended at the same node.</param>
-        public void Take(FrictionAnchors other, int[] node)
+        /// <param name="elementCount">At most those that this is made for.</param>
+        public void Take(FrictionAnchors other, int[] node, int elementCount)
         {
             Dissipated = other.Dissipated;
+            Anchor[] was = other._anchors;
+            int nodes = other._nodes;
+            if (other == this)
+            {
+                (_anchors, _spare) = (_spare, _anchors);
+            }
+            _nodes = elementCount + 1;
             for (int w = 0; w < _walls; w++)
             {
                 int own = w * (2 * _nodes - 1);
-                int others = w * (2 * other._nodes - 1);
+                int others = w * (2 * nodes - 1);
                 for (int i = 0; i < _nodes; i++)
                 {
-                    _anchors[own + i] = node[i] >= 0 ? other._anchors[others + node[i]] : default;
+                    _anchors[own + i] = node[i] >= 0 ? was[others + node[i]] : default;
                     if (i > 0)
                     {
-                        _anchors[own + _nodes + i - 1] = node[i] > 0
-                            ? other._anchors[others + other._nodes + node[i] - 1] : default;
+                        _anchors[own + _nodes + i - 1] = node[i] > 0 ? was[others + nodes + node[i] - 1] : default;
                     }
                 }
             }
@@ -78,7 +88,7 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             Dissipated = snapshot.Serialize(Dissipated);
-            for (int k = 0; k < _anchors.Length; k++)
+            for (int k = 0; k < Count; k++)
             {
                 snapshot.Serialize(ref _anchors[k].Force);
                 snapshot.Serialize(ref _anchors[k].Stiffness);

@@ -25,27 +25,44 @@ namespace Guidewire.Core
         private const double OfRadius = 1e-2;
 
         private readonly BarrierEnergy _barrier;
-        private readonly double _elasticSlip;     // s, m
         private readonly StructList<FrictionContact> _contacts = new StructList<FrictionContact>(64);
         private readonly double[] _limitSum;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
         private readonly double[] _coefficient;   // of elements with one of their own on all walls; else NaN
+        private int _elements;
 
         /// <summary>Friction at the contacts of a barrier.</summary>
         /// <param name="elasticSlip">s, m.</param>
-        public FrictionEnergy(BarrierEnergy barrier, int elementCount, double elasticSlip)
+        /// <param name="capacity">The most elements that there will be.</param>
+        public FrictionEnergy(BarrierEnergy barrier, int elementCount, double elasticSlip, int capacity = 0)
         {
+            capacity = Math.Max(elementCount, capacity);
+            _elements = elementCount;
             _barrier = barrier;
-            _elasticSlip = elasticSlip;
-            _start = new Vector3d[elementCount + 1];
-            _frames = new Quaterniond[elementCount];
+            ElasticSlip = elasticSlip;
+            _start = new Vector3d[capacity + 1];
+            _frames = new Quaterniond[capacity];
             Array.Fill(_frames, Quaterniond.Identity);
-            _coefficient = new double[elementCount];
+            _coefficient = new double[capacity];
             Array.Fill(_coefficient, double.NaN);
-            Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount);
-            _limitSum = new double[Anchors.Count];
+            Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount, capacity);
+            _limitSum = new double[barrier.Walls.Length * (2 * capacity + 1)];
         }
+
+        /// <summary>The wire has so many elements, at most those it was made for, and touches nothing.</summary>
+        public void Remesh(int elementCount)
+        {
+            _elements = elementCount;
+            Array.Fill(_frames, Quaterniond.Identity);
+            Array.Clear(_start, 0, _start.Length);
+            _contacts.Clear();
+            Array.Clear(_limitSum, 0, _limitSum.Length);
+            Array.Fill(_coefficient, double.NaN);
+        }
+
+        /// <summary>s, m.</summary>
+        public double ElasticSlip { get; set; }
 
         /// <summary>Elements from one up to another are an instrument's with a coefficient of its own on all
         /// walls.</summary>
@@ -60,9 +77,9 @@ namespace Guidewire.Core
         public static double ElasticSlipOf(MaterialRod rod)
         {
             double thinnest = double.PositiveInfinity;
-            foreach (double radius in rod.Radius)
+            for (int j = 0; j < rod.ElementCount; j++)
             {
-                thinnest = Math.Min(thinnest, radius);
+                thinnest = Math.Min(thinnest, rod.Radius[j]);
             }
             return OfRadius * thinnest;
         }
@@ -77,8 +94,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void BeginStep(RodShape shape, double dt)
         {
-            Array.Copy(shape.X, _start, _start.Length);
-            Array.Copy(shape.Q, _frames, _frames.Length);
+            Array.Copy(shape.X, _start, _elements + 1);
+            Array.Copy(shape.Q, _frames, _elements);
         }
 
         /// <summary>Takes over normal forces and normals from a shape.</summary>
@@ -110,7 +127,7 @@ namespace Guidewire.Core
                 ref FrictionContact contact = ref _contacts[k];
                 ref FrictionAnchors.Anchor anchor = ref Anchors[contact.Index];
                 double limitSum = _limitSum[contact.Index];
-                double stiffness = Math.Max(anchor.Stiffness, limitSum / _elasticSlip);
+                double stiffness = Math.Max(anchor.Stiffness, limitSum / ElasticSlip);
                 contact.Stiffness = contact.Limit / limitSum * stiffness;
                 contact.Start = Turned((1.0 / stiffness) * anchor.Force, contact.Normal);
             }
@@ -127,11 +144,11 @@ namespace Guidewire.Core
                 contact.Start = Math.Min(1.0, contact.Limit / (contact.Stiffness * z.Length)) * z;
                 lost += contact.Limit * Math.Max(0.0, z.Length - contact.Start.Length);
             }
-            for (int index = 0; index < _limitSum.Length; index++)
+            for (int index = 0; index < Anchors.Count; index++)
             {
                 ref FrictionAnchors.Anchor anchor = ref Anchors[index];
                 double limitSum = _limitSum[index];
-                double stiffness = limitSum > 0.0 ? Math.Max(anchor.Stiffness, limitSum / _elasticSlip) : 0.0;
+                double stiffness = limitSum > 0.0 ? Math.Max(anchor.Stiffness, limitSum / ElasticSlip) : 0.0;
                 // The energy that a stiffer contact does not store, or one that has ended.
                 lost += stiffness == anchor.Stiffness || anchor.Stiffness == 0.0 ? 0.0
                     : anchor.StoredEnergy * (1.0 - (stiffness > 0.0 ? anchor.Stiffness / stiffness : 0.0));

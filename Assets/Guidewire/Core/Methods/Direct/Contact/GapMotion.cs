@@ -15,10 +15,10 @@ namespace Guidewire.Core
         private readonly double[] _nodeGap;       // by wall and node, m
         private readonly double[] _edgeGap;       // by wall and element, m
         private readonly double _units;           // per metre
-        private readonly int _elements;
+        private readonly MaterialRod _rod;
 
         /// <summary>Of a wire whose places and gaps are kept elsewhere.</summary>
-        public GapMotion(WallLaw[] laws, NeighbourList near, (Vector3d[] Now, Vector3d[] Next) nodes,
+        public GapMotion(MaterialRod rod, WallLaw[] laws, NeighbourList near, (Vector3d[] Now, Vector3d[] Next) nodes,
             (double[] OfNodes, double[] OfElements) gaps, double units)
         {
             _laws = laws;
@@ -26,7 +26,7 @@ namespace Guidewire.Core
             (_x, _to) = nodes;
             (_nodeGap, _edgeGap) = gaps;
             _units = units;
-            _elements = _x.Length - 1;
+            _rod = rod;
         }
 
         /// <summary>Gives the fraction of the motion, 1 or less, on which gaps stay open.</summary>
@@ -48,15 +48,16 @@ namespace Guidewire.Core
         private double MaxStepAt(int w, double fraction)
         {
             WallLaw law = _laws[w];
+            int n = _rod.ElementCount;
             double gapBefore = 0.0;       // of the element before, 0 where it is not tested
             double radiusBefore = 0.0;
             double leftBefore = 0.0;
-            for (int j = 0; j <= _elements; j++)
+            for (int j = 0; j <= n; j++)
             {
                 double gap = 0.0;
                 double radius = 0.0;
                 double left = 0.0;
-                if (j < _elements && IsTested(w, j, fraction, out gap))
+                if (j < n && IsTested(w, j, fraction, out gap))
                 {
                     radius = _units * law.RadiusOf(j);
                     fraction = MaxStepOf(w, j, fraction, radius, ref gap);
@@ -79,7 +80,7 @@ namespace Guidewire.Core
         // known, units.
         private bool IsTested(int w, int j, double fraction, out double gap)
         {
-            int n = _elements;
+            int n = _rod.ElementCount;
             double motion = fraction * Math.Sqrt(
                 Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
@@ -113,7 +114,7 @@ namespace Guidewire.Core
 
         private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap, double left)
         {
-            double distance = _units * (_laws[w].RadiusOfNode(i) + _nodeGap[w * _x.Length + i]);
+            double distance = _units * (_laws[w].RadiusOfNode(i) + _nodeGap[w * (_rod.ElementCount + 1) + i]);
             double clearance = radius + left;
             if (fraction * Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
             {

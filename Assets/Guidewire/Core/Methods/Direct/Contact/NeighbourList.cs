@@ -19,9 +19,11 @@ namespace Guidewire.Core
         private readonly Neighbour[] _element;    // by wall and element
         private readonly Neighbour[] _node;       // by wall and node: features of points, or where last asked for
         private readonly Neighbour[] _elementBefore;    // the queries before the last ones
+        private readonly double[] _formerRange;   // of elements that were
+        private int _count;                       // of elements
         private readonly Neighbour[] _nodeBefore;
         private readonly int[] _hint;             // by wall and element
-        private StructList<WallFeature> _features = new StructList<WallFeature>(1024);
+        private readonly StructList<WallFeature> _features = new StructList<WallFeature>(1024);
         private readonly FeatureCache?[] _caches;  // of nodes, by wall
         private readonly int[] _version;          // of the caches when the nodes were queried
         private int _maxFeatures;
@@ -32,7 +34,7 @@ namespace Guidewire.Core
         /// <param name="skin">The skin: nothing is queried again before it has moved this far.</param>
         public NeighbourList(ContactShape[] walls, double[] range, double skin)
         {
-            int n = range.Length;
+            int n = range.Length;    // room
             _walls = walls;
             _range = range;
             _skin = skin;
@@ -43,11 +45,8 @@ namespace Guidewire.Core
             _caches = Array.ConvertAll(walls, wall => wall.FeatureCacheFor(skin));
             _version = new int[walls.Length];
             _hint = new int[walls.Length * n];
-            Array.Fill(_hint, -1);
-            Forget(_element);
-            Forget(_elementBefore);
-            Forget(_node);
-            Forget(_nodeBefore);
+            _formerRange = new double[n];
+            Remesh(n, null);
         }
 
         /// <summary>Whether the entries are still valid where they were found: another user may have cleared a wall's
@@ -65,48 +64,65 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Takes the queries of another list between the same walls, whose elements are those of this one but
-        /// for some at its start; that list is not to be used any more.</summary>
-        /// <param name="other">No query has been made with this one yet.</param>
-        /// <param name="shift">Index here of what is element 0 there.</param>
-        public void TakeOver(NeighbourList other, int shift)
+        /// <summary>The wire has so many elements, at most those that this is made for, and their ranges are set. The
+        /// queries of those that were there are kept where some came or went at the start.</summary>
+        /// <param name="shift">Index of what was element 0; null: no query is kept.</param>
+        public void Remesh(int count, int? shift)
         {
-            int n = _range.Length;
-            int m = other._range.Length;
-            if (_skin != other._skin)
+            int was = _count;
+            _count = count;
+            if (shift == null)
             {
+                _features.Clear();
+                _maxFeatures = 0;
+                Array.Clear(_version, 0, _version.Length);
+                Array.Fill(_hint, -1);
+                Forget(_element);
+                Forget(_elementBefore);
+                Forget(_node);
+                Forget(_nodeBefore);
                 return;
             }
-            _features = other._features;
-            _maxFeatures = other._maxFeatures;
-            for (int w = 0; w < _walls.Length; w++)
+            // From the end on that nothing is overwritten before it is read.
+            int sense = shift > 0 ? -1 : 1;
+            for (int w = shift > 0 ? _walls.Length - 1 : 0; w >= 0 && w < _walls.Length; w += sense)
             {
-                if (_caches[w] != other._caches[w])
+                for (int j = shift > 0 ? count - 1 : 0; j >= 0 && j < count; j += sense)
                 {
-                    continue;
+                    int from = j - shift.Value;
+                    bool isKept = from >= 0 && _range[j] == _formerRange[from];
+                    int to = w * count + j;
+                    Move(_element, to, isKept ? w * was + from : -1);
+                    Move(_elementBefore, to, isKept ? w * was + from : -1);
+                    _hint[to] = isKept ? _hint[w * was + from] : -1;
                 }
-                _version[w] = other._version[w];
-                for (int j = Math.Max(shift, 0); j < n; j++)
+                for (int i = shift > 0 ? count : 0; i >= 0 && i <= count; i += sense)
                 {
-                    int to = w * n + j;
-                    int from = w * m + j - shift;
-                    if (_range[j] == other._range[j - shift])
-                    {
-                        _element[to] = other._element[from];
-                        _elementBefore[to] = other._elementBefore[from];
-                        _hint[to] = other._hint[from];
-                    }
+                    int from = i - shift.Value;
+                    bool isKept = from >= 0
+                        && RangeOfNode(_range, i, count) == RangeOfNode(_formerRange, from, was);
+                    int to = w * (count + 1) + i;
+                    Move(_node, to, isKept ? w * (was + 1) + from : -1);
+                    Move(_nodeBefore, to, isKept ? w * (was + 1) + from : -1);
                 }
-                for (int i = Math.Max(shift, 0); i <= n; i++)
-                {
-                    int to = w * (n + 1) + i;
-                    int from = w * (m + 1) + i - shift;
-                    if (RangeOfNode(i) == other.RangeOfNode(i - shift))
-                    {
-                        _node[to] = other._node[from];
-                        _nodeBefore[to] = other._nodeBefore[from];
-                    }
-                }
+            }
+        }
+
+        /// <summary>Keeps the ranges, which are about to change.</summary>
+        public void KeepRanges()
+        {
+            Array.Copy(_range, _formerRange, _count);
+        }
+
+        private static void Move(Neighbour[] of, int to, int from)
+        {
+            if (from >= 0)
+            {
+                of[to] = of[from];
+            }
+            else
+            {
+                of[to].Forget();
             }
         }
 
@@ -121,7 +137,7 @@ namespace Guidewire.Core
                 Forget(_elementBefore);
             }
             bool isNew = _features.Count == 0;
-            int n = _range.Length;
+            int n = _count;
             for (int w = 0; w < _walls.Length; w++)
             {
                 FollowNodes(w, x);
@@ -136,7 +152,7 @@ namespace Guidewire.Core
             }
             if (isNew)
             {
-                _maxFeatures = MaxLists * Math.Max(_features.Count, _range.Length);
+                _maxFeatures = MaxLists * Math.Max(_features.Count, _count);
             }
         }
 
@@ -144,7 +160,7 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool IsNear(int w, int j)
         {
-            return _element[w * _range.Length + j].IsNear
+            return _element[w * _count + j].IsNear
                 || (_caches[w] != null && (IsNodeNear(w, j) || IsNodeNear(w, j + 1)));
         }
 
@@ -152,7 +168,7 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool IsNodeNear(int w, int i)
         {
-            int n = _range.Length;
+            int n = _count;
             return _caches[w] != null ? _node[w * (n + 1) + i].IsNear
                 : (i < n && _element[w * n + i].IsNear) || (i > 0 && _element[w * n + i - 1].IsNear);
         }
@@ -168,7 +184,7 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool MayBeInRange(int w, int j, Vector3d[] x, double range)
         {
-            int n = _range.Length;
+            int n = _count;
             return _element[w * n + j].MayBeInRange(x[j], x[j + 1], range)
                 || (_caches[w] != null && (_node[w * (n + 1) + j].FirstMayBeInRange(x[j], range)
                     || _node[w * (n + 1) + j + 1].FirstMayBeInRange(x[j + 1], range)));
@@ -177,7 +193,7 @@ namespace Guidewire.Core
         /// <summary>The same for node i, by what is known of it or of an element beside it.</summary>
         public bool NodeMayBeInRange(int w, int i, Vector3d[] x)
         {
-            int n = _range.Length;
+            int n = _count;
             if (!IsNodeNear(w, i))
             {
                 return false;
@@ -193,7 +209,7 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public bool NodeMayBeInRange(int w, int i, in Vector3d x, double range)
         {
-            return _node[w * (_range.Length + 1) + i].FirstMayBeInRange(x, range);
+            return _node[w * (_count + 1) + i].FirstMayBeInRange(x, range);
         }
 
         /// <summary>Takes note that wall w is not nearer to a position of node i than this, units.</summary>
@@ -201,7 +217,7 @@ namespace Guidewire.Core
         {
             if (_caches[w] == null)
             {
-                ref Neighbour node = ref _node[w * (_range.Length + 1) + i];
+                ref Neighbour node = ref _node[w * (_count + 1) + i];
                 node.Begin(x, x, 0.0, 0);
                 node.End(SureOfNode * distance, distance, 0);
             }
@@ -210,14 +226,14 @@ namespace Guidewire.Core
         /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>
         public FeatureRange FeaturesOf(int w, int j, in Vector3d a, in Vector3d b)
         {
-            return _element[w * _range.Length + j].Features(_features, a, b);
+            return _element[w * _count + j].Features(_features, a, b);
         }
 
         /// <summary>The same about node i; where the wall has none of points, those of an element beside it that is
         /// near.</summary>
         public FeatureRange FeaturesOfNode(int w, int i, in Vector3d x)
         {
-            int n = _range.Length;
+            int n = _count;
             if (_caches[w] != null)
             {
                 return _node[w * (n + 1) + i].Features(_caches[w]!.Features, x, x);
@@ -233,20 +249,20 @@ namespace Guidewire.Core
         {
             Vector3d a = Vector3d.Lerp(x[j], to[j], fraction);
             Vector3d b = Vector3d.Lerp(x[j + 1], to[j + 1], fraction);
-            return _element[w * _range.Length + j].Covers(a, b) ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
+            return _element[w * _count + j].Covers(a, b) ? FeaturesOf(w, j, x[j], x[j + 1]) : default;
         }
 
         /// <summary>The same for node i, where the wall has features of points.</summary>
         public FeatureRange FeaturesAlongNode(int w, int i, Vector3d[] x, Vector3d[] to, double fraction)
         {
             Vector3d end = Vector3d.Lerp(x[i], to[i], fraction);
-            return _node[w * (_range.Length + 1) + i].Covers(end, end) ? FeaturesOfNode(w, i, x[i]) : default;
+            return _node[w * (_count + 1) + i].Covers(end, end) ? FeaturesOfNode(w, i, x[i]) : default;
         }
 
         /// <summary>Where element j was nearest to wall w, for <see cref="ContactShape.Nearest"/>.</summary>
         public ref int HintOf(int w, int j)
         {
-            return ref _hint[w * _range.Length + j];
+            return ref _hint[w * _count + j];
         }
 
         /// <summary>Lower bound of the distance of element j from all walls.</summary>
@@ -264,7 +280,7 @@ namespace Guidewire.Core
         /// <summary>Gives the same from wall w.</summary>
         public double ClearanceOf(int w, Vector3d[] x, int j)
         {
-            int n = _range.Length;
+            int n = _count;
             double clearance = _element[w * n + j].Clearance(x[j], x[j + 1]);
             return _caches[w] == null ? clearance
                 : Math.Min(clearance, Math.Min(_node[w * (n + 1) + j].Clearance(x[j], x[j]),
@@ -278,7 +294,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            int n = _range.Length;
+            int n = _count;
             cells.Trim();
             bool isForgotten = cells.Version != _version[w];
             _version[w] = cells.Version;
@@ -300,7 +316,12 @@ namespace Guidewire.Core
 
         private double RangeOfNode(int i)
         {
-            return Math.Max(_range[Math.Max(i - 1, 0)], _range[Math.Min(i, _range.Length - 1)]);
+            return RangeOfNode(_range, i, _count);
+        }
+
+        private static double RangeOfNode(double[] range, int i, int count)
+        {
+            return Math.Max(range[Math.Max(i - 1, 0)], range[Math.Min(i, count - 1)]);
         }
 
         // Whether one of two queries is valid between a and b: it is then the last; else the older one is, to be made
@@ -330,7 +351,7 @@ namespace Guidewire.Core
             double range = _skin + _range[j];
             // Predicted shapes may cross a wall, and then some part of the element is at it.
             double distance = SureOfQuick * Math.Max(0.0, _walls[w].FindFeatures(
-                x[j], x[j + 1], range / SureOfQuick, _skin, ref _hint[w * _range.Length + j], _features));
+                x[j], x[j + 1], range / SureOfQuick, _skin, ref _hint[w * _count + j], _features));
             element.End(distance, range, _features.Count);
         }
     }

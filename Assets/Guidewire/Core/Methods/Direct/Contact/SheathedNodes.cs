@@ -14,8 +14,9 @@ namespace Guidewire.Core
 
         private readonly SheathEnd? _sheath;
         private readonly ContactShape[] _walls;
+        private readonly double _metres;     // per unit of the walls
         private readonly double _units;      // per metre
-        private readonly double _clearance;  // of the exit, m
+        private double _clearance;           // of the exit, m
 
         /// <param name="sheath">Null: no node is in one.</param>
         /// <param name="metres">Of a unit of the walls.</param>
@@ -23,8 +24,16 @@ namespace Guidewire.Core
         {
             _sheath = sheath;
             _walls = walls;
+            _metres = metres;
             _units = 1.0 / metres;
-            _clearance = sheath == null ? 0.0 : metres * ClearanceAt(_units * sheath.Exit);
+            Remesh();
+        }
+
+        /// <summary>The wire has other elements, and walls may be where they were not.</summary>
+        public void Remesh()
+        {
+            _clearance = _sheath == null ? 0.0 : _metres * ClearanceAt(_units * _sheath.Exit);
+            (LeavesLumen, LeavesSheath, HasBuckled) = (false, false, false);
         }
 
         /// <summary>Whether the last motion takes a node in the sheath farther sideways than the lumen is wide at the
@@ -40,7 +49,7 @@ namespace Guidewire.Core
         /// <summary>How many nodes of a shape, from its first on, are in the sheath.</summary>
         public int Inside(RodShape shape)
         {
-            return _sheath == null ? 0 : _sheath.NodesInside(shape.X);
+            return _sheath == null ? 0 : _sheath.NodesInside(shape);
         }
 
         /// <summary>A node as walls meet it, units.</summary>
@@ -56,7 +65,7 @@ namespace Guidewire.Core
         public int Set(RodShape shape, Vector3d[] x)
         {
             int inside = Inside(shape);
-            for (int i = 0; i < x.Length; i++)
+            for (int i = 0; i <= shape.ElementCount; i++)
             {
                 x[i] = Place(shape.X[i], i < inside);
             }
@@ -75,7 +84,7 @@ namespace Guidewire.Core
             bool isInside = _sheath != null;
             LeavesLumen = false;
             LeavesSheath = false;
-            for (int i = 0; i < from.Length; i++)
+            for (int i = 0; i <= shape.ElementCount; i++)
             {
                 RodVector d = direction[i];
                 Vector3d move = step * new Vector3d(d.X1, d.X2, d.X3);

@@ -11,27 +11,27 @@ namespace Guidewire.Core
     internal sealed class SupportSpring : EnergyTerm
     {
         private const double OverAxialSpring = 10.0;
-        private readonly double _stiffness;  // N/m
-        private readonly double _axial;      // N/m
         private readonly double _limit;      // N
-        private readonly double _before;     // from the hub to node 0, at rest, m
+        private double _stiffness;           // N/m
+        private double _axial;               // N/m
+        private double _before;              // from the hub to node 0, at rest, m
 
         /// <summary>Makes the spring of a rod, without force.</summary>
         /// <param name="limit">The axial force at which the hub slips, N; 0: never.</param>
         public SupportSpring(MaterialRod rod, double limit)
         {
-            _stiffness = OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
-            _axial = _stiffness;
             _limit = limit > 0.0 ? limit : double.PositiveInfinity;
+            Hold(rod, 0.0, 0.0);
         }
 
-        private SupportSpring(SupportSpring hub, double compliance, in Vector3d axis, double length)
+        /// <summary>Holds a rod, in series with a length of wire along an axis.</summary>
+        /// <param name="compliance">m/N.</param>
+        /// <param name="length">From the hub to node 0, at rest, m.</param>
+        public void Hold(MaterialRod rod, double compliance, double length)
         {
-            _stiffness = hub._stiffness;
-            _axial = compliance > 0.0 ? 1.0 / (1.0 / hub._axial + compliance) : hub._axial;
-            _limit = hub._limit;
+            _stiffness = OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
+            _axial = compliance > 0.0 ? 1.0 / (1.0 / _stiffness + compliance) : _stiffness;
             _before = length;
-            Axis = axis;
         }
 
         /// <summary>Whether the hub has a force at which it slips.</summary>
@@ -54,14 +54,6 @@ namespace Guidewire.Core
             double less = _axial == _stiffness ? 0.0 : (_stiffness - _axial) * Vector3d.Dot(behind, Axis);
             less += Excess(shape);
             return less == 0.0 ? force : force - less * Axis;
-        }
-
-        /// <summary>Gives the spring in series with a length of wire along an axis.</summary>
-        /// <param name="compliance">m/N.</param>
-        /// <param name="length">From the hub to node 0, at rest, m.</param>
-        public SupportSpring InSeries(double compliance, in Vector3d axis, double length)
-        {
-            return new SupportSpring(this, compliance, axis, length);
         }
 
         /// <summary>Distance of node 0 behind its support on a spring that is soft along the axis, m; 0 on a stiff

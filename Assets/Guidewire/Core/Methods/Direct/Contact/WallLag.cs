@@ -16,23 +16,25 @@ namespace Guidewire.Core
     internal sealed class WallLag
     {
         private readonly WallLaw[] _laws;
-        private readonly int _nodes;
+        private int _nodes;
         private readonly double[] _time;          // tau by wall, s
-        private readonly double[] _behind;        // g by wall and node, m
+        private double[] _behind;                 // g by wall and node, m
         private readonly double[] _from;          // v, m
         private readonly double[] _start;         // u when the step began, m
         private readonly double[] _now;           // u in the shape evaluated last as if at once, m
+        private double[] _spare;                  // for those of a wire whose elements change
         private bool _isAtOnce;
         private double _stage;                    // h, s; 0: walls give way at once
         private double _step;                     // s
 
-        private WallLag(WallLaw[] laws, int nodes, double[] time)
+        private WallLag(WallLaw[] laws, MaterialRod rod, double[] time)
         {
             _laws = laws;
-            _nodes = nodes;
+            _nodes = rod.ElementCount + 1;
             _time = time;
-            Reference = new RodShape(nodes - 1);
-            _behind = new double[time.Length * nodes];
+            Reference = new RodShape(rod.ElementCount, 0, rod.Capacity);
+            _behind = new double[time.Length * (rod.Capacity + 1)];
+            _spare = new double[_behind.Length];
             _from = new double[_behind.Length];
             _start = new double[_behind.Length];
             _now = new double[_behind.Length];
@@ -45,10 +47,10 @@ namespace Guidewire.Core
         public double Dissipated { get; private set; }
 
         /// <summary>That of walls; null where all give way at once.</summary>
-        public static WallLag? Of(WallLaw[] laws, int nodes)
+        public static WallLag? Of(WallLaw[] laws, MaterialRod rod)
         {
             double[] time = Array.ConvertAll(laws, law => law.Wall.Softness?.RelaxationTime ?? 0.0);
-            return Array.Exists(time, tau => tau > 0.0) ? new WallLag(laws, nodes, time) : null;
+            return Array.Exists(time, tau => tau > 0.0) ? new WallLag(laws, rod, time) : null;
         }
 
         /// <summary>Says whether wall w follows with a delay.</summary>
@@ -60,7 +62,7 @@ namespace Guidewire.Core
         /// <summary>A step of dt, s, begins in the shape evaluated last.</summary>
         public void BeginStep(double dt)
         {
-            Array.Copy(_now, _start, _now.Length);
+            Array.Copy(_now, _start, Count);
             _step = dt;
         }
 
@@ -77,14 +79,14 @@ namespace Guidewire.Core
         /// <summary>The shape evaluated last was the reference.</summary>
         public void TakeReference()
         {
-            Array.Copy(_now, _from, _now.Length);
+            Array.Copy(_now, _from, Count);
         }
 
         /// <summary>A shape is evaluated as if walls gave way at once.</summary>
         public void Begin()
         {
             _isAtOnce = true;
-            Array.Clear(_now, 0, _now.Length);
+            Array.Clear(_now, 0, Count);
         }
 
         /// <summary>It has been.</summary>
@@ -125,7 +127,7 @@ namespace Guidewire.Core
         /// <summary>The step ends in the shape evaluated last.</summary>
         public void EndStep()
         {
-            for (int k = 0; k < _behind.Length; k++)
+            for (int k = 0; k < Count; k++)
             {
                 double time = _time[k / _nodes];
                 double stiffness = _laws[k / _nodes].OfNode(k % _nodes).Spring;
@@ -143,7 +145,7 @@ namespace Guidewire.Core
         public double Stored()
         {
             double sum = 0.0;
-            for (int k = 0; k < _behind.Length; k++)
+            for (int k = 0; k < Count; k++)
             {
                 sum += 0.5 * _laws[k / _nodes].OfNode(k % _nodes).Spring * _behind[k] * (2.0 * _now[k] + _behind[k]);
             }
@@ -152,15 +154,30 @@ namespace Guidewire.Core
 
         /// <summary>Takes over what a wire between the same walls left, see <see cref="FrictionAnchors.Take"/>.
         /// </summary>
-        public void Take(WallLag other, int[] node)
+        public void Take(WallLag other, int[] node, int elementCount)
         {
             Dissipated = other.Dissipated;
-            for (int k = 0; k < _behind.Length; k++)
+            double[] behind = other._behind;
+            int nodes = other._nodes;
+            if (other == this)
+            {
+                (_behind, _spare) = (_spare, _behind);
+            }
+            _nodes = elementCount + 1;
+            Reference.ElementCount = elementCount;
+            (_stage, _step) = (0.0, 0.0);
+            Array.Clear(_from, 0, Count);
+            Array.Clear(_start, 0, Count);
+            Array.Clear(_now, 0, Count);
+            for (int k = 0; k < Count; k++)
             {
                 int was = node[k % _nodes];
-                _behind[k] = was >= 0 ? other._behind[k / _nodes * other._nodes + was] : 0.0;
+                _behind[k] = was >= 0 ? behind[k / _nodes * nodes + was] : 0.0;
             }
         }
+
+        // By wall and node.
+        private int Count => _time.Length * _nodes;
 
         /// <summary>Writes or restores it in a section in which it may be missing, or another wire's.</summary>
         public static void SerializeOptional(WallLag? lag, Snapshot snapshot)
@@ -169,7 +186,7 @@ namespace Guidewire.Core
             {
                 lag?.Serialize(snapshot);
             }
-            else if (lag != null && snapshot.LeftOfSection == 1 + lag._behind.Length)
+            else if (lag != null && snapshot.LeftOfSection == 1 + lag.Count)
             {
                 lag.Serialize(snapshot);
             }
@@ -183,7 +200,7 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             Dissipated = snapshot.Serialize(Dissipated);
-            snapshot.Serialize(_behind);
+            snapshot.Serialize(_behind, Count);
         }
 
         /// <summary>The springs of a node's contact points with a wall.</summary>

@@ -25,6 +25,11 @@ namespace Guidewire.Core
         private const double ResolvedOfGap = 0.05;    // the same, of the gap to close
 
         private readonly double _units;           // per metre
+        private readonly MaterialRod _rod;
+        private readonly Barrier _rigid;
+        private readonly ContactShape _given;
+        private readonly ContactShape? _moved;    // by a soft wall's limit
+        private readonly double[] _ofNodes;       // radii, m
         private readonly double[] _nodeRadius;    // m
         private readonly double[] _elementRadius;
         private readonly Barrier[] _node;
@@ -43,9 +48,13 @@ namespace Guidewire.Core
         /// <param name="rigid">Of each gap to a rigid wall.</param>
         private WallLaw(MaterialRod rod, double[] nodeRadius, ContactShape wall, double units, in Barrier rigid)
         {
-            int n = rod.ElementCount;
+            int n = rod.Capacity;
+            _rod = rod;
+            _rigid = rigid;
+            _given = wall;
             Wall = wall;
             _units = units;
+            _ofNodes = nodeRadius;
             _nodeRadius = nodeRadius;
             _elementRadius = rod.Radius;
             _length = Array.Empty<double>();
@@ -53,60 +62,76 @@ namespace Guidewire.Core
             _element = new Barrier[n];
             _current = wall.Softness?.Regions == null ? _node : new Barrier[n + 1];
             _factor = new double[n + 1];
-            Array.Fill(_factor, 1.0);
-            Array.Fill(_node, rigid);
-            Array.Fill(_element, rigid);
             if (wall.Softness is WallSoftness soft)
             {
                 IsSoft = true;
                 _regions = soft.Regions;
                 _stiffness = soft.Stiffness;
-                _length = Array.ConvertAll(rod.Length, length => units * length);
-                double thinnest = double.PositiveInfinity;
-                Array.ForEach(rod.Radius, radius => thinnest = Math.Min(thinnest, radius));
-                bool isMoved = soft.Limit >= thinnest && wall.MovedOut(units * soft.Limit) != null;
-                Wall = isMoved ? wall.MovedOut(units * soft.Limit)! : wall;
+                _length = new double[n];
+                _moved = wall.MovedOut(units * soft.Limit);
                 _nodeRadius = new double[n + 1];
                 _elementRadius = new double[n];
-                for (int i = 0; i <= n; i++)
-                {
-                    double length = 0.5 * ((i > 0 ? rod.Length[i - 1] : 0.0) + (i < n ? rod.Length[i] : 0.0));
-                    length = i == n ? Math.Max(length, soft.TipLength) : length;
-                    _node[i] = Soft(soft, isMoved, length, nodeRadius[i], out _nodeRadius[i]);
-                }
-                for (int j = 0; j < n; j++)
-                {
-                    _element[j] = Soft(soft, isMoved, soft.TipLength, rod.Radius[j], out _elementRadius[j]);
-                }
             }
-            Array.Copy(_node, _current, n + 1);
+            Remesh();
         }
 
         /// <summary>Those of all walls.</summary>
         public static WallLaw[] Of(MaterialRod rod, ContactShape[] walls, double units, Barrier rigid)
         {
-            var nodeRadius = new double[rod.ElementCount + 1];
-            for (int j = 0; j < rod.ElementCount; j++)
-            {
-                nodeRadius[j] = Math.Max(nodeRadius[j], rod.Radius[j]);
-                nodeRadius[j + 1] = rod.Radius[j];
-            }
+            var nodeRadius = new double[rod.Capacity + 1];
             return Array.ConvertAll(walls, wall => new WallLaw(rod, nodeRadius, wall, units, rigid));
         }
 
-        /// <summary>Gives the least range of all gaps, m.</summary>
-        public static double MinDistanceOf(WallLaw[] laws)
+        /// <summary>The wire has other elements.</summary>
+        public void Remesh()
         {
-            double least = double.PositiveInfinity;
-            foreach (WallLaw law in laws)
+            int n = _rod.ElementCount;
+            Array.Fill(_factor, 1.0);
+            Array.Fill(_node, _rigid);
+            Array.Fill(_element, _rigid);
+            _ofNodes[0] = 0.0;
+            double thinnest = double.PositiveInfinity;
+            for (int j = 0; j < n; j++)
             {
-                Array.ForEach(law._node, node => least = Math.Min(least, node.Distance));
+                _ofNodes[j] = Math.Max(_ofNodes[j], _rod.Radius[j]);
+                _ofNodes[j + 1] = _rod.Radius[j];
+                thinnest = Math.Min(thinnest, _rod.Radius[j]);
             }
-            return least;
+            if (_given.Softness is WallSoftness soft)
+            {
+                bool isMoved = soft.Limit >= thinnest && _moved != null;
+                Wall = isMoved ? _moved! : _given;
+                for (int i = 0; i <= n; i++)
+                {
+                    double length = 0.5 * ((i > 0 ? _rod.Length[i - 1] : 0.0) + (i < n ? _rod.Length[i] : 0.0));
+                    length = i == n ? Math.Max(length, soft.TipLength) : length;
+                    _node[i] = Soft(soft, isMoved, length, _ofNodes[i], out _nodeRadius[i]);
+                }
+                for (int j = 0; j < n; j++)
+                {
+                    _length[j] = _units * _rod.Length[j];
+                    _element[j] = Soft(soft, isMoved, soft.TipLength, _rod.Radius[j], out _elementRadius[j]);
+                }
+            }
+            Array.Copy(_node, _current, n + 1);
+        }
+
+        /// <summary>The least range of all gaps, m.</summary>
+        public double MinDistance
+        {
+            get
+            {
+                double least = double.PositiveInfinity;
+                for (int i = 0; i <= _rod.ElementCount; i++)
+                {
+                    least = Math.Min(least, _node[i].Distance);
+                }
+                return least;
+            }
         }
 
         /// <summary>The wall that the gaps are measured from, units.</summary>
-        public ContactShape Wall { get; }
+        public ContactShape Wall { get; private set; }
 
         /// <summary>Whether it gives way.</summary>
         public bool IsSoft { get; }
@@ -126,7 +151,7 @@ namespace Guidewire.Core
         /// <summary>Widens ranges, by element in units, to where the wall is felt by it or its nodes.</summary>
         public void AddRanges(double units, double[] range)
         {
-            for (int j = 0; j < range.Length; j++)
+            for (int j = 0; j < _rod.ElementCount; j++)
             {
                 double own = Math.Max(_elementRadius[j] + _element[j].Distance, Math.Max(
                     _nodeRadius[j] + _node[j].Distance, _nodeRadius[j + 1] + _node[j + 1].Distance));
@@ -187,7 +212,7 @@ namespace Guidewire.Core
         /// <returns>Whether the wall has regions.</returns>
         public bool FollowRegions(RodShape shape)
         {
-            for (int i = 0; i < _node.Length && _regions != null; i++)
+            for (int i = 0; i <= _rod.ElementCount && _regions != null; i++)
             {
                 _factor[i] = _regions.StiffnessAt(_units * shape.X[i]) / _stiffness;
                 _current[i] = _node[i].Times(_factor[i]);
@@ -205,7 +230,7 @@ namespace Guidewire.Core
         /// <param name="w">Number of the wall.</param>
         public void ClearGaps(int w, double[] nodeGap, double[] edgeGap)
         {
-            int n = _element.Length;
+            int n = _rod.ElementCount;
             for (int j = 0; j < n; j++)
             {
                 nodeGap[w * (n + 1) + j] = _node[j].Distance;

@@ -34,6 +34,21 @@ namespace Guidewire.Core
             All = all.ToArray();
         }
 
+        /// <summary>Takes what friction and delays have left to a rod between the same walls: another one, or this
+        /// one before its elements were others.</summary>
+        /// <param name="node">What each node was there, -1 where it comes in.</param>
+        public void Take(WallTerms former, int[] node, int elementCount)
+        {
+            if (former.Friction != null)
+            {
+                Friction?.Anchors.Take(former.Friction.Anchors, node, elementCount);
+            }
+            if (former.Barrier.Lag != null)
+            {
+                Barrier.Lag?.Take(former.Barrier.Lag, node, elementCount);
+            }
+        }
+
         /// <summary>What to change about the barrier where a step has no solution, in one phrase, or null.</summary>
         public string? Advice => _advice?.Invoke();
 

@@ -8,15 +8,17 @@ namespace Guidewire.Core
         private readonly Vector3d[] _velocities;
         private readonly Quaterniond[] _orientations;
         private readonly Vector3d[] _spins;
+        private readonly RodShape _shape;    // of the rod
         private bool _isComplete;
 
-        /// <summary>Makes an empty history of a rod of n elements.</summary>
-        public Bdf2History(int elementCount)
+        /// <summary>Makes an empty history of a rod.</summary>
+        public Bdf2History(RodShape shape)
         {
-            _positions = new Vector3d[elementCount + 1];
-            _velocities = new Vector3d[elementCount + 1];
-            _orientations = new Quaterniond[elementCount];
-            _spins = new Vector3d[elementCount];
+            _shape = shape;
+            _positions = new Vector3d[shape.X.Length];
+            _velocities = new Vector3d[shape.X.Length];
+            _orientations = new Quaterniond[shape.Q.Length];
+            _spins = new Vector3d[shape.Q.Length];
         }
 
         /// <summary>Whether there is a step before the one that began last.</summary>
@@ -43,7 +45,7 @@ namespace Guidewire.Core
         {
             double h = _isComplete ? 2.0 / 3.0 * dt : dt;
             inertia.StageLength = h;
-            for (int i = 0; i < positions.Length; i++)
+            for (int i = 0; i <= _shape.ElementCount; i++)
             {
                 Vector3d x = positions[i];
                 Vector3d v = velocities[i];
@@ -57,7 +59,7 @@ namespace Guidewire.Core
                 _positions[i] = positions[i];
                 _velocities[i] = velocities[i];
             }
-            for (int j = 0; j < spins.Length; j++)
+            for (int j = 0; j < _shape.ElementCount; j++)
             {
                 Vector3d turn = Vector3d.Zero;
                 Vector3d spin = spins[j];
@@ -78,10 +80,10 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _isComplete);
-            snapshot.Serialize(_positions);
-            snapshot.Serialize(_velocities);
-            snapshot.Serialize(_orientations);
-            snapshot.Serialize(_spins);
+            snapshot.Serialize(_positions, _shape.ElementCount + 1);
+            snapshot.Serialize(_velocities, _shape.ElementCount + 1);
+            snapshot.Serialize(_orientations, _shape.ElementCount);
+            snapshot.Serialize(_spins, _shape.ElementCount);
         }
     }
 }

@@ -11,7 +11,7 @@ namespace Guidewire.Core
         public Bdf2Stepper(RodTerms terms, RodSchedule schedule, RodMotion motion)
             : base(new ImplicitStage(terms, schedule, motion, 1, false), new StepControl(1))
         {
-            _history = new Bdf2History(motion.Shape.ElementCount);
+            _history = new Bdf2History(motion.Shape);
         }
 
         /// <inheritdoc/>
@@ -46,6 +46,14 @@ namespace Guidewire.Core
                 _history.Complete();
             }
             return failure;
+        }
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            base.Remesh();
+            _history.Forget();
+            _lastStep = 0.0;
         }
 
         /// <inheritdoc/>

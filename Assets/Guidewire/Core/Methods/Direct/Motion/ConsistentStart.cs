@@ -28,14 +28,13 @@ namespace Guidewire.Core
         {
             _damping = damping;
             _inner = inner;
-            int n = terms.Mass.Coupling.Length;
             _terms = terms;
             _holdsFirst = terms.Supports.Proximal != ProximalEnd.Free;
             _distal = terms.Supports.Distal;
             _axis = terms.Supports.SlidingAxis;
-            _gradient = new RodVector[terms.VectorCount];
-            _pivot = new double[n + 1];
-            _change = new Vector3d[n + 1];
+            _gradient = new RodVector[terms.VectorCapacity];
+            _pivot = new double[terms.Rod.Capacity + 1];
+            _change = new Vector3d[_pivot.Length];
         }
 
         /// <summary>Force of the supports on both ends, N, by the rates last set; or their impulses, N s, in the jump
@@ -62,22 +61,23 @@ namespace Guidewire.Core
             _terms.AddGradient(shape, _gradient);
             _damping?.AddGradient(shape, _gradient);
             double damping = _terms.Rod.MassDamping;
-            for (int i = 0; i < acceleration.Length; i++)
+            int n = shape.ElementCount;
+            for (int i = 0; i <= n; i++)
             {
                 RodVector g = _gradient[i];
                 acceleration[i] = new Vector3d(-g.X1, -g.X2, -g.X3);
             }
             Vector3d first = acceleration[0];
-            Vector3d last = acceleration[acceleration.Length - 1];
+            Vector3d last = acceleration[n];
             Solve(acceleration, Vector3d.Zero, Vector3d.Zero);
             SetReactions(acceleration, first, last);
             double shift = 0.0;
             double turn = 0.0;
-            for (int i = 0; i < acceleration.Length; i++)
+            for (int i = 0; i <= n; i++)
             {
                 shift = Math.Max(shift, acceleration[i].LengthSquared);
             }
-            for (int j = 0; j < spinRate.Length; j++)
+            for (int j = 0; j < n; j++)
             {
                 Vector3d i = _terms.Mass.Rotary[j];
                 Vector3d w = spins[j];
@@ -86,7 +86,7 @@ namespace Guidewire.Core
                     - _terms.Mass.Precession(j, w) - damping * w;
             }
             double twist = _inner.SetFirst(_gradient, spins, _terms.Mass.Rotary, spinRate);
-            for (int j = 0; j < spinRate.Length; j++)
+            for (int j = 0; j < n; j++)
             {
                 turn = Math.Max(turn, spinRate[j].LengthSquared);
             }
@@ -99,7 +99,7 @@ namespace Guidewire.Core
             Array.Clear(_gradient, 0, _gradient.Length);
             _terms.AddGradient(shape, _gradient);
             double sum = _terms.Mass.Total + _terms.Rod.MassDamping + _terms.Rod.MaterialDamping;
-            for (int i = 0; i < _gradient.Length; i++)
+            for (int i = 0; i < _terms.VectorCount; i++)
             {
                 RodVector g = _gradient[i];
                 sum += (i + 1) * (g.X1 + 2.0 * g.X2 + 3.0 * g.X3 + (4.0 * g.T1 + 5.0 * g.T2 + 6.0 * g.T3)
@@ -114,7 +114,7 @@ namespace Guidewire.Core
         /// <param name="distal">Of that of the last node.</param>
         public void Jump(Vector3d[] velocities, in Vector3d proximal, in Vector3d distal)
         {
-            int n = velocities.Length - 1;
+            int n = _terms.Rod.ElementCount;
             Array.Clear(_change, 0, _change.Length);
             Solve(_change, proximal - velocities[0], Across(distal - velocities[n]));
             SetReactions(_change, Vector3d.Zero, Vector3d.Zero);
@@ -129,7 +129,7 @@ namespace Guidewire.Core
         {
             double[] diagonal = _terms.Mass.Diagonal;
             double[] coupling = _terms.Mass.Coupling;
-            int n = coupling.Length;
+            int n = _terms.Rod.ElementCount;
             _pivot[0] = diagonal[0];
             if (_holdsFirst)
             {
@@ -166,7 +166,7 @@ namespace Guidewire.Core
         {
             double[] diagonal = _terms.Mass.Diagonal;
             double[] coupling = _terms.Mass.Coupling;
-            int n = coupling.Length;
+            int n = _terms.Rod.ElementCount;
             Forces = new StageForces
             {
                 Proximal = diagonal[0] * a[0] + coupling[0] * a[1] - first,

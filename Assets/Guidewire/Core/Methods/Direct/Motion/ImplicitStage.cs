@@ -24,7 +24,6 @@ namespace Guidewire.Core
         private readonly Vector3d[] _startPositions;   // of the step, m
         private readonly Vector3d[] _velocityHistory;  // what the stages before leave of the velocities, m/s
         private readonly Quaterniond[] _predicted;
-        private readonly double _mass;
         private readonly bool _isLoose;           // held nowhere, and nothing takes its momentum
         private readonly ViscousRelaxation? _creep;   // where a couple at the tip has no potential
         private readonly WallStage? _walls;       // solves where there are walls
@@ -37,17 +36,15 @@ namespace Guidewire.Core
         public ImplicitStage(RodTerms terms, RodSchedule schedule, RodMotion motion, int stageCount,
             bool isFirstExplicit)
         {
-            int n = motion.Shape.ElementCount;
             _supports = terms.Supports;
             _terms = terms;
             _schedule = schedule;
             _motion = motion;
             _shape = motion.Shape;
-            _before = new RodShape(n, _shape.InnerCount);
-            _startPositions = new Vector3d[n + 1];
-            _velocityHistory = new Vector3d[n + 1];
-            _predicted = new Quaterniond[n];
-            _mass = terms.Mass.Total;
+            _before = new RodShape(_shape.ElementCount, _shape.InnerCount, terms.Rod.Capacity);
+            _startPositions = new Vector3d[_shape.X.Length];
+            _velocityHistory = new Vector3d[_shape.X.Length];
+            _predicted = new Quaterniond[_shape.Q.Length];
             double massDamping = terms.Rod.MassDamping;
             _isLoose = terms.Walls() == null && massDamping == 0.0 && isFirstExplicit
                 && _supports.Proximal == ProximalEnd.Free && _supports.Distal == DistalEnd.Free;
@@ -73,7 +70,7 @@ namespace Guidewire.Core
             _creep = terms.HavePotential ? null : new ViscousRelaxation(terms.Rod, _supports, all, terms.Followers);
             _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, Newton);
             Frames = new ClampFrames(schedule, Search);
-            Rates = new StageRates(stageCount, n);
+            Rates = new StageRates(stageCount, _shape);
             Reactions = new RodReactions(terms, schedule, motion, all, Newton.BalanceRounding, Damping);
         }
 
@@ -102,10 +99,24 @@ namespace Guidewire.Core
             set => _hasPast = value;
         }
 
+        /// <summary>The rod has other elements and no past.</summary>
+        public void Remesh()
+        {
+            _inertia.Remesh();
+            Damping?.Remesh();
+            Inner.Remesh();
+            Newton.Remesh();
+            _creep?.Remesh();
+            _walls?.Remesh();
+            Rates.Clear();
+            Reactions.Remesh();
+            _hasPast = false;
+        }
+
         /// <summary>A step of dt, s, begins.</summary>
         public void BeginStep(double time, double dt)
         {
-            Array.Copy(_shape.X, _startPositions, _startPositions.Length);
+            Array.Copy(_shape.X, _startPositions, _shape.ElementCount + 1);
             _inertia.BeginStep(_shape, dt);
             BeginDamping(time + SameTime * dt);
             _terms.Bending.BeginSlide(time);
@@ -184,7 +195,7 @@ namespace Guidewire.Core
             double before = Math.Min(time, jump);
             _inertia.BeginStage();
             _terms.SetTime(_schedule, before);
-            _loads = _schedule.Loads.SumAt(before, _mass) + _terms.Followers.Force.Force.Length;
+            _loads = _schedule.Loads.SumAt(before, _terms.Mass.Total) + _terms.Followers.Force.Force.Length;
             string? failure = Frames.Turn(_shape, time, out bool inParts);
             if (failure != null)
             {
@@ -195,7 +206,7 @@ namespace Guidewire.Core
             Vector3d start = PredictStart(time, h, predictor);
             if (Predict(predictor) > LargestPredictedTurn || inParts)
             {
-                Array.Copy(_shape.Q, _predicted, _predicted.Length);
+                Array.Copy(_shape.Q, _predicted, _shape.ElementCount);
             }
             Vector3d end = _schedule.Distal.PositionAt(time);
             failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, _loads)

@@ -42,6 +42,14 @@ namespace Guidewire.Core
         /// <summary>The rod begins to move from where it is, as it does.</summary>
         public abstract void Begin();
 
+        /// <summary>The rod has other elements and no past.</summary>
+        public virtual void Remesh()
+        {
+            Stage.Remesh();
+            Control.Forget();
+            (Error, MayRestart, IsTwoStep) = (0.0, false, false);
+        }
+
         /// <summary>Takes the rod through an interval.</summary>
         /// <returns>Null, or why a stage has no solution; the shape is then not to be used.</returns>
         public abstract string? Step(in Interval interval);

@@ -32,7 +32,7 @@ namespace Guidewire.Core
             _coupling = mass.Coupling;
             _rotary = mass.Rotary;
             _mass = mass;
-            int n = _rotary.Length;
+            int n = _rotary.Length;    // room
             _anchor = new Quaterniond[n];
             _anchorCouple = new Vector3d[n];
             _seen = new Quaterniond[n];
@@ -44,6 +44,20 @@ namespace Guidewire.Core
             TurnHistory = new Vector3d[n];
             SpinHistory = new Vector3d[n];
         }
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            StageLength = 0.0;
+            Array.Clear(_seen, 0, _seen.Length);
+            Array.Clear(_countedTurn, 0, _countedTurn.Length);
+            Array.Clear(FreePositions, 0, FreePositions.Length);
+            Array.Clear(TurnHistory, 0, TurnHistory.Length);
+            Array.Clear(SpinHistory, 0, SpinHistory.Length);
+            Array.Clear(Start, 0, Start.Length);
+        }
+
+        private int Elements => _mass.ElementCount;
 
         /// <summary>h, s: the diagonal coefficient of the scheme times the time step.</summary>
         public double StageLength { get; set; }
@@ -66,20 +80,20 @@ namespace Guidewire.Core
         /// <summary>Turns count from the orientations of this shape.</summary>
         public override void BeginStep(RodShape shape, double dt)
         {
-            Array.Copy(shape.Q, Start, Start.Length);
-            Array.Clear(_countedTurn, 0, _countedTurn.Length);
+            Array.Copy(shape.Q, Start, Elements);
+            Array.Clear(_countedTurn, 0, Elements);
         }
 
         /// <summary>Stores the full turns of the shape that was last evaluated.</summary>
         public void KeepTurns()
         {
-            Array.Copy(_countedTurn, _keptTurn, _keptTurn.Length);
+            Array.Copy(_countedTurn, _keptTurn, Elements);
         }
 
         /// <summary>Turns are counted from those again that were kept.</summary>
         public void RestoreTurns()
         {
-            Array.Copy(_keptTurn, _countedTurn, _keptTurn.Length);
+            Array.Copy(_keptTurn, _countedTurn, Elements);
         }
 
         /// <summary>Whether a couple is kept until an element turns on: a search along the energy asks for each up to
@@ -91,7 +105,7 @@ namespace Guidewire.Core
         {
             if (RemembersCouples)
             {
-                Array.Clear(_seen, 0, _seen.Length);
+                Array.Clear(_seen, 0, Elements);
             }
         }
 
@@ -103,9 +117,9 @@ namespace Guidewire.Core
         {
             double perStage = 1.0 / StageLength;
             int j = 0;
-            while (j < turnRate.Length)
+            while (j < Elements)
             {
-                int stop = Math.Min(j + 4, turnRate.Length);
+                int stop = Math.Min(j + 4, Elements);
                 if (stop == j + 4
                     && InertiaLanes.SetRates(this, shape, _countedTurn, SurelyFirst, turnRate, spinRate, j))
                 {
@@ -131,9 +145,9 @@ namespace Guidewire.Core
             double h = StageLength;
             double largest = 0.0;
             int j = 0;
-            while (j < predicted.Length)
+            while (j < Elements)
             {
-                int stop = Math.Min(j + 4, predicted.Length);
+                int stop = Math.Min(j + 4, Elements);
                 if (stop == j + 4 && InertiaLanes.Predict(
                     this, _countedTurn, first, second, fraction, predicted, j, ref largest))
                 {
@@ -164,15 +178,15 @@ namespace Guidewire.Core
         {
             Vector3d sum = Vector3d.Zero;
             double mass = 0.0;
-            for (int i = 0; i < _diagonal.Length; i++)
+            for (int i = 0; i <= Elements; i++)
             {
                 double fraction = _diagonal[i] + (i > 0 ? _coupling[i - 1] : 0.0)
-                    + (i < _coupling.Length ? _coupling[i] : 0.0);
+                    + (i < Elements ? _coupling[i] : 0.0);
                 sum += fraction * (shape.X[i] - FreePositions[i]);
                 mass += fraction;
             }
             Vector3d shift = (1.0 / mass) * (StageLength * StageLength * loads - sum);
-            for (int i = 0; i < _diagonal.Length; i++)
+            for (int i = 0; i <= Elements; i++)
             {
                 shape.X[i] += shift;
             }
@@ -204,11 +218,11 @@ namespace Guidewire.Core
         public override void Serialize(Snapshot snapshot)
         {
             StageLength = snapshot.Serialize(StageLength);
-            snapshot.Serialize(Start);
-            snapshot.Serialize(FreePositions);
-            snapshot.Serialize(TurnHistory);
-            snapshot.Serialize(SpinHistory);
-            snapshot.Serialize(_countedTurn);
+            snapshot.Serialize(Start, Elements);
+            snapshot.Serialize(FreePositions, Elements + 1);
+            snapshot.Serialize(TurnHistory, Elements);
+            snapshot.Serialize(SpinHistory, Elements);
+            snapshot.Serialize(_countedTurn, Elements);
             BeginStage();
         }
 
@@ -221,9 +235,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
         {
-            Array.Copy(shape.Q, _anchor, _anchor.Length);
-            FindCouples(shape, 0, _anchor.Length);
-            Array.Copy(_couple, _anchorCouple, _couple.Length);
+            Array.Copy(shape.Q, _anchor, Elements);
+            FindCouples(shape, 0, Elements);
+            Array.Copy(_couple, _anchorCouple, Elements);
         }
 
         /// <inheritdoc/>
@@ -233,11 +247,11 @@ namespace Guidewire.Core
             double perTurn = PerTurn;
             double nodes = 0.0;
             double turns = 0.0;
-            for (int i = 0; i < _diagonal.Length; i++)
+            for (int i = 0; i <= Elements; i++)
             {
                 Vector3d d = shape.X[i] - FreePositions[i];
                 nodes += 0.5 * _diagonal[i] * d.LengthSquared;
-                if (i < _coupling.Length)
+                if (i < Elements)
                 {
                     Vector3d e = shape.X[i + 1] - FreePositions[i + 1];
                     nodes += _coupling[i] * Vector3d.Dot(d, e);
@@ -245,9 +259,9 @@ namespace Guidewire.Core
             }
             _nodes = perSquare * nodes;
             int j = 0;
-            while (j < _rotary.Length)
+            while (j < Elements)
             {
-                int stop = Math.Min(j + 4, _rotary.Length);
+                int stop = Math.Min(j + 4, Elements);
                 if (stop == j + 4
                     && InertiaLanes.AddWork(_anchor, _anchorCouple, _rotary, perTurn, shape, j, ref turns))
                 {
@@ -269,8 +283,8 @@ namespace Guidewire.Core
             ref GradientMeasures measured)
         {
             double perSquare = 1.0 / (StageLength * StageLength);
-            int nodes = Math.Min(to, _diagonal.Length);
-            int elements = Math.Min(to, _coupling.Length);
+            int nodes = Math.Min(to, Elements + 1);
+            int elements = Math.Min(to, Elements);
             FindCouples(shape, from, elements);
             int first = InertiaLanes.AddGradient(this, _diagonal, _coupling, _couple, shape, gradient, from, elements);
             for (int i = first; i < nodes; i++)
@@ -278,7 +292,7 @@ namespace Guidewire.Core
                 Vector3d a = perSquare * (shape.X[i] - FreePositions[i]);
                 double mass = _diagonal[i];
                 Vector3d force = mass * a;
-                if (i < _coupling.Length)
+                if (i < Elements)
                 {
                     Vector3d b = perSquare * (shape.X[i + 1] - FreePositions[i + 1]);
                     double coupling = _coupling[i];
@@ -304,7 +318,7 @@ namespace Guidewire.Core
             AddGradient(shape, gradient, from, to, ref measured);
             double perSquare = 1.0 / (StageLength * StageLength);
             double perTurn = PerTurn;
-            int end = Math.Min(to, _coupling.Length);
+            int end = Math.Min(to, Elements);
             for (int i = from; i < end; i++)
             {
                 ref RodBlock b = ref blocks[i];

@@ -19,6 +19,7 @@ namespace Guidewire.Core
         private readonly int _count;                 // of instruments inside
         private readonly InertiaEnergy _inertia;
         private readonly double _damping;            // a, 1/s
+        private readonly RodShape _shape;            // of the motion
         private readonly double[] _twistRates;       // z' of the motion, rad/s, n for each instrument inside
         private readonly double[] _start;            // z when the step began, rad
         private readonly double[] _history;          // z^
@@ -39,7 +40,7 @@ namespace Guidewire.Core
         /// <param name="stageCount">Of the scheme, an explicit one counted.</param>
         public InnerSpin(CoaxialRod? rod, InertiaEnergy inertia, RodMotion motion, int stageCount)
         {
-            int n = motion.TwistRates.Length;
+            int n = motion.TwistRates.Length;    // room
             if (rod != null)
             {
                 _rod = rod;
@@ -47,6 +48,7 @@ namespace Guidewire.Core
                 _damping = rod.Rod.MassDamping;
             }
             _inertia = inertia;
+            _shape = motion.Shape;
             _twistRates = motion.TwistRates;
             _start = new double[n];
             _history = new double[n];
@@ -56,7 +58,7 @@ namespace Guidewire.Core
             _rate = Arrays(stageCount, n);
             _acceleration = Arrays(stageCount, n);
             _anchor = new double[n];
-            _anchorFrame = new Quaterniond[motion.Shape.ElementCount];
+            _anchorFrame = new Quaterniond[motion.Shape.Q.Length];
             _anchorCouple = new double[n];
             _anchorTurn = new double[n];
         }
@@ -77,10 +79,22 @@ namespace Guidewire.Core
             return sum;
         }
 
+        private int Angles => _shape.TwistCount;
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            Array.Clear(_history, 0, _history.Length);
+            Array.Clear(_rateHistory, 0, _history.Length);
+            Array.Clear(_before, 0, _history.Length);
+            Array.Clear(_rateBefore, 0, _history.Length);
+            Clear();
+        }
+
         /// <summary>A step begins in this shape.</summary>
         public override void BeginStep(RodShape shape, double dt)
         {
-            Array.Copy(shape.Twist, _start, _start.Length);
+            Array.Copy(shape.Twist, _start, Angles);
         }
 
         /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
@@ -88,7 +102,7 @@ namespace Guidewire.Core
         /// <param name="dt">The step, s.</param>
         public void BeginStage(double[] row, double dt)
         {
-            for (int j = 0; j < _history.Length; j++)
+            for (int j = 0; j < Angles; j++)
             {
                 _history[j] = _start[j];
                 _rateHistory[j] = _twistRates[j];
@@ -105,7 +119,7 @@ namespace Guidewire.Core
         public void BeginStage(bool hasPast)
         {
             double past = hasPast ? 1.0 / 3.0 : 0.0;
-            for (int j = 0; j < _history.Length; j++)
+            for (int j = 0; j < Angles; j++)
             {
                 _history[j] = (1.0 + past) * _start[j] - past * _before[j];
                 _rateHistory[j] = (1.0 + past) * _twistRates[j] - past * _rateBefore[j];
@@ -117,8 +131,8 @@ namespace Guidewire.Core
         /// <summary>Takes the rates of a stage that is solved.</summary>
         public void EndStage(int stage, RodShape shape)
         {
-            Array.Clear(_rate[stage], 0, _history.Length);
-            Array.Clear(_acceleration[stage], 0, _history.Length);
+            Array.Clear(_rate[stage], 0, Angles);
+            Array.Clear(_acceleration[stage], 0, Angles);
             for (int i = 1; i <= _count; i++)
             {
                 for (int j = 0; j < CountOf(i); j++)
@@ -132,17 +146,17 @@ namespace Guidewire.Core
         /// <summary>The rates in the last stage are those at the step's end.</summary>
         public void Accept()
         {
-            Array.Copy(_rate[_rate.Length - 1], _twistRates, _twistRates.Length);
+            Array.Copy(_rate[_rate.Length - 1], _twistRates, Angles);
         }
 
         /// <summary>The rates at a step's start are those of its explicit first stage.</summary>
         /// <param name="fromLast">Whether z'' is that of the last stage; else it is already set.</param>
         public void SetFirst(bool fromLast)
         {
-            Array.Copy(_twistRates, _rate[0], _twistRates.Length);
+            Array.Copy(_twistRates, _rate[0], Angles);
             if (fromLast)
             {
-                Array.Copy(_acceleration[_rate.Length - 1], _acceleration[0], _twistRates.Length);
+                Array.Copy(_acceleration[_rate.Length - 1], _acceleration[0], Angles);
             }
         }
 
@@ -154,8 +168,8 @@ namespace Guidewire.Core
         public double SetFirst(RodVector[] gradient, Vector3d[] spins, Vector3d[] rotary, Vector3d[] spinRate)
         {
             double largest = 0.0;
-            int twist = spins.Length + 2;
-            Array.Clear(_acceleration[0], 0, _history.Length);
+            int twist = _shape.ElementCount + 2;
+            Array.Clear(_acceleration[0], 0, Angles);
             for (int j = 0; j < ActiveCount; j++)
             {
                 double outer = rotary[j].Z;
@@ -296,13 +310,13 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what stages leave to later ones.</summary>
         public override void Serialize(Snapshot snapshot)
         {
-            snapshot.Serialize(_history);
-            snapshot.Serialize(_rateHistory);
-            snapshot.Serialize(_before);
-            snapshot.Serialize(_rateBefore);
+            snapshot.Serialize(_history, Angles);
+            snapshot.Serialize(_rateHistory, Angles);
+            snapshot.Serialize(_before, Angles);
+            snapshot.Serialize(_rateBefore, Angles);
             foreach (double[] acceleration in _acceleration)
             {
-                snapshot.Serialize(acceleration);
+                snapshot.Serialize(acceleration, Angles);
             }
         }
 

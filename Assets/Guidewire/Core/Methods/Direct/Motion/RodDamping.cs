@@ -16,6 +16,7 @@ namespace Guidewire.Core
         private readonly double _ofMaterial;  // b, s; where it is 0 no strain is measured
         private readonly RodMass _mass;
         private readonly MaterialRod _rod;
+        private readonly RodSupports _supports;
         private readonly Joint[] _elastic;
         private readonly Joint[] _joint;      // those of the elastic energy, times b/h
         private readonly BendTwistTerm _bending;
@@ -38,11 +39,12 @@ namespace Guidewire.Core
             _mass = terms.Mass;
             _ofMass = _rod.MassDamping;
             _ofMaterial = _rod.MaterialDamping;
-            int n = _rod.ElementCount;
+            int n = _rod.Capacity;
+            _supports = terms.Supports;
             _elastic = _rod.Joints(terms.Supports);
             _joint = new Joint[n + 1];
             _bending = BendTwistTerm.Create(_joint, terms.Supports);
-            _dashpot = new MaterialRod(n);
+            _dashpot = new MaterialRod(_rod.ElementCount, n);
             Array.Copy(_rod.Length, _dashpot.Length, n);
             _now = new Measures(n);
             _begun = new Measures(n);
@@ -54,6 +56,21 @@ namespace Guidewire.Core
                 _rate[s] = new Measures(n);
             }
             _stretch = new StretchEnergy(_dashpot, _history.Chord);
+        }
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            _rod.SetJoints(_supports, _elastic);
+            Array.Clear(_joint, 0, _joint.Length);
+            _bending.Remesh();
+            _dashpot.ElementCount = _rod.ElementCount;
+            Array.Copy(_rod.Length, _dashpot.Length, _rod.ElementCount);
+            _begun.Clear();
+            _before.Clear();
+            _history.Clear();
+            Array.ForEach(_rate, rate => rate.Clear());
+            (_perStage, _hasBegun, _hasBefore) = (0.0, false, false);
         }
 
         /// <summary>A step begins in this shape; its rates are those of an explicit first stage.</summary>
@@ -70,13 +87,13 @@ namespace Guidewire.Core
             _before.CopyFrom(_begun);
             Measure(shape, _begun);
             Measures first = _rate[0];
-            Array.Copy(velocities, first.Position, velocities.Length);
+            Array.Copy(velocities, first.Position, shape.ElementCount + 1);
             if (_ofMaterial == 0.0)
             {
                 return;
             }
             _bending.MeasureRates(shape, spins, proximal, distal, first.Joint);
-            for (int j = 0; j < spins.Length; j++)
+            for (int j = 0; j < shape.ElementCount; j++)
             {
                 // p = R^T (x+ - x)/l and R' = R [w], so p' = R^T (v+ - v)/l - w x p.
                 Vector3d change = (1.0 / _rod.Length[j]) * (velocities[j + 1] - velocities[j]);
@@ -159,11 +176,11 @@ namespace Guidewire.Core
             {
                 double scale = _ofMass * _perStage;
                 Vector3d next = shape.X[0] - _history.Position[0];
-                for (int i = 0; i < shape.X.Length; i++)
+                for (int i = 0; i <= shape.ElementCount; i++)
                 {
                     Vector3d d = next;
                     sum += 0.5 * scale * _mass.Diagonal[i] * d.LengthSquared;
-                    if (i < _mass.Coupling.Length)
+                    if (i < _mass.ElementCount)
                     {
                         next = shape.X[i + 1] - _history.Position[i + 1];
                         sum += scale * _mass.Coupling[i] * Vector3d.Dot(d, next);
@@ -200,13 +217,13 @@ namespace Guidewire.Core
             {
                 AddDrag(shape, gradient, from, to);
                 double scale = _ofMass * _perStage;
-                for (int i = from; i < Math.Min(to, _mass.Diagonal.Length); i++)
+                for (int i = from; i < Math.Min(to, _mass.ElementCount + 1); i++)
                 {
                     ref RodBlock b = ref blocks[i];
                     b.A11 += scale * _mass.Diagonal[i];
                     b.A22 += scale * _mass.Diagonal[i];
                     b.A33 += scale * _mass.Diagonal[i];
-                    if (i < _mass.Coupling.Length)
+                    if (i < _mass.ElementCount)
                     {
                         b.D11 += scale * _mass.Coupling[i];
                         b.D22 += scale * _mass.Coupling[i];
@@ -237,8 +254,8 @@ namespace Guidewire.Core
             _bending.Serialize(snapshot);
             snapshot.Serialize(ref _hasBegun);
             snapshot.Serialize(ref _perStage);
-            _begun.Serialize(snapshot);
-            _history.Serialize(snapshot);
+            _begun.Serialize(snapshot, _rod.ElementCount);
+            _history.Serialize(snapshot, _rod.ElementCount);
             if (!snapshot.IsWritten)
             {
                 // Damping by mass alone measures no strains: a snapshot written under it has none, and it keeps none.
@@ -254,7 +271,7 @@ namespace Guidewire.Core
         private void AddDrag(RodShape shape, RodVector[] gradient, int from, int to)
         {
             double scale = _ofMass * _perStage;
-            int last = Math.Min(to, _mass.Coupling.Length);
+            int last = Math.Min(to, _mass.ElementCount);
             Vector3d moved = shape.X[from] - _history.Position[from];
             Vector3d sum = ForceOf(gradient[from]);
             for (int i = from; i < last; i++)
@@ -265,11 +282,11 @@ namespace Guidewire.Core
                 SetForce(ref gradient[i], sum);
                 sum = ForceOf(gradient[i + 1]) + _mass.Coupling[i] * d;
             }
-            if (last < to && last < _mass.Diagonal.Length)
+            if (last < to && last <= _mass.ElementCount)
             {
                 sum += _mass.Diagonal[last] * (scale * moved);
             }
-            if (last < _mass.Diagonal.Length)
+            if (last <= _mass.ElementCount)
             {
                 SetForce(ref gradient[last], sum);
             }
@@ -298,7 +315,7 @@ namespace Guidewire.Core
                 return;
             }
             double scale = _ofMaterial * perStage;
-            for (int k = 0; k < _joint.Length; k++)
+            for (int k = 0; k <= _rod.ElementCount; k++)
             {
                 _joint[k] = new Joint
                 {
@@ -317,7 +334,7 @@ namespace Guidewire.Core
 
         private void Measure(RodShape shape, Measures to)
         {
-            Array.Copy(shape.X, to.Position, shape.X.Length);
+            Array.Copy(shape.X, to.Position, shape.ElementCount + 1);
             if (_ofMaterial == 0.0)
             {
                 return;
@@ -348,6 +365,12 @@ namespace Guidewire.Core
             /// <summary>Whether strains were measured: a chord has a length.</summary>
             public bool HasStrains => Chord[0] != Vector3d.Zero;
 
+            public void Clear()
+            {
+                ForgetStrains();
+                Array.Clear(Position, 0, Position.Length);
+            }
+
             public void ForgetStrains()
             {
                 Array.Clear(Joint, 0, Joint.Length);
@@ -375,11 +398,11 @@ namespace Guidewire.Core
                 Set(Position, scale, a.Position, b.Position);
             }
 
-            public void Serialize(Snapshot snapshot)
+            public void Serialize(Snapshot snapshot, int elementCount)
             {
-                snapshot.Serialize(Joint);
-                snapshot.Serialize(Chord);
-                snapshot.Serialize(Position);
+                snapshot.Serialize(Joint, elementCount + 1);
+                snapshot.Serialize(Chord, elementCount);
+                snapshot.Serialize(Position, elementCount + 1);
             }
 
             private static void Add(Vector3d[] to, double weight, Vector3d[] what)

@@ -40,7 +40,7 @@ namespace Guidewire.Core
             MaxIterations = maxIterations;
             Newton.Tolerance = tolerance;
             Newton.Balance = tolerance / (2.0 * _stepper.WeightSum);
-            _start = new StepStart(SerializeInterval);
+            _start = new StepStart(SerializeInterval, terms.Rod);
             _work = work ?? new WorkLimit(maxIterations);
             Clock = new Clock(_stepper, schedule, _work);
         }
@@ -57,6 +57,13 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The rod has other elements, and moves on from where they are.</summary>
+        public void Remesh()
+        {
+            _stepper.Remesh();
+            _stepper.Begin();
+        }
+
         /// <summary>Goes on from this time, s, at which the proximal frame has made a turn, radians.</summary>
         public void ResumeAt(double time, double proximalTurn)
         {
@@ -66,6 +73,9 @@ namespace Guidewire.Core
 
         /// <summary>The rod's energies and loads.</summary>
         public RodTerms Terms => _terms;
+
+        /// <summary>Positions, orientations and their rates.</summary>
+        public RodMotion Motion => _motion;
 
         /// <summary>Positions and orientations.</summary>
         public RodShape Shape => _motion.Shape;
@@ -182,10 +192,7 @@ namespace Guidewire.Core
             double time = Time;
             MaterialSnapshot.Serialize(snapshot, _schedule, Shape, Velocities, Spins, ref time);
             Time = time;
-            if (TwistRates.Length > 0)
-            {
-                snapshot.Serialize(TwistRates);
-            }
+            snapshot.Serialize(TwistRates, Shape.TwistCount);
             _stage.Frames.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {

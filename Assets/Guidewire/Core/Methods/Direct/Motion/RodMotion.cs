@@ -9,8 +9,8 @@ namespace Guidewire.Core
         public RodMotion(RodShape shape)
         {
             Shape = shape;
-            Velocities = new Vector3d[shape.ElementCount + 1];
-            Spins = new Vector3d[shape.ElementCount];
+            Velocities = new Vector3d[shape.X.Length];
+            Spins = new Vector3d[shape.Q.Length];
             TwistRates = new double[shape.Twist.Length];
         }
 
@@ -26,23 +26,28 @@ namespace Guidewire.Core
         /// <summary>z' of the angles to an instrument inside, rad/s; none where there is one alone.</summary>
         public double[] TwistRates { get; }
 
+        /// <summary>Takes over another motion.</summary>
+        public void CopyFrom(RodMotion other)
+        {
+            Shape.CopyFrom(other.Shape);
+            Begin(other.Velocities, other.Spins);
+            Array.Copy(other.TwistRates, TwistRates, Shape.TwistCount);
+        }
+
         /// <summary>Takes over velocities.</summary>
         public void Begin(Vector3d[] velocities, Vector3d[] spins)
         {
-            Array.Copy(velocities, Velocities, Velocities.Length);
-            Array.Copy(spins, Spins, Spins.Length);
+            Array.Copy(velocities, Velocities, Shape.ElementCount + 1);
+            Array.Copy(spins, Spins, Shape.ElementCount);
         }
 
         /// <summary>Writes or restores the motion.</summary>
         public void Serialize(Snapshot snapshot)
         {
             Shape.Serialize(snapshot);
-            snapshot.Serialize(Velocities);
-            snapshot.Serialize(Spins);
-            if (TwistRates.Length > 0)
-            {
-                snapshot.Serialize(TwistRates);
-            }
+            snapshot.Serialize(Velocities, Shape.ElementCount + 1);
+            snapshot.Serialize(Spins, Shape.ElementCount);
+            snapshot.Serialize(TwistRates, Shape.TwistCount);
         }
     }
 }

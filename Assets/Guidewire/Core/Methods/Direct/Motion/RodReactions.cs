@@ -36,8 +36,8 @@ namespace Guidewire.Core
             _moving = moving;
             _rounding = rounding;
             _damping = damping;
-            _gradient = new RodVector[terms.VectorCount];
-            _loads = new RodVector[motion.Shape.ElementCount + 2];
+            _gradient = new RodVector[terms.VectorCapacity];
+            _loads = new RodVector[terms.Rod.Capacity + 2];
         }
 
         /// <summary>Whether forces are kept; they cost a gradient a stage.</summary>
@@ -55,6 +55,13 @@ namespace Guidewire.Core
         /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
         /// forces, <see cref="Mean"/> of supports, loads and walls, and what mass-proportional damping takes.</summary>
         public Vector3d MomentumRate => _momentumRate;
+
+        /// <summary>The rod has other elements and has not stepped.</summary>
+        public void Remesh()
+        {
+            (_end, _mean, _hasStepped) = (default, default, false);
+            (_momentum, _oldMomentum, _momentumRate) = (Vector3d.Zero, Vector3d.Zero, Vector3d.Zero);
+        }
 
         /// <summary>A step begins.</summary>
         public void BeginStep()
@@ -102,9 +109,9 @@ namespace Guidewire.Core
             if (walls != null)
             {
                 _end.Proximal = walls.SupportForce(_motion.Shape) + _end.Proximal;
-                Array.Clear(_loads, 0, _loads.Length);
+                Array.Clear(_loads, 0, _motion.Shape.ElementCount + 2);
                 walls.AddWallGradient(_motion.Shape, _loads);
-                _end.Walls = -Sum(_loads);
+                _end.Walls = -SumOfLoads();
                 _end.HubTorque = HubTorque;
             }
         }
@@ -127,9 +134,9 @@ namespace Guidewire.Core
         /// <summary>Sum of the forces of all loads, N, whose time has been set.</summary>
         public Vector3d LoadSum()
         {
-            Array.Clear(_loads, 0, _loads.Length);
+            Array.Clear(_loads, 0, _motion.Shape.ElementCount + 2);
             _terms.AddLoadGradient(_motion.Shape, _loads);
-            return -Sum(_loads);
+            return -SumOfLoads();
         }
 
         /// <summary>Force of the supports on a node as the rod is at this time, N.</summary>
@@ -177,7 +184,7 @@ namespace Guidewire.Core
         // The gradient of terms: what the supports have to exert.
         private void AddAll(EnergyTerm[] terms)
         {
-            Array.Clear(_gradient, 0, _gradient.Length);
+            Array.Clear(_gradient, 0, _terms.VectorCount);
             foreach (EnergyTerm term in terms)
             {
                 term.AddGradient(_motion.Shape, _gradient);
@@ -197,7 +204,7 @@ namespace Guidewire.Core
                 return;
             }
             var measured = default(GradientMeasures);
-            Array.Clear(_gradient, 0, _gradient.Length);
+            Array.Clear(_gradient, 0, _terms.VectorCount);
             foreach (EnergyTerm term in _moving)
             {
                 term.AddGradient(shape, _gradient, 0, 1, ref measured);
@@ -212,12 +219,12 @@ namespace Guidewire.Core
             return new Vector3d(g.X1, g.X2, g.X3);
         }
 
-        private static Vector3d Sum(RodVector[] gradient)
+        private Vector3d SumOfLoads()
         {
             Vector3d sum = Vector3d.Zero;
-            foreach (RodVector g in gradient)
+            for (int i = 0; i <= _motion.Shape.ElementCount; i++)
             {
-                sum += ForceOf(g);
+                sum += ForceOf(_loads[i]);
             }
             return sum;
         }

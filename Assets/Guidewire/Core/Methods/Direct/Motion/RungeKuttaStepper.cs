@@ -21,7 +21,6 @@ namespace Guidewire.Core
         private readonly RungeKuttaScheme _scheme;
         private readonly RungeKuttaScheme _starter = RungeKuttaScheme.Start();
         private readonly ConsistentStart _start;
-        private readonly double _length;
         private bool _hasRates;               // the last stage has the rates of the next step's start
         private Vector3d _proximalVelocity;   // of the supports in the last step, m/s
         private Vector3d _distalVelocity;
@@ -36,7 +35,6 @@ namespace Guidewire.Core
             _schedule = schedule;
             _motion = motion;
             _start = new ConsistentStart(terms, Stage.Damping, Stage.Inner);
-            _length = terms.Rod.TotalLength;
         }
 
         /// <inheritdoc/>
@@ -53,7 +51,7 @@ namespace Guidewire.Core
         public override void Begin()
         {
             _proximalVelocity = _motion.Velocities[0];
-            _distalVelocity = _motion.Velocities[_motion.Velocities.Length - 1];
+            _distalVelocity = _motion.Velocities[_motion.Shape.ElementCount];
         }
 
         /// <inheritdoc/>
@@ -93,11 +91,18 @@ namespace Guidewire.Core
             }
             Stage.Accept();
             Error = used.ErrorWeights == null ? 0.0
-                : Stage.Rates.Error(used.ErrorWeights, dt, _length);
+                : Stage.Rates.Error(used.ErrorWeights, dt, _terms.Rod.TotalLength);
             _hasRates = true;
             Stage.HasPast = !isStart;
             Stage.EndStep();
             return null;
+        }
+
+        /// <inheritdoc/>
+        public override void Remesh()
+        {
+            base.Remesh();
+            _hasRates = false;
         }
 
         /// <inheritdoc/>
@@ -135,7 +140,8 @@ namespace Guidewire.Core
             StageRates rates = Stage.Rates;
             Vector3d proximal = _schedule.Hub.VelocityAt(after);
             Vector3d distal = _schedule.Distal.VelocityAt(after);
-            bool isInPlace = _start.IsHeldAt(_motion.Shape, _schedule, time, SamePosition * _length)
+            bool isInPlace = _start.IsHeldAt(_motion.Shape, _schedule, time,
+                SamePosition * _terms.Rod.TotalLength)
                 && Stage.Frames.AreInPlace(time, SamePosition);
             bool jumps = proximal != _proximalVelocity || distal != _distalVelocity;
             if (_hasRates && isInPlace && !jumps && _schedule.NextJump(time - interval.Nearly) > after)

@@ -13,16 +13,22 @@ namespace Guidewire.Core
         private readonly Vector3d[][] _turnRate;      // phi'
         private readonly Vector3d[][] _spinRate;      // w'; two or more, the second the step before of one stage
         private readonly int _last;
+        private readonly RodShape _shape;             // of the rod
 
-        /// <summary>Rates of a rod of n elements in these stages, all 0.</summary>
-        public StageRates(int stageCount, int elementCount)
+        /// <summary>Rates of a rod in these stages, all 0.</summary>
+        public StageRates(int stageCount, RodShape shape)
         {
             _last = stageCount - 1;
-            _velocity = Arrays(stageCount, elementCount + 1);
-            _acceleration = Arrays(stageCount, elementCount + 1);
-            _turnRate = Arrays(stageCount, elementCount);
-            _spinRate = Arrays(Math.Max(stageCount, 2), elementCount);
+            _shape = shape;
+            _velocity = Arrays(stageCount, shape.X.Length);
+            _acceleration = Arrays(stageCount, shape.X.Length);
+            _turnRate = Arrays(stageCount, shape.Q.Length);
+            _spinRate = Arrays(Math.Max(stageCount, 2), shape.Q.Length);
         }
+
+        private int Elements => _shape.ElementCount;
+
+        private int Nodes => _shape.ElementCount + 1;
 
         /// <summary>v' by stage, m/s^2.</summary>
         public Vector3d[][] Acceleration => _acceleration;
@@ -33,12 +39,15 @@ namespace Guidewire.Core
         /// <summary>Forgets all stages.</summary>
         public void Clear()
         {
-            foreach (Vector3d[][] rates in new[] { _acceleration, _spinRate })
+            Clear(_acceleration);
+            Clear(_spinRate);
+        }
+
+        private static void Clear(Vector3d[][] rates)
+        {
+            foreach (Vector3d[] list in rates)
             {
-                foreach (Vector3d[] list in rates)
-                {
-                    Array.Clear(list, 0, list.Length);
-                }
+                Array.Clear(list, 0, list.Length);
             }
         }
 
@@ -46,12 +55,12 @@ namespace Guidewire.Core
         /// <param name="fromLast">Whether v' and w' are those of the last stage; else they are already set.</param>
         public void SetFirst(Vector3d[] velocities, Vector3d[] spins, bool fromLast)
         {
-            Array.Copy(velocities, _velocity[0], velocities.Length);
-            Array.Copy(spins, _turnRate[0], spins.Length);
+            Array.Copy(velocities, _velocity[0], Nodes);
+            Array.Copy(spins, _turnRate[0], Elements);
             if (fromLast)
             {
-                Array.Copy(_acceleration[_last], _acceleration[0], velocities.Length);
-                Array.Copy(_spinRate[_last], _spinRate[0], spins.Length);
+                Array.Copy(_acceleration[_last], _acceleration[0], Nodes);
+                Array.Copy(_spinRate[_last], _spinRate[0], Elements);
             }
         }
 
@@ -65,24 +74,24 @@ namespace Guidewire.Core
             int before = row.Length - 1;
             double h = inertia.StageLength;
             Vector3d[] free = inertia.FreePositions;
-            Array.Copy(positions, free, free.Length);
-            Array.Copy(velocities, velocityHistory, free.Length);
-            Array.Clear(inertia.TurnHistory, 0, spins.Length);
-            Array.Copy(spins, inertia.SpinHistory, spins.Length);
+            Array.Copy(positions, free, Nodes);
+            Array.Copy(velocities, velocityHistory, Nodes);
+            Array.Clear(inertia.TurnHistory, 0, Elements);
+            Array.Copy(spins, inertia.SpinHistory, Elements);
             for (int k = 0; k < before; k++)
             {
                 double weight = dt * row[k];
-                Add(free, weight, _velocity[k]);
-                Add(velocityHistory, weight, _acceleration[k]);
-                Add(inertia.TurnHistory, weight, _turnRate[k]);
-                Add(inertia.SpinHistory, weight, _spinRate[k]);
+                Add(free, weight, _velocity[k], Nodes);
+                Add(velocityHistory, weight, _acceleration[k], Nodes);
+                Add(inertia.TurnHistory, weight, _turnRate[k], Elements);
+                Add(inertia.SpinHistory, weight, _spinRate[k], Elements);
             }
-            Add(free, h, velocityHistory);
+            Add(free, h, velocityHistory, Nodes);
         }
 
-        private static void Add(Vector3d[] sum, double weight, Vector3d[] rate)
+        private static void Add(Vector3d[] sum, double weight, Vector3d[] rate, int count)
         {
-            for (int i = 0; i < sum.Length; i++)
+            for (int i = 0; i < count; i++)
             {
                 sum[i] += weight * rate[i];
             }
@@ -99,7 +108,7 @@ namespace Guidewire.Core
             }
             double h = inertia.StageLength;
             double perStage = 1.0 / h;
-            for (int i = 0; i < velocityHistory.Length; i++)
+            for (int i = 0; i < Nodes; i++)
             {
                 Vector3d a = (perStage * perStage) * (shape.X[i] - inertia.FreePositions[i]);
                 _acceleration[stage][i] = a;
@@ -117,8 +126,8 @@ namespace Guidewire.Core
         public void Accept(InertiaEnergy inertia, Vector3d[] velocities, Vector3d[] spins)
         {
             double h = inertia.StageLength;
-            Array.Copy(_velocity[_last], velocities, velocities.Length);
-            for (int j = 0; j < spins.Length; j++)
+            Array.Copy(_velocity[_last], velocities, Nodes);
+            for (int j = 0; j < Elements; j++)
             {
                 spins[j] = inertia.SpinHistory[j] + h * _spinRate[_last][j];
             }
@@ -131,7 +140,7 @@ namespace Guidewire.Core
         {
             double shift = 0.0;
             double turn = 0.0;
-            for (int i = 0; i < _velocity[0].Length; i++)
+            for (int i = 0; i < Nodes; i++)
             {
                 Vector3d x = Vector3d.Zero;
                 for (int k = 0; k < weights.Length; k++)
@@ -140,7 +149,7 @@ namespace Guidewire.Core
                 }
                 shift = Math.Max(shift, x.LengthSquared);
             }
-            for (int j = 0; j < _turnRate[0].Length; j++)
+            for (int j = 0; j < Elements; j++)
             {
                 Vector3d phi = Vector3d.Zero;
                 for (int k = 0; k < weights.Length; k++)
@@ -155,8 +164,14 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what the next step needs.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            snapshot.Serialize(_acceleration);
-            snapshot.Serialize(_spinRate);
+            foreach (Vector3d[] acceleration in _acceleration)
+            {
+                snapshot.Serialize(acceleration, Nodes);
+            }
+            foreach (Vector3d[] spinRate in _spinRate)
+            {
+                snapshot.Serialize(spinRate, Elements);
+            }
         }
 
         private static Vector3d[][] Arrays(int count, int length)

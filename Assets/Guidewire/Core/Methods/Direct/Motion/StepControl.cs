@@ -40,6 +40,12 @@ namespace Guidewire.Core
         /// <summary>Steps that were kept although their error was above the tolerance.</summary>
         public long StepsAbove { get; private set; }
 
+        /// <summary>Forgets how long the next step was to be.</summary>
+        public void Forget()
+        {
+            _length = 0.0;
+        }
+
         /// <summary>Gives the length of the next step, s.</summary>
         /// <param name="left">What is left until a jump or the end of the logged step, s.</param>
         public double Propose(double left)

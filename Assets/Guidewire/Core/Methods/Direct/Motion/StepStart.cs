@@ -9,11 +9,14 @@ namespace Guidewire.Core
     {
         private readonly Snapshot _kept = new Snapshot();
         private readonly Action<Snapshot> _exchange;
+        private double _growth;    // of what is kept, at most; 0 once there is room for it
 
         /// <summary>For a step that touches what is exchanged here.</summary>
-        public StepStart(Action<Snapshot> exchange)
+        /// <param name="rod">Whose elements may become more; null: they do not.</param>
+        public StepStart(Action<Snapshot> exchange, MaterialRod? rod = null)
         {
             _exchange = exchange;
+            _growth = rod == null ? 0.0 : (rod.Capacity + 1.0) / rod.ElementCount;
         }
 
         /// <summary>Saves the state at which a step begins.</summary>
@@ -21,6 +24,11 @@ namespace Guidewire.Core
         {
             _kept.RewindForWriting();
             _exchange(_kept);
+            if (_growth > 0.0)
+            {
+                _kept.Reserve(_growth);
+                _growth = 0.0;
+            }
         }
 
         /// <summary>Goes back to where it began.</summary>

@@ -84,8 +84,8 @@ namespace Guidewire.Core
                 Array.Copy(undecided, _newton.Direction, undecided.Length);
                 return !DescendAlong(shape, 1.0) && !DescendAlong(shape, -1.0);
             }
-            Array.Copy(_stability.LowestMode(shape, out _), _newton.Direction, _newton.Direction.Length);
-            double sign = RodVectors.Dot(_newton.Gradient, _newton.Direction) > 0.0 ? -1.0 : 1.0;
+            Array.Copy(_stability.LowestMode(shape, out _), _newton.Direction, _newton.System.VectorCount);
+            double sign = _newton.Slope > 0.0 ? -1.0 : 1.0;
             failure = DescendAlong(shape, sign) ? null : Saddle;
             return false;
         }

@@ -29,8 +29,6 @@ namespace Guidewire.Core
         private readonly string _keys;
         private readonly RodVector[] _step;
         private readonly RodShape _trial;
-        private readonly double _totalLength;
-        private readonly double _bendForce;  // EI/L^2 of the stiffest element, N
 
         /// <summary>A solver for this rod; <paramref name="followers"/> are among the terms.</summary>
         public ViscousRelaxation(MaterialRod rod, RodSupports supports, EnergyTerm[] terms, TipFollowers followers)
@@ -40,10 +38,14 @@ namespace Guidewire.Core
             _terms = terms;
             _tangent = new FollowerTangent(rod, supports, terms, followers);
             _keys = followers.Keys;
-            _step = new RodVector[_tangent.System.VectorCount];
-            _trial = new RodShape(rod.ElementCount, supports.InnerCount);
-            _totalLength = rod.TotalLength;
-            _bendForce = rod.BendForce;
+            _step = new RodVector[_tangent.System.VectorCapacity];
+            _trial = new RodShape(rod.ElementCount, supports.InnerCount, rod.Capacity);
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            _tangent.Remesh();
         }
 
         /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and checks whether it is
@@ -73,12 +75,13 @@ namespace Guidewire.Core
         {
             EquilibriumResult result = default;
             result.Reason = string.Empty;
-            double drag = FirstDrag * _bendForce;
+            double drag = FirstDrag * _rod.BendForce;
             while (result.Iterations < maxIterations)
             {
                 result.Iterations++;
                 FindStep(shape, ref drag, ref result);
-                double size = RodStep.Size(_step, _rod.ElementCount, _totalLength, out double relative);
+                double size = RodStep.Size(_step, _rod.ElementCount, _rod.TotalLength, out double relative,
+                    _tangent.System.VectorCount);
                 if (!(size < double.MaxValue))
                 {
                     result.Reason = "the step is not a finite number under " + _keys;
@@ -107,7 +110,7 @@ namespace Guidewire.Core
             result.Factorisations++;
             while (_tangent.Factorise(shape, _step, drag) > 0 && drag < double.MaxValue)
             {
-                drag = Math.Max(2.0 * drag, 0.1 * _bendForce);
+                drag = Math.Max(2.0 * drag, 0.1 * _rod.BendForce);
                 result.Factorisations++;
             }
         }

@@ -9,6 +9,7 @@ namespace Guidewire.Core
     /// wire lies along a wall; at a single contact point, such as the tip, it grows with n.</remarks>
     internal sealed class ElementContactForces
     {
+        private readonly MaterialRod _rod;
         private readonly BarrierEnergy _barrier;
         private readonly double[] _shadow;   // 2 r l, m^2
         private readonly double[] _force;     // N
@@ -16,12 +17,19 @@ namespace Guidewire.Core
         /// <summary>Those of a rod's contacts.</summary>
         public ElementContactForces(MaterialRod rod, BarrierEnergy barrier)
         {
+            _rod = rod;
             _barrier = barrier;
-            _shadow = new double[rod.ElementCount];
-            _force = new double[rod.ElementCount];
-            for (int j = 0; j < _shadow.Length; j++)
+            _shadow = new double[rod.Capacity];
+            _force = new double[rod.Capacity];
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            for (int j = 0; j < _rod.ElementCount; j++)
             {
-                _shadow[j] = 2.0 * rod.Radius[j] * rod.Length[j];
+                _shadow[j] = 2.0 * _rod.Radius[j] * _rod.Length[j];
             }
         }
 
@@ -32,8 +40,8 @@ namespace Guidewire.Core
         public void Take(RodShape shape, ContactRecord record, RunExtremes extremes, double time)
         {
             Vector3d[] forces = record.ElementForces;
-            Array.Clear(forces, 0, forces.Length);
-            Array.Clear(_force, 0, _force.Length);
+            Array.Clear(forces, 0, _rod.ElementCount);
+            Array.Clear(_force, 0, _rod.ElementCount);
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
             for (int k = 0; k < contacts.Count; k++)
             {
@@ -48,7 +56,7 @@ namespace Guidewire.Core
             }
             double largest = 0.0;
             double pressure = 0.0;
-            for (int j = 0; j < forces.Length; j++)
+            for (int j = 0; j < _rod.ElementCount; j++)
             {
                 largest = Math.Max(largest, forces[j].Length);
                 pressure = Math.Max(pressure, _force[j] / _shadow[j]);
@@ -71,7 +79,7 @@ namespace Guidewire.Core
         // Displacements of soft walls; the largest over its wall's limit.
         private double TakeDisplacements(RodShape shape, ContactRecord record)
         {
-            Array.Clear(record.Displacements, 0, record.Displacements.Length);
+            Array.Clear(record.Displacements, 0, _rod.ElementCount);
             StructList<WallContact> contacts = _barrier.ContactsOf(shape);
             double sum = 0.0;
             double share = 0.0;

@@ -7,6 +7,7 @@ namespace Guidewire.Core
     /// forces.</summary>
     internal sealed class WallMonitor : IWallClearance
     {
+        private readonly MaterialRod _rod;
         private readonly WallTerms _walls;
         private readonly BarrierEnergy _barrier;
         private readonly RodVector[] _gradient;
@@ -24,31 +25,39 @@ namespace Guidewire.Core
         {
             BarrierEnergy barrier = walls.Barrier;
             _walls = walls;
-            int n = rod.ElementCount;
+            int n = rod.Capacity;
+            _rod = rod;
             _barrier = barrier;
             _units = 1.0 / metresPerUnit;
             _radius = new double[n];
-            Radius = double.PositiveInfinity;
-            for (int j = 0; j < n; j++)
-            {
-                _radius[j] = _units * rod.Radius[j];
-                Radius = Math.Min(Radius, _radius[j]);
-            }
             _hint = new int[n * barrier.Walls.Length];
-            Array.Fill(_hint, -1);
             _start = new Vector3d[n + 1];
             _from = new Vector3d[n + 1];
             _to = new Vector3d[n + 1];
             _clearance = new double[n];
             _gradient = new RodVector[n + 2];
             _passages = new PassageCount(this, n);
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            Radius = double.PositiveInfinity;
+            for (int j = 0; j < _rod.ElementCount; j++)
+            {
+                _radius[j] = _units * _rod.Radius[j];
+                Radius = Math.Min(Radius, _radius[j]);
+            }
+            Array.Fill(_hint, -1);
+            _passages.Remesh(_rod.ElementCount);
         }
 
         /// <inheritdoc/>
         public ContactShape[] Walls => _barrier.Walls;
 
         /// <inheritdoc/>
-        public double Radius { get; }
+        public double Radius { get; private set; }
 
         /// <inheritdoc/>
         public double ClearanceOf(int w, int j)
@@ -61,7 +70,7 @@ namespace Guidewire.Core
         {
             _passages.BeginStep();
             SetUnits(shape, _start);
-            Array.Copy(_start, _from, _from.Length);
+            Array.Copy(_start, _from, _rod.ElementCount + 1);
             SetClearances(shape);
         }
 
@@ -70,7 +79,7 @@ namespace Guidewire.Core
         {
             SetUnits(shape, _to);
             _passages.AddPart(_from, _to);
-            Array.Copy(_to, _from, _from.Length);
+            Array.Copy(_to, _from, _rod.ElementCount + 1);
             SetClearances(shape);
         }
 
@@ -81,7 +90,7 @@ namespace Guidewire.Core
         /// <param name="time">s.</param>
         public string? FindTouchFromBeside(double time)
         {
-            int n = _radius.Length;
+            int n = _rod.ElementCount;
             for (int w = 0; w < Walls.Length; w++)
             {
                 bool isInside = !Walls[w].IsSurface
@@ -105,7 +114,7 @@ namespace Guidewire.Core
         private void SetClearances(RodShape shape)
         {
             _barrier.Value(shape);
-            for (int j = 0; j < _clearance.Length; j++)
+            for (int j = 0; j < _rod.ElementCount; j++)
             {
                 _clearance[j] = _barrier.ClearanceOf(j);
             }
@@ -119,9 +128,9 @@ namespace Guidewire.Core
             double deepest = record.MaxPenetration;
             for (int w = 0; w < Walls.Length; w++)
             {
-                for (int j = 0; j < _radius.Length; j++)
+                for (int j = 0; j < _rod.ElementCount; j++)
                 {
-                    ref int hint = ref _hint[w * _radius.Length + j];
+                    ref int hint = ref _hint[w * _rod.ElementCount + j];
                     double radius = _units * _barrier.LawOf(w).RadiusOf(j);
                     if (_clearance[j] < radius
                         && Walls[w].Nearest(_from[j], _from[j + 1], radius, ref hint, out SurfaceContact contact))
@@ -144,9 +153,9 @@ namespace Guidewire.Core
         private void TakeForces(RodShape shape, ContactRecord record)
         {
             Vector3d total = Vector3d.Zero;
-            Array.Clear(_gradient, 0, _gradient.Length);
+            Array.Clear(_gradient, 0, _rod.ElementCount + 2);
             _walls.AddWallGradient(shape, _gradient);
-            for (int i = 0; i < _from.Length; i++)
+            for (int i = 0; i <= _rod.ElementCount; i++)
             {
                 RodVector g = _gradient[i];
                 record.Forces[i] = new Vector3d(-g.X1, -g.X2, -g.X3);

@@ -25,7 +25,8 @@ namespace Guidewire.Core
         private readonly Vector3d[] _slope;      // of the curve through x' or x by s
         private readonly double[] _length;       // from node i - 1 to node i in x, m
         private readonly double[] _at;           // s_i, m
-        private readonly double _shortest;       // element, m
+        private readonly MaterialRod _rod;
+        private double _shortest;                // element, m
         private readonly CoaxialBendTwist? _coaxial;
         private readonly double[] _slide;         // of each node with its instrument, m
         private readonly double[] _slideBefore;   // a stage before
@@ -39,22 +40,31 @@ namespace Guidewire.Core
             _supports = terms.Supports;
             _projection = new WallProjection(terms.Walls()!.Barrier);
             _inertia = inertia;
-            _past = new Vector3d[terms.Rod.ElementCount + 1];
+            _rod = terms.Rod;
+            _past = new Vector3d[_rod.Capacity + 1];
             _before = new Vector3d[_past.Length];
             _change = new Vector3d[_past.Length];
             _point = new Vector3d[_past.Length];
             _slope = new Vector3d[_past.Length];
             _length = new double[_past.Length];
             _at = new double[_past.Length];
-            _shortest = double.PositiveInfinity;
             _coaxial = terms.CoaxialBending;
             _slide = new double[_past.Length];
             _slideBefore = new double[_past.Length];
-            for (int j = 0; j < terms.Rod.ElementCount; j++)
+            Remesh();
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            Array.Clear(_slide, 0, _slide.Length);
+            Array.Clear(_slideBefore, 0, _slide.Length);
+            _shortest = double.PositiveInfinity;
+            for (int j = 0; j < _rod.ElementCount; j++)
             {
-                _at[j + 1] = _at[j] + terms.Rod.Length[j];
+                _at[j + 1] = _at[j] + _rod.Length[j];
                 bool isAtTip = _coaxial != null && _coaxial.Joints.IsTip(j);
-                _shortest = isAtTip ? _shortest : Math.Min(_shortest, terms.Rod.Length[j]);
+                _shortest = isAtTip ? _shortest : Math.Min(_shortest, _rod.Length[j]);
             }
         }
 
@@ -89,9 +99,9 @@ namespace Guidewire.Core
             ShiftInner(1.0);
             SetSlopes(_before);
             double farthest = Math.Abs(_travel);
-            foreach (double slide in _slide)
+            for (int i = 0; i <= n; i++)
             {
-                farthest = Math.Max(farthest, Math.Abs(_travel + slide));
+                farthest = Math.Max(farthest, Math.Abs(_travel + _slide[i]));
             }
             return (int)Math.Min(MaxParts, Math.Ceiling(Math.Max(1.0, farthest / (OfElement * _shortest))));
         }
@@ -162,7 +172,7 @@ namespace Guidewire.Core
                 return;
             }
             CoaxialJoints joints = _coaxial.Joints;
-            for (int i = joints.OuterCount + 1; i < _at.Length; i++)
+            for (int i = joints.OuterCount + 1; i <= _rod.ElementCount; i++)
             {
                 _slide[i] = _coaxial.SlideOf(joints.CarrierOf(i - 1));
                 _slideBefore[i] = joints.IsTip(i - 1)
@@ -175,7 +185,7 @@ namespace Guidewire.Core
         // Along the curve, by what slid out in the stage before.
         private void ShiftInner(double sense)
         {
-            for (int i = 0; i < _at.Length; i++)
+            for (int i = 0; i <= _rod.ElementCount; i++)
             {
                 _at[i] += sense * _slideBefore[i];
             }
@@ -205,7 +215,7 @@ namespace Guidewire.Core
         // slopes of parabolas through three; behind the ends on the parabola there, at most an element or two.
         private Vector3d PointOn(Vector3d[] x, double s, ref int j)
         {
-            int n = x.Length - 1;
+            int n = _rod.ElementCount;
             while (j + 1 < n && s > _at[j + 1])
             {
                 j++;
@@ -234,7 +244,7 @@ namespace Guidewire.Core
         // Those of the parabolas through three nodes, at the ends through the last three.
         private void SetSlopes(Vector3d[] x)
         {
-            int n = x.Length - 1;
+            int n = _rod.ElementCount;
             double before = _at[1] - _at[0];
             Vector3d one = (x[1] - x[0]) / before;
             _slope[0] = one;

@@ -20,13 +20,19 @@ namespace Guidewire.Core
         /// <summary>For a rod under terms that hold walls.</summary>
         public WallStage(RodTerms terms, InertiaEnergy inertia, Newton newton)
         {
-            int n = terms.Rod.ElementCount;
             _terms = terms;
             _supports = terms.Supports;
             _prediction = new WallPrediction(terms, inertia);
-            _predicted = new RodShape(n, terms.Supports.InnerCount);
-            _direction = new RodVector[terms.VectorCount];
+            _predicted = new RodShape(terms.Rod.ElementCount, terms.Supports.InnerCount, terms.Rod.Capacity);
+            _direction = new RodVector[terms.VectorCapacity];
             _newton = newton;
+        }
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            Array.Clear(_direction, 0, _direction.Length);
+            _prediction.Remesh();
         }
 
         /// <summary>Solves a stage.</summary>

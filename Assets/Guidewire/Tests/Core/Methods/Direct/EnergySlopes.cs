@@ -68,9 +68,9 @@ namespace Guidewire.Core.Tests
         {
             terms.CoaxialLoads?.Place(terms.Loads.Force);
             double energy = terms.ElasticEnergy(shape) - terms.Supports.Coaxial!.Axial.PreloadEnergy;
-            foreach (Vector3d force in terms.Loads.Force)
+            for (int i = 0; i <= shape.ElementCount; i++)
             {
-                energy += Vector3d.Dot(force, shape.X[0]);
+                energy += Vector3d.Dot(terms.Loads.Force[i], shape.X[0]);
             }
             return energy + terms.Loads.Value(shape);
         }

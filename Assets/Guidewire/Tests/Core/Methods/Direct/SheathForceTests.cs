@@ -84,6 +84,7 @@ namespace Guidewire.Core.Tests
             {
                 ((SheathedWire)run.Instruments).Chain.MoveWindow();
                 RodDynamics motion = run.Dynamics;
+                double elements = CoaxialScenes.ElementsOf(run);
                 RodShape before = Rods.Copy(motion.Shape);
                 var v = (Vector3d[])motion.Velocities.Clone();
                 var w = (Vector3d[])motion.Spins.Clone();
@@ -94,7 +95,7 @@ namespace Guidewire.Core.Tests
                 double kinetic = mass.KineticEnergy(v, w);
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
-                Assert.That(run.Dynamics, Is.SameAs(motion), "one window, one try");
+                Assert.That(CoaxialScenes.ElementsOf(run), Is.EqualTo(elements), "one window");
                 hub = run.Hub()!;
                 double onHub = hub.Force * (hub.Insertion - insertion) + hub.Torque * (hub.Turn - turn);
                 double energyNow = EnergyAt(run, 0.0, 0.0);

@@ -55,6 +55,7 @@ namespace Guidewire.Core.Tests
             for (int k = 0; k < 60; k++)
             {
                 RodDynamics motion = run.Dynamics;
+                double elements = CoaxialScenes.ElementsOf(run);
                 double asked = Asked(run);
                 var before = new RodShape(motion.Shape.ElementCount, instruments - 1);
                 before.CopyFrom(motion.Shape);
@@ -67,7 +68,7 @@ namespace Guidewire.Core.Tests
                 double kinetic = motion.KineticEnergy;
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
-                if (run.Dynamics != motion)
+                if (CoaxialScenes.ElementsOf(run) != elements)
                 {
                     continue;   // a node came in
                 }
@@ -128,22 +129,22 @@ namespace Guidewire.Core.Tests
             double work = 0.0;
             double gained = 0.0;
             double peak = start;
-            int rebuilt = 0;
+            int changed = 0;
             for (int k = 0; k < 60; k++)
             {
-                RodDynamics motion = run.Dynamics;
+                double elements = CoaxialScenes.ElementsOf(run);
                 Hub[] old = Hubs(run);
                 run.Advance(state);
                 Assert.That(run.Failure, Is.Null);
-                rebuilt += run.Dynamics == motion ? 0 : 1;
+                changed += CoaxialScenes.ElementsOf(run) == elements ? 0 : 1;
                 work += WorkOf(Hubs(run), old);
                 double energy = EnergyAt(run, 1, 0.0, 0.0) + run.Dynamics.KineticEnergy;
                 peak = Math.Max(peak, energy);
                 gained = Math.Max(gained, energy - start - work);
             }
-            TestContext.WriteLine("{0:G3} of {1:G3} J, {2} times rebuilt", gained, peak, rebuilt);
+            TestContext.WriteLine("{0:G3} of {1:G3} J, {2} times other elements", gained, peak, changed);
             Assert.That(peak, Is.GreaterThan(1e-3));
-            Assert.That(rebuilt, Is.GreaterThan(0));
+            Assert.That(changed, Is.GreaterThan(0));
             Assert.That(gained, Is.LessThan(0.01 * peak));
         }
 
@@ -190,9 +191,9 @@ namespace Guidewire.Core.Tests
             CoaxialJoints joints = RodOf(run).Joints;
             double[] rate = run.Dynamics.TwistRates;
             double[] drag = RodOf(run).LumenDrag;
-            int n = rate.Length / joints.InnerCount;
+            int n = joints.ElementCount;
             double power = 0.0;
-            for (int j = 0; j < drag.Length; j++)
+            for (int j = 0; j < joints.InnerCount * n; j++)
             {
                 bool isInCatheterInside = j >= n && RodOf(run).AroundOf(2, j - n) == 1 && joints.CarrierOf(j - n) == 0;
                 double between = isInCatheterInside ? rate[j] - rate[j - n] : rate[j];

@@ -100,8 +100,13 @@ namespace Guidewire.Core.Tests
             Coaxial = rod;
             Terms = new RodTerms(rod.Rod, Supports);
             _hubTwist.CopyTo(Bending.HubTwist, 0);
-            Shape = old == null ? new RodShape(rod.Joints.ElementCount, rod.Joints.InnerCount)
-                : new CoaxialChange(was!, rod.Joints).Take(old);
+            Shape = new RodShape(rod.Joints.ElementCount, rod.Joints.InnerCount);
+            if (old != null)
+            {
+                var change = new CoaxialChange(rod.Joints);
+                change.Begin(was!);
+                change.Take(old, Shape);
+            }
         }
 
         /// <summary>The rest shape at an angle of the inner hub; throws where there is none.</summary>

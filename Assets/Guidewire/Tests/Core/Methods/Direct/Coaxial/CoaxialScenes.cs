@@ -37,6 +37,19 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
+        /// <summary>Another number where a node came or went, or a tip came into another element: only then each
+        /// element takes the mass of what is in it.</summary>
+        public static double ElementsOf(DirectStep run)
+        {
+            MaterialRod rod = run.Dynamics.Terms.Rod;
+            double sum = 0.0;
+            for (int j = 0; j < rod.ElementCount; j++)
+            {
+                sum += (j + 1) * rod.LineDensity[j];
+            }
+            return sum;
+        }
+
         /// <summary>The same pair in an outer catheter of 160 mm with a bent tip, its hub 30 mm ahead of the
         /// catheter's.</summary>
         public static SimulationParameters Three(Integrator integrator)

@@ -147,9 +147,14 @@ namespace Guidewire.Core.Tests
             friction.EndStep(shape);
             FrictionAnchors all = friction.Anchors;
             var shorter = new FrictionAnchors(2, N - 1);
-            shorter.Take(all, Enumerable.Range(1, N).ToArray());
+            shorter.Take(all, Enumerable.Range(1, N).ToArray(), N - 1);
             var back = new FrictionAnchors(2, N);
-            back.Take(shorter, Enumerable.Range(-1, N + 1).ToArray());
+            back.Take(shorter, Enumerable.Range(-1, N + 1).ToArray(), N);
+            // In place the same.
+            var own = new FrictionAnchors(2, N);
+            own.Take(all, Enumerable.Range(0, N + 1).ToArray(), N);
+            own.Take(own, Enumerable.Range(1, N).ToArray(), N - 1);
+            own.Take(own, Enumerable.Range(-1, N + 1).ToArray(), N);
             int kept = 0;
             for (int w = 0; w < 2; w++)
             {
@@ -158,11 +163,13 @@ namespace Guidewire.Core.Tests
                     bool isFirst = k == 0 || k == N + 1;
                     int at = w * (2 * N + 1) + k;
                     Assert.That(back[at].Force, Is.EqualTo(isFirst ? Vector3d.Zero : all[at].Force), "anchor " + at);
+                    Assert.That(own[at].Force, Is.EqualTo(back[at].Force), "anchor in place " + at);
                     kept += !isFirst && all[at].Stiffness > 0.0 ? 1 : 0;
                 }
             }
             Assert.That(kept, Is.GreaterThan(3));
             Assert.That(back.Dissipated, Is.EqualTo(all.Dissipated));
+            Assert.That(own.Dissipated, Is.EqualTo(all.Dissipated));
         }
 
         // A stiff rod lies along a plane of slope angle: m g sin against mu m g cos.

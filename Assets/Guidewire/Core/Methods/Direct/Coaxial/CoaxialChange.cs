@@ -7,19 +7,40 @@ namespace Guidewire.Core
     /// place of one.</summary>
     internal sealed class CoaxialChange
     {
-        private readonly double[] _oldStation;   // m, by the new leads
+        private double[] _oldStation;   // m, by the new leads
 
-        /// <summary>Makes the change from one chain to another.</summary>
+        /// <summary>Makes changes of a chain.</summary>
+        public CoaxialChange(CoaxialJoints joints)
+        {
+            Old = joints;
+            Joints = joints;
+            Node = new int[joints.Capacity + 1];
+            Element = new int[joints.Capacity];
+            _oldStation = new double[joints.Capacity + 1];
+        }
+
+        /// <summary>Of the old chain nothing goes on.</summary>
+        public void Forget()
+        {
+            Array.Fill(Node, -1);
+        }
+
+        /// <summary>The chain was another one.</summary>
         /// <param name="isOther">Which instruments are not those of the old chain; null: none.</param>
         /// <param name="shift">How far the outermost hub is behind that of the old chain, m.</param>
-        public CoaxialChange(CoaxialJoints old, CoaxialJoints joints, bool[]? isOther = null, double shift = 0.0)
+        public void Begin(CoaxialJoints old, bool[]? isOther = null, double shift = 0.0)
         {
+            CoaxialJoints joints = Joints;
             Old = old;
-            Joints = joints;
             Entered = old.First - joints.First;
-            Node = new int[joints.ElementCount + 1];
-            Element = new int[joints.ElementCount];
-            _oldStation = Array.ConvertAll(old.Stations, station => station + shift);
+            if (_oldStation.Length <= old.ElementCount)
+            {
+                _oldStation = new double[old.ElementCount + 1];
+            }
+            for (int k = 0; k <= old.ElementCount; k++)
+            {
+                _oldStation[k] = old.Stations[k] + shift;
+            }
             for (int i = 1; i < joints.Count; i++)
             {
                 for (int k = 0; k < old.BeyondOf(i) && isOther?[i] != true; k++)
@@ -27,7 +48,7 @@ namespace Guidewire.Core
                     _oldStation[old.TipOf(i) - k] = joints.StationOf(i, k);
                 }
             }
-            for (int k = 0; k < Node.Length; k++)
+            for (int k = 0; k <= joints.ElementCount; k++)
             {
                 int carrier = k <= joints.OuterCount ? 0 : joints.CarrierOf(k - 1);
                 int fromTip = joints.TipOf(carrier) - k;
@@ -43,13 +64,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>The chain that was.</summary>
-        public CoaxialJoints Old { get; }
+        public CoaxialJoints Old { get; private set; }
 
         /// <summary>The chain that is.</summary>
         public CoaxialJoints Joints { get; }
 
         /// <summary>Elements that have come in before the first one; negative where some have gone.</summary>
-        public int Entered { get; }
+        public int Entered { get; private set; }
 
         /// <summary>Former index of each node, -1 for a new one.</summary>
         public int[] Node { get; }
@@ -60,13 +81,12 @@ namespace Guidewire.Core
 
         /// <summary>The shape with these nodes: what comes in lies on the element that it divides, or on the axis of
         /// the last one.</summary>
-        public RodShape Take(RodShape old)
+        public void Take(RodShape old, RodShape shape)
         {
             int n = Joints.ElementCount;
-            var shape = new RodShape(n, Joints.InnerCount)
-            {
-                ProximalFrame = old.ProximalFrame, DistalFrame = old.DistalFrame,
-            };
+            shape.ElementCount = n;
+            (shape.ProximalFrame, shape.DistalFrame) = (old.ProximalFrame, old.DistalFrame);
+            Array.Clear(shape.Twist, 0, shape.TwistCount);
             for (int j = 0; j < n; j++)
             {
                 int from = Element[j];
@@ -82,28 +102,38 @@ namespace Guidewire.Core
                 shape.X[k] = Node[k] >= 0 ? old.X[Node[k]] : k < Entered ? old.X[0]
                     : Position(old, Joints.Stations[k]);
             }
-            return shape;
         }
 
-        /// <summary>Takes velocities and spins: what comes in moves with the node before it and the element that it
-        /// divides.</summary>
-        /// <param name="twistRates">Of the angles in the old chain, rad/s.</param>
-        public void TakeMotion(RodShape old, Vector3d[] velocities, Vector3d[] spins, double[] twistRates,
-            MaterialScene scene)
+        /// <summary>Takes a motion, with its shape: what comes in moves with the node before it and the element that
+        /// it divides; where a tip inside comes in, it turns as it does before.</summary>
+        public void Take(RodMotion was, RodMotion motion)
         {
+            RodShape old = was.Shape;
+            Take(old, motion.Shape);
+            int n = Joints.ElementCount;
             int from = 0;
-            for (int k = 0; k < Node.Length; k++)
+            for (int k = 0; k <= n; k++)
             {
                 from = Node[k] >= 0 ? Node[k] : from;
-                scene.Velocities[k] = velocities[from];
+                motion.Velocities[k] = was.Velocities[from];
             }
-            for (int j = 0; j < Element.Length; j++)
+            Array.Clear(motion.TwistRates, 0, motion.Shape.TwistCount);
+            for (int i = 1; i < Joints.Count; i++)
+            {
+                for (int j = 0; j < Joints.ActiveCountOf(i); j++)
+                {
+                    int element = Math.Min(Element[j], Old.ActiveCountOf(i) - 1);
+                    motion.TwistRates[(i - 1) * n + j] = CoaxialShape.Angle(old, was.TwistRates, Old, element, i,
+                        Joints.CarrierOf(j));
+                }
+            }
+            for (int j = 0; j < n; j++)
             {
                 int carrier = Joints.CarrierOf(j);
-                int was = Old.CarrierOf(Element[j]);
+                int before = Old.CarrierOf(Element[j]);
                 bool isBeyond = Node[j + 1] < 0 && Joints.Stations[j + 1] > _oldStation[Old.ElementCount];
-                scene.Spins[j] = isBeyond ? Vector3d.Zero : was == carrier ? spins[Element[j]]
-                    : CoaxialShape.SpinOf(old, twistRates, Old, Element[j], carrier, spins[Element[j]]);
+                motion.Spins[j] = isBeyond ? Vector3d.Zero : before == carrier ? was.Spins[Element[j]]
+                    : CoaxialShape.SpinOf(old, was.TwistRates, Old, Element[j], carrier, was.Spins[Element[j]]);
             }
         }
 
@@ -113,10 +143,10 @@ namespace Guidewire.Core
         /// <param name="thrust">Of the hub along the axis, N.</param>
         /// <param name="torque">Of the instrument on its part in the sheath, N m.</param>
         /// <returns>The turn of the first element now.</returns>
-        public double Enter(RodShape old, MaterialScene scene, in Vector3d axis, double turn, double thrust,
-            double torque)
+        public double Enter(RodShape old, MaterialRod rod, RodMotion motion, in Vector3d axis, double turn,
+            double thrust, double torque)
         {
-            RodShape shape = scene.Shape;
+            RodShape shape = motion.Shape;
             for (int j = 1; j <= -Entered; j++)
             {
                 turn += RotationVector.Log(old.Q[j - 1].Conjugate * old.Q[j]).Z;
@@ -124,28 +154,20 @@ namespace Guidewire.Core
             for (int j = Entered - 1; j >= 0; j--)
             {
                 double joint = torque / Joints[j + 1].Twist + Joints[j + 1].RestTwist;
-                double length = scene.Rod.Length[j] * (1.0 - thrust / scene.Rod.StretchStiffness[j]);
+                double length = rod.Length[j] * (1.0 - thrust / rod.StretchStiffness[j]);
                 shape.X[j] = shape.X[j + 1] - length * axis;
                 shape.Q[j] = shape.Q[j + 1] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, -joint);
-                scene.Velocities[j] = Vector3d.Dot(scene.Velocities[j + 1], axis) * axis;
-                scene.Spins[j] = new Vector3d(0.0, 0.0, scene.Spins[j + 1].Z);
+                motion.Velocities[j] = Vector3d.Dot(motion.Velocities[j + 1], axis) * axis;
+                motion.Spins[j] = new Vector3d(0.0, 0.0, motion.Spins[j + 1].Z);
                 turn -= joint;
             }
             return turn;
         }
 
-        /// <summary>Rate of the angle of an inner instrument on an element, rad/s; where its tip comes in, it turns as
-        /// it does before.</summary>
-        public double RateOf(RodShape old, double[] twistRates, int element, int instrument)
-        {
-            int from = Math.Min(Element[element], Old.ActiveCountOf(instrument) - 1);
-            return CoaxialShape.Angle(old, twistRates, Old, from, instrument, Joints.CarrierOf(element));
-        }
-
         private int Containing(double station)
         {
             int j = 0;
-            while (j < _oldStation.Length - 2 && station > _oldStation[j + 1])
+            while (j < Old.ElementCount - 1 && station > _oldStation[j + 1])
             {
                 j++;
             }
