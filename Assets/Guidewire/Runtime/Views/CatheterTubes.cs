@@ -23,14 +23,17 @@ namespace Guidewire.Runtime
 
         private sealed class Drawn
         {
-            public Drawn(int spheres, Material material, float times)
+            private readonly Color _colour;
+            private Material? _material;    // made when it is first needed
+
+            public Drawn(int spheres, in Color colour, float times)
             {
                 Tube = new TubeMesh(spheres, RingsPerElement, Sides);
                 Mesh = new Mesh { name = "Catheter", indexFormat = IndexFormat.UInt32 };
                 Mesh.MarkDynamic();
                 Mesh.SetVertices(Tube.Vertices);
                 Mesh.SetTriangles(Tube.Triangles, 0);
-                Material = material;
+                _colour = colour;
                 Times = times;
                 Colours = new float[spheres];
             }
@@ -39,7 +42,16 @@ namespace Guidewire.Runtime
 
             public Mesh Mesh { get; }
 
-            public Material Material { get; }
+            public Material Material => _material ? _material! : _material = LitMaterial.Create(_colour);
+
+            public void Destroy()
+            {
+                Object.Destroy(Mesh);
+                if (_material)
+                {
+                    Object.Destroy(_material!);
+                }
+            }
 
             // In the colour map, which its material does not have.
             public float[] Colours { get; }
@@ -63,7 +75,7 @@ namespace Guidewire.Runtime
             Clear();
             for (int k = 0; k < catheters.Count; k++)
             {
-                _drawn.Add(new Drawn(catheters[k].Positions.Length, LitMaterial.Create(Colours[k % Colours.Length]),
+                _drawn.Add(new Drawn(catheters[k].Positions.Length, Colours[k % Colours.Length],
                     (float)(parameters.Scene.Catheters[k].Material.WireRadius / parameters.Material.WireRadius)));
             }
         }
@@ -94,8 +106,7 @@ namespace Guidewire.Runtime
         {
             foreach (Drawn drawn in _drawn)
             {
-                Object.Destroy(drawn.Mesh);
-                Object.Destroy(drawn.Material);
+                drawn.Destroy();
             }
             _drawn.Clear();
         }

@@ -51,9 +51,8 @@ namespace Guidewire.Runtime
             if (!_ball)
             {
                 _ball = Marks.CreateSphere();
-                _yellow = LitMaterial.Create(new Color(1f, 0.85f, 0.1f));
             }
-            Material material = _material ? _material! : _yellow!;
+            Material material = _material ? _material! : Yellow();
             DrawPoints(state, 0.3f * (float)Loop.Parameters!.Contact.SphereRadius, material);
             DrawForces(state, material);
         }
@@ -63,8 +62,16 @@ namespace Guidewire.Runtime
             if (_ball)
             {
                 Destroy(_ball!);
+            }
+            if (_yellow)
+            {
                 Destroy(_yellow!);
             }
+        }
+
+        private Material Yellow()
+        {
+            return _yellow ? _yellow! : _yellow = LitMaterial.Create(new Color(1f, 0.85f, 0.1f));
         }
 
         private void DrawPoints(WireState state, float radius, Material material)
