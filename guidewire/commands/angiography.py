@@ -37,21 +37,22 @@ class Angiography:
         """Whether there is anything but a vessel that is drawn."""
         return bool(self._inject or self._subtracts or self._maps)
 
-    def picture(self, nodes: list[np.ndarray], time: float, view: dict[str, Any]) -> np.ndarray:
-        """Grey levels of a moment (s), as of `Session.picture_of`."""
+    def picture(self, drawn: tuple[list[np.ndarray], list[np.ndarray]], time: float, view: dict[str, Any]
+                ) -> np.ndarray:
+        """Grey levels of a moment (s), as of `Session.picture_of`; `drawn` is as of `State.drawn`."""
         if not self.is_asked:
-            return self._session.picture_of(nodes, **view)
+            return self._session.picture_of(*drawn, **view)
         self._go_to(time)
         shown = {**view, "vessel": "injected", "contrast": _AGENT}
-        grey = self._session.picture_of(nodes, **shown)
+        grey = self._session.picture_of(*drawn, **shown)
         bare = {**shown, "noise": 0.0, "blur": 0.0}
         if self._mask is None:
-            self._mask = self._session.picture_of(nodes, **{**bare, "vessel": "none"}).astype(float)
+            self._mask = self._session.picture_of(*drawn, **{**bare, "vessel": "none"}).astype(float)
         if self._maps:
-            agent = self._session.picture_of(nodes, **{**bare, "attenuation": 0.0}).astype(float)
+            agent = self._session.picture_of(*drawn, **{**bare, "attenuation": 0.0}).astype(float)
             self._least = agent if self._least is None else np.minimum(self._least, agent)
             if self._is_passed:
-                grey = self._session.picture_of(nodes, **{**shown, "vessel": "none"}) * (
+                grey = self._session.picture_of(*drawn, **{**shown, "vessel": "none"}) * (
                     1.0 + _MAPPED * (1.0 - self._least / _GREY))
         elif self._subtracts:
             grey = _GREY * grey / np.maximum(self._mask, 1.0)

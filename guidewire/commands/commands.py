@@ -145,17 +145,17 @@ def _render(arguments: argparse.Namespace) -> int:
             return _save_render(images, log, out)
         middle, diagonal = render.out_of_sheath(run, log)
         checking.check_out(out.parent)
-        surfaces = drawn.walls_of(run, middle, max(diagonal, 1.0))
         yaw, pitch = render.VIEWS[arguments.view] if arguments.view else (-90.0, 15.0)
         others = drawn.instruments_and_sheath(run, log)
         view = render.View(tuple(arguments.target) if arguments.target else None, arguments.distance,
                            yaw if arguments.yaw is None else arguments.yaw,
                            pitch if arguments.pitch is None else arguments.pitch, arguments.radius, arguments.zoom,
                            arguments.follow == "tip")
-        if out.suffix == ".gif":
-            images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames, *others)
-        else:
-            images = [render.draw_picture(run, log, surfaces, view, arguments.times, *others)]
+        with drawn.walls_of(run, log, middle, max(diagonal, 1.0)) as (surfaces, moved):
+            if out.suffix == ".gif":
+                images = render.draw_film(run, log, surfaces, view, arguments.frames, tell_frames, *others, moved)
+            else:
+                images = [render.draw_picture(run, log, surfaces, view, arguments.times, *others, moved)]
     except LogError as error:
         raise PreparationError(str(error)) from error
     return _save_render(images, log, out)

@@ -2,29 +2,39 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
 import numpy as np
 
 from guidewire.figures.render import Instrument, instruments_of
 from guidewire.logs.logs import PositionLog
 from guidewire.logs.runs import PARAMETERS_NAME, Run
 from guidewire.logs.surfaces import Surface
+from guidewire.logs.walls import drawn_of, soft_walls
 from guidewire.prepare import PreparationError
 from guidewire.sessions.session import SessionError, session_of
 from guidewire.viewer.recording import read_recording
 
 
-def walls_of(run: Run, middle: np.ndarray, reach: float) -> list[Surface]:
-    """Return the walls of a run, as of `Session.walls`; of one without walls no session is asked.
+@contextmanager
+def walls_of(run: Run, log: PositionLog, middle: np.ndarray, reach: float
+             ) -> Iterator[tuple[list[Surface], Callable[[int], list[Surface]] | None]]:
+    """Return the walls of a run, as of `Session.walls`, and as they are drawn at an entry of the log; None where they
+    are rigid. Of a run without walls no session is asked.
 
     Raises
     ------
     PreparationError : the run's parameters cannot be used any more; one line.
     """
     if not run.parameters.get("vessel") and not run.parameters.get("obstacles"):
-        return []
+        yield [], None
+        return
     try:
         with session_of(run.folder / PARAMETERS_NAME) as session:
-            return session.walls(middle, reach)
+            drawn = drawn_of(run, log)
+            yield session.walls(middle, reach), (
+                (lambda k: session.walls(middle, reach, drawn[k])) if soft_walls(run.parameters) else None)
     except SessionError as error:
         raise PreparationError(str(error)) from error
 

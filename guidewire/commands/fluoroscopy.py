@@ -12,6 +12,7 @@ from PIL import Image, ImageDraw
 from guidewire.commands.angiography import Angiography
 from guidewire.logs.logs import LogError, PositionLog
 from guidewire.logs.runs import PARAMETERS_NAME, Run
+from guidewire.logs.walls import drawn_of
 from guidewire.prepare import PreparationError
 from guidewire.sessions.session import SessionError, session_of
 
@@ -55,6 +56,7 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
     view = {name: own if getattr(arguments, name) is None else getattr(arguments, name) for name, own in _OWN.items()}
     field = view.pop("field")
     chosen = _chosen(log, arguments, is_film)
+    drawn = drawn_of(run, log)
     images = []
     try:
         with session_of(run.folder / PARAMETERS_NAME) as session:
@@ -65,8 +67,7 @@ def draw(run: Run, log: PositionLog, arguments: argparse.Namespace, is_film: boo
                     raise LogError(f"{log.source}: step {log.steps[k]} has a position that is not finite")
                 centre = log.positions[k][-1].tolist() if arguments.follow else arguments.target
                 side = field or (_FOLLOWED if arguments.follow else None)
-                nodes = [log.positions[k], *(positions[k] for positions in log.catheters)]
-                grey = angiography.picture(nodes, float(log.time[k]),
+                grey = angiography.picture(drawn[k], float(log.time[k]),
                                            {"centre": centre, "field_of_view": side, "seed": int(log.steps[k]), **view})
                 images.append(_with_caption(grey, view, log.time[k], is_known))
                 tell(len(images), len(chosen))

@@ -125,7 +125,8 @@ def bend_colours(values: np.ndarray, full: float) -> np.ndarray:
 
 
 def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
-              instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> Stage:
+              instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None,
+              moved: Sequence[Surface] | None = None) -> Stage:
     """Draw what does not move.
 
     Parameters
@@ -136,6 +137,7 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
     view : where to look from.
     instruments : the wire and the catheters over it; none for a wire alone.
     sheath : (2, 3), units, from its exit back; or None.
+    moved : the walls as they are drawn, where they give way; None: at rest.
     """
     middle, diagonal = _framed(run, log, walls)
     seen = (diagonal if view.distance is None else min(diagonal, view.distance)) / view.nearer
@@ -144,13 +146,14 @@ def set_stage(run: Run, log: PositionLog, walls: Sequence[Surface], view: View,
     camera = Camera(tuple(middle) if view.target is None else view.target, distance / view.nearer, view.yaw, view.pitch)
     background = Picture.blank(SIZE[0] * _OVERSAMPLING, SIZE[1] * _OVERSAMPLING)
     has_vessel = bool(run.parameters.get("vessel"))
-    for surface in walls[:1] if has_vessel else ():
+    shown = walls if moved is None else moved
+    for surface in shown[:1] if has_vessel else ():
         surface = refine(surface, max(diagonal / view.nearer, 10.0 * radius) / _PIECES)
         wall = PLAIN_WALL if instruments else WALL
         draw(background, camera, surface, np.broadcast_to(wall, surface.vertices.shape), 0.75)
     bends = [float(curvature(positions).max()) for positions in log.positions if np.isfinite(positions).all()]
     drawn = tuple(replace(one, radius=one.radius * radius / _radius(run)) for one in instruments)
-    obstacles = list(walls[1:] if has_vessel else walls)
+    obstacles = list(shown[1:] if has_vessel else shown)
     if sheath is not None:
         widest = max([radius, *(one.radius for one in drawn)])
         obstacles.append(tube(np.linspace(sheath[0], sheath[1], 9), _SHEATH * widest))
@@ -226,7 +229,8 @@ def _pixel(colour: np.ndarray) -> tuple[int, ...]:
 
 
 def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, times: Sequence[float],
-                 instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> Image.Image:
+                 instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None,
+                 moved: Callable[[int], Sequence[Surface]] | None = None) -> Image.Image:
     """Return a picture of a run: its last moment, or several.
 
     Parameters
@@ -234,11 +238,13 @@ def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: Vie
     run, log, walls, view, instruments, sheath : as of `set_stage`.
     times : s, in-game; of each the nearest moment of the log is drawn, in a colour of its own. None: the last moment,
         as a film shows it.
+    moved : walls that give way as they are drawn at an entry of the log; of several the last one counts.
     """
     chosen = sorted({nearest(log, time) for time in times}) or [len(log.time) - 1]
     if view.follows_tip and len(chosen) > 1:
         raise LogError("the tip is followed in a film or at one moment: give one of --times")
-    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]), instruments, sheath)
+    stage = set_stage(run, log, walls, _at_tip(view, log, chosen[-1]), instruments, sheath,
+                      moved and moved(chosen[-1]))
     if not times:
         return _frame_at(stage, log, chosen[0], SIZE)
     colours = colormaps["plasma"](np.linspace(0.4, 0.95, len(chosen)))[:, :3]
@@ -249,7 +255,8 @@ def draw_picture(run: Run, log: PositionLog, walls: Sequence[Surface], view: Vie
 
 def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, frames: int,
               tell: Callable[[int, int], None] = lambda done, count: None,
-              instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None) -> list[Image.Image]:
+              instruments: Sequence[Instrument] = (), sheath: np.ndarray | None = None,
+              moved: Callable[[int], Sequence[Surface]] | None = None) -> list[Image.Image]:
     """Pictures of a run, evenly spaced in time; the first is the start, the last the end.
 
     Parameters
@@ -257,13 +264,14 @@ def draw_film(run: Run, log: PositionLog, walls: Sequence[Surface], view: View, 
     run, log, walls, view, instruments, sheath : as of `set_stage`.
     frames : how many at most: a log of fewer entries has no more.
     tell : called after each picture with how many are drawn, and of how many.
+    moved : as of `draw_picture`.
     """
-    stage = set_stage(run, log, walls, _at_tip(view, log, 0), instruments, sheath)
+    stage = set_stage(run, log, walls, _at_tip(view, log, 0), instruments, sheath, moved and moved(0))
     chosen = np.unique(np.linspace(0, len(log.time) - 1, frames).astype(int))
     images = []
     for k in chosen:
-        if view.follows_tip and images:
-            stage = set_stage(run, log, walls, _at_tip(view, log, k), instruments, sheath)
+        if (view.follows_tip or moved) and images:
+            stage = set_stage(run, log, walls, _at_tip(view, log, k), instruments, sheath, moved and moved(k))
         images.append(_frame_at(stage, log, k, _FILM_SIZE))
         tell(len(images), len(chosen))
     return _of_few_colours(images)

@@ -111,7 +111,9 @@ class ArrayLog:
                                 if force.any()}}
             if "wallDisplacements" in columns:
                 moved = columns["wallDisplacements"][k]
-                entry["contact"] |= {"largestDisplacement": moved.max().item(), "displacement": moved.tolist()}
+                entry["contact"] |= {
+                    "largestDisplacement": np.linalg.norm(moved, axis=1).max().item(),
+                    "displacement": {str(j): _vector(own) for j, own in enumerate(moved) if own.any()}}
             yield step, entry
 
 
@@ -127,7 +129,8 @@ def _read_rows(source: Path) -> np.ndarray:
 
 
 def _catheter(columns: Mapping[str, np.ndarray], prefix: str, k: int) -> dict[str, Any]:
-    names = {"Positions": "sphere", "Orientations": "orientation", "ContactForces": "contactForces"}
+    names = {"Positions": "sphere", "Orientations": "orientation", "ContactForces": "contactForces",
+             "WallDisplacements": "wallDisplacements"}
     whole = [name.removeprefix(prefix) for name in columns if re.fullmatch(prefix + r"[A-Z]\w*", name)]
     return {names.get(name, name.lower()): columns[prefix + name][k].tolist() for name in whole}
 

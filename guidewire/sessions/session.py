@@ -31,7 +31,7 @@ from guidewire.sessions.session_hosts import SECONDS_TO_END, STEPS_AT_ONCE, Ende
 from guidewire.sessions.session_state import (
     Frames, LumenPlace, SessionError, State, arrays_of, fill, state_of, unread, unread_state,
 )
-from guidewire.sessions.session_values import accepted, number, numbers, plain, whole
+from guidewire.sessions.session_values import accepted, in_a_row, number, numbers, plain, text_of, whole
 
 _MOST = 1 << 31  # from here on a number does not fit a request of the library's
 
@@ -259,19 +259,20 @@ class Session:
     def places(self, positions: np.ndarray) -> list[LumenPlace]:
         """Say where a wire with nodes elsewhere, (f, n+1, 3), units, is in its vessel, for each of f states; an empty
         list where the scene has no inlet."""
-        nodes = np.ascontiguousarray(positions, dtype="<f8")
-        answer = self._ask("places", positions=base64.b64encode(nodes.tobytes()).decode("ascii"))
+        answer = self._ask("places", positions=text_of(np.ascontiguousarray(positions, dtype="<f8")))
         return [LumenPlace.of(row) for row in arrays_of(answer)["lumen"]]
 
-    def walls(self, middle: Sequence[float] | None = None, reach: float | None = None) -> list[Surface]:
+    def walls(self, middle: Sequence[float] | None = None, reach: float | None = None,
+              drawn: tuple[Sequence[np.ndarray], Sequence[np.ndarray]] | None = None) -> list[Surface]:
         """The walls as triangles, the vessel first where there is one.
 
         Parameters
         ----------
         middle : three numbers, units, and
         reach : units: of a wall without end what is so near; without them, as near to the wire as it is long.
+        drawn : as of `State.drawn`: vertices of soft walls near a contact are moved with it; None: walls are at rest.
         """
-        asked = {"middle": middle, "reach": reach}
+        asked = {"middle": middle, "reach": reach, "positions": None if drawn is None else text_of(in_a_row(*drawn))}
         answer = self._ask("walls", **{name: one for name, one in asked.items() if one is not None})
         block = base64.b64decode(answer["walls"])
         walls, at = [], 0
@@ -308,24 +309,24 @@ class Session:
         """
         return self.picture_of(None, **view)
 
-    def picture_of(self, positions: np.ndarray | Sequence[np.ndarray] | None, **view: Any) -> np.ndarray:
+    def picture_of(self, positions: np.ndarray | Sequence[np.ndarray] | None,
+                   wall_displacements: Sequence[np.ndarray] = (), **view: Any) -> np.ndarray:
         """Take a picture as `picture` does, of a wire with nodes elsewhere, (n+1, 3), units; with catheters of a list
-        of the wire's and each catheter's, outermost first."""
+        of the wire's and each catheter's, outermost first. Soft walls are at rest, or as `State.drawn` has them."""
         for name, value in view.items():
             if isinstance(value, (float, np.floating)) and not math.isfinite(value):
                 raise SessionError(f"{name} = {value} is not allowed: needs a finite number")
         if "field_of_view" in view:
             view["fieldOfView"] = view.pop("field_of_view")
         several = positions if isinstance(positions, (list, tuple)) else [positions]
-        nodes = None if positions is None else np.concatenate([np.asarray(one, dtype="<f8").ravel() for one in several])
+        nodes = None if positions is None else in_a_row(several, wall_displacements)
         text = json.dumps(view, default=plain)
         if isinstance(self._host, Library):
             made = self._guarded(lambda host: host.picture(text, nodes))
             if isinstance(made, np.ndarray):
                 return made
             raise SessionError(accepted(made)["message"])
-        positions_text = "" if nodes is None else base64.b64encode(nodes.tobytes()).decode("ascii")
-        answer = self._ask("picture", view=view, positions=positions_text)
+        answer = self._ask("picture", view=view, positions="" if nodes is None else text_of(nodes))
         grey = np.frombuffer(base64.b64decode(answer["grey"]), dtype=np.uint8)
         return grey.reshape(answer["pixels"], answer["pixels"]).copy()
 

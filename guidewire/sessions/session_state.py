@@ -16,14 +16,15 @@ if TYPE_CHECKING:
 
 _COLUMNS = {
     "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
+    "wallDisplacements": 3,
     "hub": 14, "catheter": 12, "lumen": 9, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
 }
 # Parts of a state, each read off once something of it is asked for.
 MOTION, INSTRUMENTS, STRAINS = PARTS = range(3)
 _STRAINS = ("curvature", "couple", "strain", "force", "energy")
 _PART_OF = {
-    **dict.fromkeys(("positions", "velocities", "orientations", "angular_velocities", "contact_forces", "reaction"),
-                    MOTION),
+    **dict.fromkeys(("positions", "velocities", "orientations", "angular_velocities", "contact_forces", "reaction",
+                     "wall_displacements"), MOTION),
     **dict.fromkeys(("hub", "catheters", "place"), INSTRUMENTS), **dict.fromkeys(_STRAINS, STRAINS),
 }
 _DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
@@ -106,6 +107,7 @@ class CatheterState:
     overlap : length over which that is inside, m.
     place : in the vessel; None where the scene has no inlet.
     contact_forces, velocities, angular_velocities : (m+1, 3), (m+1, 3) and (m, 3), as of `State`.
+    wall_displacements : (m, 3), as of `State`.
     """
 
     positions: np.ndarray
@@ -122,6 +124,7 @@ class CatheterState:
     contact_forces: np.ndarray
     velocities: np.ndarray
     angular_velocities: np.ndarray
+    wall_displacements: np.ndarray | None
 
 
 @dataclass(frozen=True)
@@ -158,6 +161,7 @@ class State:
         N; 0 where there are no walls. Of instruments in one another the outermost one has it.
     reaction : (3,), force of the held first sphere on the wire in the last step; with a material of its support, N.
         None where the method does not state it (xpbd, and gains without walls).
+    wall_displacements : (n, 3), how far soft walls are displaced at each element, m; None where all are rigid.
     curvature, couple : (n+1, 3), of a material: rad/m about d1, d2 and d3 at each joint, and N m; else None.
     strain, force : (n, 3), of a material: shear and stretch of each element, and force in it, N; else None.
     energy : of a material, J: of its motion, stored in it, and of the loads that have a potential; else None.
@@ -177,6 +181,7 @@ class State:
     angular_velocities: np.ndarray
     contact_forces: np.ndarray
     reaction: np.ndarray | None
+    wall_displacements: np.ndarray | None
     curvature: np.ndarray | None
     couple: np.ndarray | None
     strain: np.ndarray | None
@@ -199,7 +204,14 @@ class State:
         session = self._session()
         if session is None:
             raise SessionError("this state has no session that could take a picture")
-        return session.picture_of([self.positions, *(one.positions for one in self.catheters)], **view)
+        return session.picture_of(*self.drawn, **view)
+
+    @property
+    def drawn(self) -> tuple[list[np.ndarray], list[np.ndarray]]:
+        """Positions of the wire and of each catheter, and their `wall_displacements`, none of rigid walls."""
+        displaced = [self.wall_displacements, *(one.wall_displacements for one in self.catheters)]
+        return ([self.positions, *(one.positions for one in self.catheters)],
+                [one for one in displaced if one is not None])
 
     def __getattr__(self, name: str) -> Any:
         part = _PART_OF.get(name)
@@ -303,7 +315,8 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
             positions=positions, velocities=arrays["velocities"], orientations=arrays["orientations"],
             angular_velocities=arrays["angularVelocities"],
             contact_forces=arrays["contactForces"] if "contactForces" in arrays else np.zeros_like(positions),
-            reaction=arrays["reaction"][0] if "reaction" in arrays else None)
+            reaction=arrays["reaction"][0] if "reaction" in arrays else None,
+            wall_displacements=arrays.get("wallDisplacements"))
     elif part == INSTRUMENTS:
         vars(state).update(hub=_hub(arrays["hub"][0]) if "hub" in arrays else None, catheters=_catheters(arrays),
                            place=_place(arrays, ""))
@@ -329,7 +342,8 @@ def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
         catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
                                        numbers[7:10], *numbers[10:].tolist(), _place(arrays, str(number)),
                                        np.zeros_like(positions) if forces is None else forces,
-                                       arrays[f"velocities{number}"], arrays[f"angularVelocities{number}"]))
+                                       arrays[f"velocities{number}"], arrays[f"angularVelocities{number}"],
+                                       arrays.get(f"wallDisplacements{number}")))
     return tuple(catheters)
 
 

@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import base64
 import math
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
 
@@ -52,3 +54,12 @@ def number(name: str, value: Any) -> float:
     if not is_number or not math.isfinite(value):
         raise SessionError(f"{name} = {value!r} is not allowed: needs a finite number")
     return float(value)
+
+
+def in_a_row(positions: Sequence[np.ndarray], displacements: Sequence[np.ndarray] = ()) -> np.ndarray:
+    """All numbers of nodes and then of walls, as requests have them."""
+    return np.concatenate([np.asarray(one, dtype="<f8").ravel() for one in (*positions, *displacements)])
+
+
+def text_of(numbers: np.ndarray) -> str:
+    return base64.b64encode(numbers.tobytes()).decode("ascii")

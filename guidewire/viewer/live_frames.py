@@ -8,10 +8,10 @@ from typing import Any
 
 import numpy as np
 
+from guidewire.logs.walls import name_walls, soft_walls
 from guidewire.sessions.session import Session, State
 from guidewire.viewer.recording import (
-    Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, name_walls, radius_of, read_off, sheath_of,
-    units_of,
+    Channel, Recording, facts_of, largest_shown, lumen_of, make_channels, radius_of, read_off, sheath_of, units_of,
 )
 
 
@@ -56,7 +56,7 @@ class LiveFrames:
         return Recording(
             self._title, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
             self._channels(cost, *states), name_walls(session.parameters, self._walls), self._sheath, self._largest,
-            self.described,
+            self.described, soft_walls(session.parameters),
         )
 
     def frame(self, state: State, cost: float, *head: float) -> bytes:
@@ -80,6 +80,7 @@ class LiveFrames:
             "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
             **{f"positions{k + 1}": one.positions[None] for k, one in enumerate(state.catheters)},
             **{f"contact_forces{k + 1}": one.contact_forces[None] for k, one in enumerate(state.catheters) if walls},
+            **{f"wall_displacements{k or ''}": own[None] for k, own in enumerate(state.drawn[1])},
             "step_time": np.array([1e3 * cost]), "real_time": np.array([real_time]),
             **{name: None if values is None else values[None]
                for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),

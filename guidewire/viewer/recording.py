@@ -18,6 +18,7 @@ import numpy as np
 from guidewire.logs.logs import LogError, read_entries, read_log
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
+from guidewire.logs.walls import displacements_in, name_walls, soft_walls
 from guidewire.sessions.session import LumenPlace, State
 
 _STEPS = 65535  # of a quantised number, from its lowest value to its highest
@@ -40,7 +41,7 @@ class Channel:
     Attributes
     ----------
     name, label, unit : for the program and for people; what has no label is not offered as a curve.
-    place : where they stand: "frame" (one a frame), "sphere", "element", "vector" (three a sphere).
+    place : where they stand: "frame" (one a frame), "sphere", "element", "vector" (three a sphere or an element).
     values : (frames, width).
     is_signed : whether values below zero mean another direction.
     """
@@ -60,14 +61,14 @@ class Recording:
     Attributes
     ----------
     title, outcome : lines.
-    warnings : what a user has to know of it.
-    facts : names and values, for people.
+    warnings, facts : what a user has to know of it; names and values, for people.
     radius : of the wire, units.
     channels : "time", "step" and "positions" are always among them.
     walls : triangles with "vessel" or "obstacle".
     sheath : (2, 3), units: where it ends, and the farthest back that the wire begins in it; None without one.
     largest : as of `largest_shown`, where more was seen than these frames; None: of these.
     described : as of `Session.describe`; empty where it is not known: then there is no fluoroscopy.
+    soft : the numbers of walls that give way.
     """
 
     title: str
@@ -80,6 +81,7 @@ class Recording:
     sheath: np.ndarray | None = None
     largest: np.ndarray | None = None
     described: Mapping[str, Any] = field(default_factory=dict)
+    soft: Sequence[int] = ()
 
     def to_bytes(self, exact: bool = True) -> bytes:
         """Return the block for the page; where it need not be exact, of 16 bits a number between the lowest and the
@@ -94,10 +96,10 @@ class Recording:
                arrays.quantise(channel.values, 3 if channel.place == "vector" else 1)),
         } for channel, size in zip(self.channels, largest)]
         walls = [{
-            "kind": kind,
+            "kind": kind, "isSoft": k in self.soft,
             "vertices": arrays.add(wall.vertices, "f4") if exact else arrays.quantise(wall.vertices, 3),
             "triangles": arrays.add(wall.triangles, "u2" if len(wall.vertices) <= _STEPS else "u4"),
-        } for kind, wall in self.walls]
+        } for k, (kind, wall) in enumerate(self.walls)]
         header = json.dumps({
             "title": self.title, "outcome": self.outcome, "warnings": list(self.warnings), "facts": list(self.facts),
             "radius": self.radius, "channels": channels, "walls": walls,
@@ -190,10 +192,10 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
     numbers : "step", "time" (k,), s; "positions" (k, n+1, 3), units; and where they are known "orientations" (k, n, 4),
         x, y, z, w; "positions1" (k, m+1, 3) of the first catheter, and so on, and what was read off at its hub with
         "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3), and
-        of the first catheter "contact_forces1"; "reaction" (k, 3); "couple" (k, n+1, 3), N m; "kineticEnergy",
-        "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the hub, (k,), with "hub." before its key;
-        "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath; "step_time" (k,), ms;
-        "real_time" (k,), times faster.
+        of the first catheter "contact_forces1"; "wall_displacements" (k, n, 3), m, the same; "reaction" (k, 3);
+        "couple" (k, n+1, 3), N m; "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the
+        hub, (k,), with "hub." before its key; "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath;
+        "step_time" (k,), ms; "real_time" (k,), times faster.
     """
     known = {name: values for name, values in numbers.items() if values is not None}
     positions = known["positions"]
@@ -229,6 +231,8 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
             Channel("wallForce", "all wall forces added up", units.force, "frame",
                     sum(np.linalg.norm(own, axis=2).sum(axis=1) for own in (forces, *of_catheters.values()))),
         ]
+    channels += [Channel(name.replace("wall_d", "wallD"), "", "units", "vector", _flat(per_unit * known[name]))
+                 for name in known if name.startswith("wall_displacements")]
     if "lumen" in known:
         channels.append(Channel("lumen", "", "", "frame", known["lumen"]))
     channels += _at_the_hub(known, units, along)
@@ -375,7 +379,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
         run.folder.resolve().name, f"{run.outcome}: {reason}" if reason else run.outcome, warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
-        sheath_of(run.parameters, numbers), described=described,
+        sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
     )
 
 
@@ -386,11 +390,6 @@ def lumen_of(places: Sequence[LumenPlace | None]) -> np.ndarray | None:
     if not places or len(known) < len(places):
         return None
     return np.array([[place.left, float(place.is_at_target), float(place.is_inside)] for place in known])
-
-
-def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[tuple[str, Surface]]:
-    """Return each wall of a run with what it is; the vessel stands first where there is one."""
-    return [("vessel" if k == 0 and parameters.get("vessel") else "obstacle", wall) for k, wall in enumerate(walls)]
 
 
 def facts_of(parameters: Mapping[str, Any], summary: Mapping[str, Any] | None) -> list[tuple[str, str]]:
@@ -432,6 +431,8 @@ def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
                 forces[int(index)] = [force[axis] for axis in "xyz"]
             rows.setdefault("contact_forces", []).append(forces)
             rows.setdefault("reaction", []).append([contact["reaction"][axis] for axis in "xyz"])
+        for number, displaced in enumerate(displacements_in(entry)):
+            rows.setdefault(f"wall_displacements{number or ''}", []).append(displaced)
         if "stress" in entry:
             for name in ("curvature", "force", "couple"):
                 rows.setdefault(name, []).append(entry["stress"][name])

@@ -1,6 +1,7 @@
 using System;
 using System.Collections.Generic;
 using System.Linq;
+using System.Runtime.InteropServices;
 using Guidewire.Core;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
@@ -18,6 +19,7 @@ namespace Guidewire.Cli
         private byte[] _bytes = Array.Empty<byte>();
         private RunPictures? _pictures;
         private readonly List<Vector3d[]> _centrelines = new List<Vector3d[]>();
+        private readonly List<Vector3d[]> _displacements = new List<Vector3d[]>();
 
         /// <param name="stopRequested">Asked before every step.</param>
         public SessionHost(Func<bool> stopRequested)
@@ -51,7 +53,7 @@ namespace Guidewire.Cli
                     answer["agent"] = Text(AgentRequest.Answer(Opened(), request, answer));
                     return;
                 case "walls":
-                    answer["walls"] = Convert.ToBase64String(Walls(request.Middle, request.Reach));
+                    answer["walls"] = Convert.ToBase64String(Walls(request.Middle, request.Reach, Doubles(request)));
                     return;
                 case "places":
                     TakePlaces(request, answer);
@@ -170,48 +172,65 @@ namespace Guidewire.Cli
 
         /// <summary>Takes a fluoroscopic picture.</summary>
         /// <param name="view">Which.</param>
-        /// <param name="positions">x, y and z of each node of the wire and then of each catheter, units; none: as they
-        /// are now.</param>
+        /// <param name="positions">x, y and z of each node of the wire and then of each catheter, units; and, if known,
+        /// of the displacement of soft walls at each element, m. None: as they are now.</param>
         /// <param name="grey">Takes the grey levels, row by row.</param>
         /// <exception cref="ParameterException">No session is open, or another number of nodes.</exception>
         public void Picture(PictureView view, ReadOnlySpan<double> positions, Span<byte> grey)
         {
             SimulationSession session = Opened();
             _pictures ??= new RunPictures(session.Parameters);
-            _centrelines.Clear();
-            _centrelines.AddRange(session.Simulation.Centrelines());
-            if (positions.Length > 0)
-            {
-                TakeCentrelines(positions);
-            }
+            TakeCentrelines(session.Simulation, positions);
             if (_pictures.Contrast != session.Contrast?.Flow)
             {
                 _pictures.Contrast = session.Contrast?.Flow;
             }
-            _pictures.Draw(_centrelines, view, grey);
+            _pictures.Draw(_centrelines, view, grey, _displacements);
         }
 
-        private void TakeCentrelines(ReadOnlySpan<double> positions)
+        // Those of a request, or as they are now.
+        private void TakeCentrelines(Simulation simulation, ReadOnlySpan<double> positions)
         {
+            _centrelines.Clear();
+            _centrelines.AddRange(simulation.Centrelines());
+            _displacements.Clear();
+            _displacements.AddRange(SoftWallDisplacements.Of(simulation));
+            if (positions.Length == 0)
+            {
+                return;
+            }
             int nodes = _centrelines.Sum(one => one.Length);
-            if (positions.Length != 3 * nodes)
+            int elements = _displacements.Sum(one => one.Length);
+            if (positions.Length != 3 * nodes && positions.Length != 3 * (nodes + elements))
             {
                 throw new ParameterException("request: positions needs to be of " + nodes
-                    + " nodes, three numbers each");
+                    + " nodes" + (elements > 0 ? ", and may have displacements of walls at " + elements + " elements"
+                    : "") + ", three numbers each");
             }
-            int next = 0;
-            for (int k = 0; k < _centrelines.Count; k++)
+            TakeVectors(positions.Slice(0, 3 * nodes), _centrelines);
+            if (positions.Length > 3 * nodes)
             {
-                var centreline = new Vector3d[_centrelines[k].Length];
-                for (int i = 0; i < centreline.Length; i++, next += 3)
+                TakeVectors(positions.Slice(3 * nodes), _displacements);
+            }
+            else
+            {
+                _displacements.Clear();
+            }
+        }
+
+        // In arrays of their own, as long as those that are there.
+        private static void TakeVectors(ReadOnlySpan<double> numbers, List<Vector3d[]> lists)
+        {
+            ReadOnlySpan<Vector3d> vectors = MemoryMarshal.Cast<double, Vector3d>(numbers);
+            int start = 0;
+            for (int k = 0; k < lists.Count; k++)
+            {
+                lists[k] = vectors.Slice(start, lists[k].Length).ToArray();
+                start += lists[k].Length;
+                if (!Array.TrueForAll(lists[k], vector => vector.IsFinite))
                 {
-                    centreline[i] = new Vector3d(positions[next], positions[next + 1], positions[next + 2]);
-                    if (!centreline[i].IsFinite)
-                    {
-                        throw new ParameterException("request: positions needs finite numbers");
-                    }
+                    throw new ParameterException("request: positions needs finite numbers");
                 }
-                _centrelines[k] = centreline;
             }
         }
 
@@ -220,18 +239,24 @@ namespace Guidewire.Cli
         /// wire's ends.</param>
         /// <param name="reach">How far from there a wall without end is drawn, units; null: as far as the wire is
         /// long.</param>
-        /// <exception cref="ParameterException">No session is open.</exception>
-        public byte[] Walls(Vector3d? middle = null, double? reach = null)
+        /// <param name="positions">As of <see cref="Picture"/>; none: walls are at rest.</param>
+        /// <exception cref="ParameterException">No session is open, or another number of nodes.</exception>
+        public byte[] Walls(Vector3d? middle = null, double? reach = null, ReadOnlySpan<double> positions = default)
         {
             SimulationSession session = Opened();
+            TakeCentrelines(session.Simulation, positions);
+            if (positions.Length == 0)
+            {
+                _displacements.Clear();
+            }
             Vector3d[] wire = session.Simulation.State.Positions;
             double length = 0.0;
             for (int i = 1; i < wire.Length; i++)
             {
                 length += (wire[i] - wire[i - 1]).Length;
             }
-            return SessionWalls.ToBytes(session.Parameters.Scene.Walls, middle ?? 0.5 * (wire[0] + wire[^1]),
-                reach ?? length);
+            return SessionWalls.ToBytes(session.Parameters, middle ?? 0.5 * (wire[0] + wire[^1]), reach ?? length,
+                _centrelines, _displacements);
         }
 
         // What X-rays see of the instruments, and the path to the target, for whoever draws pictures of their own.

@@ -98,6 +98,7 @@ namespace Guidewire.Cli
             {
                 Put("contactForces", contacts.Forces);
                 PutOne("reaction", contacts.Reaction);
+                PutSoft("wallDisplacements", contacts.Displacements);
             }
         }
 
@@ -123,6 +124,7 @@ namespace Guidewire.Cli
                 if (simulation.Contacts != null)
                 {
                     Put("contactForces" + number, catheters[k].ContactForces);
+                    PutSoft("wallDisplacements" + number, catheters[k].WallDisplacements);
                 }
             }
         }
@@ -200,6 +202,15 @@ namespace Guidewire.Cli
         private void Put(string name, Vector3d[] values)
         {
             MemoryMarshal.Cast<Vector3d, double>(values).CopyTo(Next(name, values.Length, 3));
+        }
+
+        // Rigid walls have none.
+        private void PutSoft(string name, Vector3d[] displacements)
+        {
+            if (displacements.Length > 0)
+            {
+                Put(name, displacements);
+            }
         }
 
         private void PutOne(string name, in Vector3d value)

@@ -11,19 +11,24 @@ namespace Guidewire.Cli
     internal static class SessionWalls
     {
         /// <summary>All walls.</summary>
-        /// <param name="walls">The scene's.</param>
+        /// <param name="parameters">Those of the run.</param>
         /// <param name="middle">Where the picture's middle is, units.</param>
         /// <param name="reach">How far from there a wall without end is drawn, units.</param>
-        public static byte[] ToBytes(IEnumerable<ContactShape> walls, in Vector3d middle, double reach)
+        /// <param name="centrelines">Nodes of the wire and of each catheter, units.</param>
+        /// <param name="displacements">Of walls at their elements, m; none: all walls are at rest.</param>
+        public static byte[] ToBytes(SimulationParameters parameters, in Vector3d middle, double reach,
+            IReadOnlyList<Vector3d[]> centrelines, IReadOnlyList<Vector3d[]> displacements)
         {
             using var bytes = new MemoryStream();
             using var writer = new BinaryWriter(bytes, Encoding.UTF8);
-            foreach (ContactShape wall in walls)
+            foreach (ContactShape wall in parameters.Scene.Walls)
             {
                 WallSurface surface = WallSurface.Create(wall, middle, reach);
+                var drawn = new WallIndentation(parameters, wall, surface.Vertices);
+                drawn.Move(centrelines, displacements);
                 writer.Write(surface.Vertices.Count);
                 writer.Write(surface.Triangles.Count / 3);
-                foreach (Vector3d vertex in surface.Vertices)
+                foreach (Vector3d vertex in drawn.Vertices)
                 {
                     writer.Write(vertex.X);
                     writer.Write(vertex.Y);

@@ -18,6 +18,7 @@ namespace Guidewire.Core
         private const double Stretch = 1e-3;           // of an element's length, by which it may be longer
 
         private readonly Fluoroscopy _fluoroscopy;
+        private readonly List<WallIndentation> _walls = new List<WallIndentation>();    // as the fluoroscopy has them
         private readonly Extents? _vessel;
         private readonly double _perUnit;   // mm
         private readonly PatientAxes? _axes;
@@ -45,6 +46,7 @@ namespace Guidewire.Core
                 }
                 Extents box = Extents.Of(wall)!.Value;
                 vessels.Add(WallSurface.Create(wall, 0.5 * (box.Low + box.High), 2.0 * box.LargestSide));
+                _walls.Add(new WallIndentation(parameters, wall, vessels[vessels.Count - 1].Vertices));
                 corners.Add(box.Low);
                 corners.Add(box.High);
             }
@@ -88,8 +90,10 @@ namespace Guidewire.Core
         /// <param name="centrelines">Nodes of each instrument, units.</param>
         /// <param name="view">What picture.</param>
         /// <param name="grey">Takes the grey levels, row by row from the upper left corner.</param>
+        /// <param name="displacements">Of soft walls at the instruments' elements, m; none: walls are at rest.</param>
         /// <exception cref="ArgumentException">A value out of its range.</exception>
-        public void Draw(IReadOnlyList<Vector3d[]> centrelines, PictureView view, Span<byte> grey)
+        public void Draw(IReadOnlyList<Vector3d[]> centrelines, PictureView view, Span<byte> grey,
+            IReadOnlyList<Vector3d[]>? displacements = null)
         {
             FluoroscopySettings asked = view.Settings;
             string? problem = asked.FindProblem();
@@ -107,6 +111,13 @@ namespace Guidewire.Core
                 Blur = asked.Blur / _perUnit,
             };
             Place(centrelines, view.Attenuation);
+            for (int k = 0; k < _walls.Count; k++)
+            {
+                if (_walls[k].Move(centrelines, displacements ?? Array.Empty<Vector3d[]>()))
+                {
+                    _fluoroscopy.Move(k, _walls[k].Vertices);
+                }
+            }
             var shown = new List<ImagedInstrument>(_drawn);
             if (shown.Count > 1)
             {

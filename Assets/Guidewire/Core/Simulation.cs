@@ -288,6 +288,7 @@ namespace Guidewire.Core
             Serialize(snapshot);
             snapshot.Serialize(PredictionError);
             Contacts?.Serialize(snapshot);    // of the last step, as the error before: shown, not used
+            SoftWallDisplacements.Serialize(this, snapshot);
             snapshot.Serialize((int)Outcome);
             snapshot.Serialize(Outcome == Outcome.Running ? "" : _ownReason ?? _stopRule.Reason);
             snapshot.Serialize(_accuracy.Count);
@@ -320,6 +321,7 @@ namespace Guidewire.Core
                 Simulation simulation = Rebuild(parameters, start, snapshot);
                 simulation._stepper.PredictionError = snapshot.Serialize(0.0);
                 simulation.Contacts?.Serialize(snapshot);
+                SoftWallDisplacements.Serialize(simulation, snapshot);
                 var outcome = (Outcome)snapshot.Serialize(0);
                 string reason = snapshot.Serialize("");
                 if (outcome != Outcome.Running)

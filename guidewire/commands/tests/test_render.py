@@ -7,6 +7,7 @@ import pytest
 from PIL import Image, ImageSequence
 
 from guidewire.commands import commands, drawn
+from guidewire.logs.logs import read_log
 from guidewire.logs.runs import read_run
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs.runner import Request
@@ -68,7 +69,9 @@ def test_every_shape_is_drawn(make_run, capsys, changes):
 
 def test_walls_are_those_of_the_simulation(make_run, runner_command):
     run = read_run(make_run(**SHAPES["a tube that is placed"], obstacles=OBSTACLES))
-    tube, *bodies = drawn.walls_of(run, np.zeros(3), 60.0)
+    with drawn.walls_of(run, read_log(run.folder, "all"), np.zeros(3), 60.0) as (walls, moved):
+        tube, *bodies = walls
+    assert moved is None, "they are rigid"
     rings = tube.vertices
     # Scaled by 2 and turned from x to z: a tube of radius 8 along z, whose open ends are drawn 60 units far.
     assert np.hypot(rings[:, 0], rings[:, 1]) == pytest.approx(8.0)

@@ -41,6 +41,7 @@ export class SecondPlane {
     const lao = ((first.look.lao + APART + 180) % 360) - 180;
     this._fluoroscopy.look = { ...first.look, lao, seed: first.look.seed + 1, isSubtracted: false };
     this._fluoroscopy.parts = first.parts;
+    this._fluoroscopy.moves = first.moves;
     this._fluoroscopy.draw(instruments);
     byId("secondArm").textContent = `second plane, ${this._fluoroscopy.angles[0]}`;
   }

@@ -69,6 +69,8 @@ export class View {
     this._peak = new Float64Array(0);
     /** Of the lumen along each ray, units; row by row from above. */
     this._thickness = new Float32Array(0);
+    /** Counts how often walls that give way were moved. */
+    this.moves = this._movesShown = 0;
     /** Brightness of background and vessel. */
     this._brightness = new Float32Array(0);
   }
@@ -132,12 +134,13 @@ export class View {
   _setBrightness(arm) {
     const { lao, cranial, vessel, contrast, background } = this.look;
     const seen = [lao, cranial, ...arm.centre, arm.scale].join();
-    if (seen !== this._seen) {
+    if (seen !== this._seen || this.moves !== this._movesShown) {
       this._thickness.fill(0);
       for (const lumen of this._lumens) lumen.add(arm, this._thickness);
     }
     const isFilled = this.parts !== null && this._cells !== null;
-    const shown = [seen, vessel, contrast, background].join();
+    this._movesShown = this.moves;
+    const shown = [seen, this.moves, vessel, contrast, background].join();
     if (shown === this._shown && this.parts === this._partsShown) return false;
     this._seen = seen;
     this._shown = shown;

@@ -9,6 +9,7 @@
 export class Lumen {
   /** @param {Wall} wall */
   constructor(wall) {
+    this._wall = wall;
     const vertices = [...wall.vertices];
     const triangles = [...wall.triangles];
     closeRims(vertices, triangles);
@@ -42,6 +43,7 @@ export class Lumen {
 
   /** @param {import("./carm.js").CArm} arm @param {Take} take */
   _project(arm, take) {
+    if (this._wall.isSoft) this._vertices.set(this._wall.vertices); // middles of rims stay
     const point = [0, 0, 0];
     for (let i = 0; i < this._vertices.length; i += 3) {
       arm.project(this._vertices, i, point);

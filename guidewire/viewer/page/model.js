@@ -41,6 +41,7 @@ export class Model {
     this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
     this.arrows.frustumCulled = false;
     for (const wall of recording.walls) this.walls.add(...surfaces(wall));
+    this._moves = 0; // of walls, that are in the picture
     this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(
       ...recording.centrelines.map((_, k) => recording.radiusOf(k))), [
@@ -90,6 +91,13 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
     this._shared = full;
     const positions = this.recording.at("positions", frame);
     const first = this.recording.firstShown(frame);
+    this.recording.moveWalls(frame);
+    if (this.recording.moves !== this._moves) {
+      this._moves = this.recording.moves;
+      for (const part of this.walls.children) {
+        if (part instanceof Mesh) part.geometry.getAttribute("position").needsUpdate = true;
+      }
+    }
     this._drawnThickness = this.shownThickness;
     const path = this.wirePath();
     this._along = path.along;

@@ -8,7 +8,7 @@
  * @property {string} label
  * @property {string} unit
  * @property {"frame" | "sphere" | "element" | "vector"} place where they stand: one a frame, at each sphere, at each
- *     rod element, or three at each sphere
+ *     rod element, or three at each sphere or element
  * @property {boolean} isSigned whether values below zero mean another direction
  * @property {number} width
  * @property {number} largest size of its numbers so far, what is in a sheath left out
@@ -16,7 +16,8 @@
  *
  * @typedef {object} Wall
  * @property {string} kind "vessel" or "obstacle"
- * @property {Float32Array} vertices x, y, z each, units
+ * @property {boolean} isSoft whether it gives way
+ * @property {Float32Array} vertices x, y, z each, units; where it gives way, as they are drawn now
  * @property {Uint32Array} triangles three indices each
  *
  * @typedef {object} Recorded
@@ -41,6 +42,8 @@
  * @property {number[]} [high] u2: value of 65535
  */
 
+import { press } from "./indentation.js";
+
 const TYPES = { f8: Float64Array, f4: Float32Array, u2: Uint16Array, u4: Uint32Array };
 const COLOURS = ["#4aa8ff", "#ff9d2e", "#b58cff", "#5fd38d"]; // of instruments, the first run's first
 const LONGEST = 6000; // frames that are kept of a run that goes on; then the older half goes
@@ -56,6 +59,7 @@ export function unpackRecording(bytes) {
       ({ ...packed, values: Float64Array.from(unpack(bytes, start, packed)) })),
     walls: header.walls.map((/** @type {any} */ wall) => ({
       kind: wall.kind,
+      isSoft: wall.isSoft,
       vertices: Float32Array.from(unpack(bytes, start, wall.vertices)),
       triangles: Uint32Array.from(unpack(bytes, start, wall.triangles)),
     })),
@@ -73,6 +77,11 @@ export class Recording {
     this.radius = radius;
     this.channels = new Map(channels.map((channel) => [channel.name, channel]));
     this.walls = walls;
+    /** Vertices at rest, of walls that give way. @type {Map<Wall, Float32Array>} */
+    this._atRest = new Map(walls.filter((wall) => wall.isSoft).map((wall) => [wall, wall.vertices.slice()]));
+    this._isMoved = false;
+    /** Counts how often vertices were moved. */
+    this.moves = 0;
     this.sheath = sheath;
     this.described = described;
     /** Of a unit. */
@@ -149,6 +158,23 @@ export class Recording {
   /** Numbers of a channel that has one a frame. @param {string} name */
   overTime(name) {
     return this.channel(name).values.subarray(0, this._count);
+  }
+
+  /** Moves the vertices of walls that give way to where they are drawn in a frame. @param {number} frame */
+  moveWalls(frame) {
+    const wasMoved = this._isMoved;
+    this._isMoved = false;
+    for (const [wall, rest] of this._atRest) {
+      if (wasMoved) wall.vertices.set(rest);
+      this.centrelines.forEach((name, k) => {
+        const displacements = `wallDisplacements${k || ""}`;
+        if (!this.channels.has(displacements)) return;
+        if (press(rest, wall.vertices, this.at(name, frame), this.at(displacements, frame), this.radiusOf(k))) {
+          this._isMoved = true;
+        }
+      });
+    }
+    if (wasMoved || this._isMoved) this.moves++;
   }
 
   /** The last sphere that is in a sheath, or the first of all. @param {number} frame */

@@ -15,7 +15,7 @@ import { factsOf, largestShown, makeChannels, radiusOf, sheathOf } from "./chann
 import { HeldInstruments } from "./steered.js";
 
 const HEAD = 4; // numbers before the arrays of a step
-const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|reaction|hub|lumen|strain|force|curvature|couple|energy)$/;
+const ARRAYS = /^(positions|orientations|catheter|lumen|contactForces|wallDisplacements)\d+$|^(positions|velocities|orientations|angularVelocities|contactForces|wallDisplacements|reaction|hub|lumen|strain|force|curvature|couple|energy)$/;
 const NOT_ALLOWED = /^(?:.*: )?(\w+) = .* is not allowed: (needs .*)$/s;
 
 /** What the program does not do. The message is one line. */
@@ -312,10 +312,13 @@ export class Run {
     const bytes = this._program.walls();
     const view = new DataView(bytes.buffer, bytes.byteOffset);
     const walls = [];
+    const { vessel, obstacles } = this._parameters ?? {};
+    const own = [vessel, ...(obstacles ?? [])].filter(Boolean);
     for (let at = 0; at < bytes.length;) {
       const [corners, sides] = [3 * view.getInt32(at, true), 3 * view.getInt32(at + 4, true)];
       const part = (/** @type {number} */ from, /** @type {number} */ to) => bytes.slice(at + from, at + to).buffer;
       walls.push({ kind: walls.length === 0 && this._parameters?.vessel ? "vessel" : "obstacle",
+        isSoft: ["wallStiffness", "modulus"].some((key) => key in own[walls.length]),
         vertices: Float32Array.from(new Float64Array(part(8, 8 + 8 * corners))),
         triangles: new Uint32Array(part(8 + 8 * corners, 8 + 8 * corners + 4 * sides)) });
       at += 8 + 8 * corners + 4 * sides;

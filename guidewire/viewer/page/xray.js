@@ -204,6 +204,7 @@ export class Xray {
     look.centre = /** @type {Point} */ (look.centre.map((value, k) => value + this._table[k]));
     look.seed = this._frames++;
     const instruments = this._instruments;
+    this.fluoroscopy.moves = recording.moves;
     this.fluoroscopy.draw(instruments);
     this.cine.take(this.fluoroscopy.canvas);
     this.beam.take(recording.at("time", this._models[0].frame)[0]);

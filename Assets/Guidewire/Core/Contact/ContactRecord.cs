@@ -84,9 +84,9 @@ namespace Guidewire.Core
         /// and diameter. 0 with pbd.</summary>
         public double Pressure { get; internal set; }
 
-        /// <summary>Displacement of soft walls at each of the n elements, the largest of its contacts, m. Empty where
-        /// all walls are rigid.</summary>
-        public double[] Displacements { get; internal set; } = Array.Empty<double>();
+        /// <summary>Displacement of soft walls at each of the n elements, that of the contact where it is largest, m.
+        /// Empty where all walls are rigid.</summary>
+        public Vector3d[] Displacements { get; internal set; } = Array.Empty<Vector3d>();
 
         /// <summary>The largest of them, m.</summary>
         public double LargestDisplacement { get; internal set; }
@@ -95,10 +95,19 @@ namespace Guidewire.Core
         public double MeanDisplacement { get; internal set; }
 
         /// <summary>Prepares what is recorded by element.</summary>
-        internal void SetElements(int count, ContactShape[] walls)
+        /// <param name="count">Of the elements.</param>
+        /// <param name="walls">Of the scene.</param>
+        /// <param name="hasForces">Whether the forces on elements are recorded.</param>
+        internal void SetElements(int count, ContactShape[] walls, bool hasForces = true)
         {
-            ElementForces = new Vector3d[count];
-            Displacements = new double[Array.Exists(walls, wall => wall.Softness != null) ? count : 0];
+            ElementForces = new Vector3d[hasForces ? count : 0];
+            Displacements = new Vector3d[HasSoft(walls) ? count : 0];
+        }
+
+        /// <summary>Whether any of these walls gives way.</summary>
+        internal static bool HasSoft(ContactShape[] walls)
+        {
+            return Array.Exists(walls, wall => wall.Softness != null);
         }
 
         internal void SetTotal(in Vector3d total)
@@ -129,30 +138,30 @@ namespace Guidewire.Core
             Pressure = other.Pressure;
             LargestDisplacement = other.LargestDisplacement;
             MeanDisplacement = other.MeanDisplacement;
-            for (int j = 0; j < Displacements.Length; j++)
-            {
-                int from = j - offset;
-                Displacements[j] = from >= 0 && from < other._spheres - 1 ? other.Displacements[from] : 0.0;
-            }
-            other.CopyForces(Forces, offset, 0);
-            for (int j = 0; j < ElementForces.Length; j++)
-            {
-                int from = j - offset;
-                ElementForces[j] = from >= 0 && from < other._spheres - 1 ? other.ElementForces[from]
-                    : Vector3d.Zero;
-            }
+            Copy(other.Displacements, Displacements, offset, 0, other._spheres - 1);
+            Copy(other.Forces, Forces, offset, 0, other._spheres);
+            Copy(other.ElementForces, ElementForces, offset, 0, other._spheres - 1);
         }
 
-        /// <summary>Copies the forces on spheres to those of another numbering.</summary>
+        /// <summary>Copies the forces on spheres and the displacements at elements to those of another numbering.
+        /// </summary>
         /// <param name="forces">Receives them; zero where there are none.</param>
+        /// <param name="displacements">The same.</param>
         /// <param name="offset">Of the other numbers.</param>
-        /// <param name="first">The first sphere here that counts.</param>
-        internal void CopyForces(Vector3d[] forces, int offset, int first)
+        /// <param name="first">The first sphere here whose force counts.</param>
+        /// <param name="firstElement">The first element that counts.</param>
+        internal void CopyTo(Vector3d[] forces, Vector3d[] displacements, int offset, int first, int firstElement)
         {
-            for (int i = 0; i < forces.Length; i++)
+            Copy(Forces, forces, offset, first, _spheres);
+            Copy(Displacements, displacements, offset, firstElement, _spheres - 1);
+        }
+
+        private static void Copy(Vector3d[] values, Vector3d[] others, int offset, int first, int count)
+        {
+            for (int i = 0; i < others.Length; i++)
             {
                 int from = i - offset;
-                forces[i] = from >= first && from < _spheres ? Forces[from] : Vector3d.Zero;
+                others[i] = from >= first && from < count ? values[from] : Vector3d.Zero;
             }
         }
 
@@ -177,6 +186,12 @@ namespace Guidewire.Core
             Pressure = snapshot.Serialize(Pressure);
             snapshot.Serialize(Forces, _spheres);
             snapshot.Serialize(ElementForces, _spheres - 1);
+        }
+
+        /// <summary>The displacements of soft walls, which another run of the same wire may not have.</summary>
+        internal void SerializeDisplacements(Snapshot snapshot)
+        {
+            snapshot.Serialize(Displacements, Math.Min(Displacements.Length, _spheres - 1));
         }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls prevented,

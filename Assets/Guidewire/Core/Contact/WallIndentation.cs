@@ -1,60 +1,81 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
-    /// <summary>How walls that give way are drawn: vertices near a contact go with it, the less the farther away they
+    /// <summary>How a wall that gives way is drawn: vertices near a contact go with it, the less the farther away they
     /// are. Only drawn: what a run knows of a wall is how far it is displaced at its contacts.</summary>
-    public static class WallIndentation
+    public sealed class WallIndentation
     {
         private const double Reach = 4.0;    // beyond the wire's surface, of its radius
 
-        /// <summary>Displacements of the walls at the elements of a wire, units; 0 where nothing gives way.</summary>
-        /// <param name="contacts">Of the run.</param>
-        /// <param name="metresPerUnit">m.</param>
-        /// <param name="indentations">Receives them; unchanged where the record has others than these elements.</param>
-        public static void Take(ContactRecord contacts, double metresPerUnit, Vector3d[] indentations)
+        private readonly Vector3d[] _rest;      // units; none where the wall is rigid
+        private readonly double[] _radii;       // of the wire and each catheter, units
+        private readonly double _perMetre;      // units
+        private bool _isMoved;
+
+        /// <summary>A wall at rest.</summary>
+        /// <param name="parameters">Those of the run.</param>
+        /// <param name="wall">One of its walls.</param>
+        /// <param name="vertices">Those that it is drawn by, units.</param>
+        public WallIndentation(SimulationParameters parameters, ContactShape wall, IEnumerable<Vector3d> vertices)
         {
-            for (int j = 0; j < indentations.Length && contacts.Displacements.Length == indentations.Length; j++)
+            Vertices = new List<Vector3d>(vertices).ToArray();
+            _rest = wall.Softness == null ? Array.Empty<Vector3d>() : (Vector3d[])Vertices.Clone();
+            _perMetre = 1.0 / parameters.Scene.MetresPerUnit;
+            _radii = new double[1 + parameters.Scene.Catheters.Count];
+            for (int k = 0; k < _radii.Length; k++)
             {
-                Vector3d force = contacts.ElementForces[j];
-                double size = contacts.Displacements[j] / metresPerUnit;
-                indentations[j] = force == Vector3d.Zero ? Vector3d.Zero : -size * Vector3d.Normalize(force);
+                _radii[k] = _perMetre * (k == 0 ? parameters.Material : parameters.Scene.Catheters[k - 1].Material)
+                    .WireRadius;
             }
         }
 
-        /// <summary>Moves the vertices of a wall.</summary>
-        /// <param name="rest">Where they are without contact, units.</param>
-        /// <param name="positions">Of the wire's nodes, units.</param>
-        /// <param name="indentations">By element, as <see cref="Take"/> gives them.</param>
-        /// <param name="radius">Of the wire, units.</param>
-        /// <param name="moved">Receives them.</param>
-        /// <returns>Whether any differs from its place at rest.</returns>
-        public static bool Move(Vector3d[] rest, Vector3d[] positions, Vector3d[] indentations, double radius,
-            Vector3d[] moved)
+        /// <summary>Where its vertices are drawn, units.</summary>
+        public Vector3d[] Vertices { get; }
+
+        /// <summary>Moves the vertices to where the instruments press them.</summary>
+        /// <param name="centrelines">Nodes of the wire and of each catheter, units.</param>
+        /// <param name="displacements">Of walls at their elements, m, as <see cref="ContactRecord.Displacements"/>;
+        /// none: the wall is at rest.</param>
+        /// <returns>Whether they may differ from before.</returns>
+        public bool Move(IReadOnlyList<Vector3d[]> centrelines, IReadOnlyList<Vector3d[]> displacements)
         {
-            Array.Copy(rest, moved, moved.Length);
-            bool isAny = false;
-            for (int j = 0; j < indentations.Length; j++)
+            bool wasMoved = _isMoved;
+            if (wasMoved)
             {
-                double size = indentations[j].Length;
-                if (size == 0.0)
+                Array.Copy(_rest, Vertices, _rest.Length);
+                _isMoved = false;
+            }
+            for (int k = 0; k < displacements.Count && _rest.Length > 0; k++)
+            {
+                for (int j = 0; j < displacements[k].Length; j++)
                 {
-                    continue;    // most elements touch nothing
-                }
-                Vector3d outward = (1.0 / size) * indentations[j];
-                double reach = (1.0 + Reach) * radius + Vector3d.Distance(positions[j], positions[j + 1]);
-                for (int i = 0; i < moved.Length; i++)
-                {
-                    double part = (rest[i] - positions[j]).LengthSquared < reach * reach
-                        ? size * Share(rest[i], positions[j], positions[j + 1], outward, radius) : 0.0;
-                    if (part > Vector3d.Distance(rest[i], moved[i]))
+                    Vector3d displacement = _perMetre * displacements[k][j];
+                    if (displacement != Vector3d.Zero)    // most elements touch nothing
                     {
-                        moved[i] = rest[i] + (part / size) * indentations[j];
-                        isAny = true;
+                        Press(centrelines[k][j], centrelines[k][j + 1], displacement, _radii[k]);
                     }
                 }
             }
-            return isAny;
+            return wasMoved || _isMoved;
+        }
+
+        // Each vertex goes with the element that moves it farthest.
+        private void Press(in Vector3d a, in Vector3d b, in Vector3d displacement, double radius)
+        {
+            double size = displacement.Length;
+            double reach = (1.0 + Reach) * radius + Vector3d.Distance(a, b);
+            for (int i = 0; i < _rest.Length; i++)
+            {
+                double share = (_rest[i] - a).LengthSquared < reach * reach
+                    ? Share(_rest[i], a, b, (1.0 / size) * displacement, radius) : 0.0;
+                if (share * size > Vector3d.Distance(_rest[i], Vertices[i]))
+                {
+                    Vertices[i] = _rest[i] + share * displacement;
+                    _isMoved = true;
+                }
+            }
         }
 
         // 1 at the contact itself, 0 away from it and on the other side of the wire.

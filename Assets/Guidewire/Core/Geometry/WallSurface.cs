@@ -8,6 +8,8 @@ namespace Guidewire.Core
     public sealed class WallSurface
     {
         private const int Sides = 32;
+        private const double Fine = 0.5;      // of its radius: between rings of a tube that gives way
+        private const int MostRings = 500;    // between knots
         private readonly List<Vector3d> _vertices = new List<Vector3d>();
         private readonly List<int> _triangles = new List<int>();
 
@@ -95,6 +97,7 @@ namespace Guidewire.Core
             knots[0] = Nearer(knots[0], knots[1], extent);
             knots[last] = Nearer(knots[last], knots[last - 1], extent);
             Vector3d side = Vector3d.Perpendicular(knots[1] - knots[0]);
+            int rings = 0;
             for (int i = 0; i <= last; i++)
             {
                 Vector3d before = Vector3d.Normalize(knots[Math.Max(i, 1)] - knots[Math.Max(i, 1) - 1]);
@@ -102,8 +105,26 @@ namespace Guidewire.Core
                 Vector3d tangent = Vector3d.Normalize(before + after);
                 side = Vector3d.Normalize(side - Vector3d.Dot(side, tangent) * tangent);
                 AddRing(knots[i], tube.Radii[i] * side, tube.Radii[i] * Vector3d.Cross(tangent, side));
+                rings += i == 0 || tube.Softness == null ? 1 : DivideLastStrip((int)Math.Min(MostRings,
+                    Math.Ceiling(Vector3d.Distance(knots[i - 1], knots[i]) / (Fine * tube.Radii[i]))));
             }
-            AddStrips(last + 1);
+            AddStrips(rings);
+        }
+
+        // Into so many between its two rings, so that a part of it can be drawn elsewhere.
+        private int DivideLastStrip(int pieces)
+        {
+            List<Vector3d> ends = _vertices.GetRange(_vertices.Count - 2 * Sides, 2 * Sides);
+            _vertices.RemoveRange(_vertices.Count - Sides, Sides);
+            for (int piece = 1; piece <= pieces; piece++)
+            {
+                double part = (double)piece / pieces;
+                for (int k = 0; k < Sides; k++)
+                {
+                    _vertices.Add((1.0 - part) * ends[k] + part * ends[k + Sides]);
+                }
+            }
+            return pieces;
         }
 
         // A wall's outside is drawn as seen from the wire, which is outside an obstacle. Every vertex is the body's

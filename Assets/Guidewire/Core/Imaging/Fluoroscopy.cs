@@ -11,6 +11,7 @@ namespace Guidewire.Core
     public sealed class Fluoroscopy
     {
         private readonly IReadOnlyList<WallSurface> _vessels;
+        private readonly Vector3d[]?[] _moved;    // vertices of a vessel that is not at rest
         private LumenThickness[] _lumens = Array.Empty<LumenThickness>();
         private CArm? _arm;
         private float[] _thickness = Array.Empty<float>();    // pixels' sides
@@ -28,6 +29,17 @@ namespace Guidewire.Core
         public Fluoroscopy(IReadOnlyList<WallSurface> vessels)
         {
             _vessels = vessels;
+            _moved = new Vector3d[vessels.Count][];
+        }
+
+        /// <summary>Says where the vertices of a vessel are from now on.</summary>
+        /// <param name="vessel">Its number.</param>
+        /// <param name="vertices">Units.</param>
+        public void Move(int vessel, Vector3d[] vertices)
+        {
+            _moved[vessel] = vertices;
+            _arm = null;
+            _cellsArm = null;
         }
 
         /// <summary>Says where contrast agent may be: the cells of the vessels' tree.</summary>
@@ -103,9 +115,10 @@ namespace Guidewire.Core
             {
                 SetSize(arm.Pixels);
                 Array.Clear(_thickness, 0, _thickness.Length);
-                foreach (LumenThickness lumen in _lumens)
+                for (int i = 0; i < _lumens.Length; i++)
                 {
-                    lumen.Add(arm, _thickness);
+                    _lumens[i].Take(_moved[i]);
+                    _lumens[i].Add(arm, _thickness);
                 }
                 _arm = arm;
             }

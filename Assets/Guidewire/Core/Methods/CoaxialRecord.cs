@@ -40,8 +40,9 @@ namespace Guidewire.Core
         /// <param name="lumenRadius">Of the catheter, m.</param>
         /// <param name="friction">Between the catheter and the instrument inside.</param>
         /// <param name="instrument">0 the outermost one, 1 that in it.</param>
+        /// <param name="hasSoftWalls">Whether any wall gives way.</param>
         internal CoaxialRecord(int elements, double metres, double lumenRadius, LumenFriction friction,
-            int instrument = 0)
+            int instrument = 0, bool hasSoftWalls = false)
         {
             _instrument = instrument;
             _friction = friction;
@@ -51,6 +52,7 @@ namespace Guidewire.Core
             Velocities = new Vector3d[elements + 1];
             AngularVelocities = new Vector3d[elements];
             ContactForces = new Vector3d[elements + 1];
+            WallDisplacements = new Vector3d[hasSoftWalls ? elements : 0];
             _lumen = lumenRadius;
         }
 
@@ -73,6 +75,10 @@ namespace Guidewire.Core
         /// <summary>Force of the walls on each node in the last step, N, where it is the outermost instrument.
         /// </summary>
         public Vector3d[] ContactForces { get; }
+
+        /// <summary>Displacement of soft walls at each element, where it is the outermost instrument, m; as
+        /// <see cref="ContactRecord.Displacements"/>.</summary>
+        public Vector3d[] WallDisplacements { get; }
 
         /// <summary>Insertion of the catheter's hub since the start, m.</summary>
         public double Insertion { get; private set; }

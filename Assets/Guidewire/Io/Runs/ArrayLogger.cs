@@ -106,10 +106,7 @@ namespace Guidewire.Io
                     Put(contacts.MeanTotal);
                     Put(contacts.ReactionAtEnd);
                 }
-                foreach (double displacement in contacts.Displacements)
-                {
-                    Put(displacement);
-                }
+                Put(contacts.Displacements, 0);
             }
             _count++;
             if (elapsed - _flushed > FlushAfter)
@@ -225,6 +222,10 @@ namespace Guidewire.Io
             {
                 Add(name + "ContactForces", _realType, catheter.ContactForces.Length, 3);
             }
+            if (hasContacts && catheter.WallDisplacements.Length > 0)
+            {
+                Add(name + "WallDisplacements", _realType, catheter.WallDisplacements.Length, 3);
+            }
         }
 
         private void AddContacts(RodState state, ContactRecord? contacts)
@@ -249,7 +250,7 @@ namespace Guidewire.Io
             }
             if (contacts.Displacements.Length > 0)
             {
-                Add("wallDisplacements", _realType, contacts.Displacements.Length);
+                Add("wallDisplacements", _realType, contacts.Displacements.Length, 3);
             }
         }
 
@@ -389,6 +390,7 @@ namespace Guidewire.Io
             if (hasContacts)
             {
                 Put(catheter.ContactForces, 0);
+                Put(catheter.WallDisplacements, 0);
             }
         }
 
@@ -431,7 +433,6 @@ namespace Guidewire.Io
         }
 
         private void Put(int value) => PutBits(value);
-
         private void PutExact(double value) => PutBits(BitConverter.DoubleToInt64Bits(value));
 
         private void PutBits(long value)

@@ -205,6 +205,10 @@ namespace Guidewire.Io
             {
                 Append(", \"contactForces\": ", catheter.ContactForces);
             }
+            if (hasContacts && catheter.WallDisplacements.Length > 0)
+            {
+                Append(", \"wallDisplacements\": ", catheter.WallDisplacements);
+            }
         }
 
         private void Append(string name, Vector3d[] values)
@@ -243,11 +247,8 @@ namespace Guidewire.Io
             {
                 Append(", \"largestDisplacement\": ", contacts.LargestDisplacement);
                 Append(", \"meanDisplacement\": ", contacts.MeanDisplacement);
-                for (int j = 0; j < contacts.Displacements.Length; j++)
-                {
-                    Append(j == 0 ? ", \"displacement\": [" : ", ", contacts.Displacements[j]);
-                }
-                Append("]");
+                Append(", \"displacement\": ");
+                AppendNonzero(contacts.Displacements);
             }
             Append("}");
         }

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using Guidewire.Core;
 using Guidewire.Io;
 using UnityEngine;
@@ -10,21 +9,12 @@ namespace Guidewire.Runtime
     /// </summary>
     internal sealed class WallMesh
     {
-        private readonly Vector3d[] _rest;      // units
-        private readonly Vector3d[] _moved;
-        private readonly double _radius;        // of the wire, units
-        private bool _isMoved;
+        private readonly WallIndentation _drawn;
 
-        private WallMesh(WallSurface surface, double radius, bool isSoft)
+        private WallMesh(WallIndentation drawn, WallSurface surface)
         {
-            _radius = radius;
-            _rest = isSoft ? new List<Vector3d>(surface.Vertices).ToArray() : Array.Empty<Vector3d>();
-            _moved = new Vector3d[_rest.Length];
-            Vertices = new Vector3[surface.Vertices.Count];
-            for (int i = 0; i < Vertices.Length; i++)
-            {
-                Vertices[i] = surface.Vertices[i].ToUnity();
-            }
+            _drawn = drawn;
+            Vertices = Array.ConvertAll(drawn.Vertices, vertex => vertex.ToUnity());
             Triangles = new int[surface.Triangles.Count];
             for (int i = 0; i < Triangles.Length; i++)
             {
@@ -46,10 +36,9 @@ namespace Guidewire.Runtime
             var meshes = new WallMesh[walls.Length];
             for (int k = 0; k < walls.Length; k++)
             {
-                meshes[k] = new WallMesh(WallSurface.Create(walls[k], state.Positions[state.ElementCount],
-                    0.5 * state.ElementCount * state.ElementLength),
-                    session.Parameters.Material.WireRadius / session.Parameters.Scene.MetresPerUnit,
-                    walls[k].Softness != null);
+                WallSurface surface = WallSurface.Create(walls[k], state.Positions[state.ElementCount],
+                    0.5 * state.ElementCount * state.ElementLength);
+                meshes[k] = new WallMesh(new WallIndentation(session.Parameters, walls[k], surface.Vertices), surface);
             }
             return meshes;
         }
@@ -58,17 +47,12 @@ namespace Guidewire.Runtime
         /// <returns>Whether they differ from before.</returns>
         public bool Follow(WireState state)
         {
-            if (_rest.Length == 0)
+            bool isOther = _drawn.Move(state.Centrelines, state.WallDisplacements);
+            for (int i = 0; i < Vertices.Length && isOther; i++)
             {
-                return false;
+                Vertices[i] = _drawn.Vertices[i].ToUnity();
             }
-            bool was = _isMoved;
-            _isMoved = WallIndentation.Move(_rest, state.Rod.Positions, state.WallIndentations, _radius, _moved);
-            for (int i = 0; i < _rest.Length && (was || _isMoved); i++)
-            {
-                Vertices[i] = _moved[i].ToUnity();
-            }
-            return was || _isMoved;
+            return isOther;
         }
     }
 }

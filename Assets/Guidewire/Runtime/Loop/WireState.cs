@@ -18,8 +18,6 @@ namespace Guidewire.Runtime
             Rod = new RodState(run.State.ElementCount, run.State.ElementCount * run.State.ElementLength, 1.0, 0.0);
             Array.Copy(run.State.ElementLengths, Rod.ElementLengths, Rod.ElementCount);
             ContactForces = run.Contacts == null ? Array.Empty<Vector3d>() : new Vector3d[Rod.SphereCount];
-            bool isSoft = run.Contacts != null && run.Contacts.Displacements.Length == Rod.ElementCount;
-            WallIndentations = isSoft ? new Vector3d[Rod.ElementCount] : Array.Empty<Vector3d>();
             _hints = new int[session.Parameters.Scene.Walls.Length * Rod.ElementCount];
             Array.Fill(_hints, -1);
             ContactPoints = new Vector3d[_hints.Length];
@@ -28,6 +26,14 @@ namespace Guidewire.Runtime
             {
                 _catheters[k] = new CatheterState(run.Catheters()[k].Orientations.Length);
             }
+            Centrelines = new Vector3d[1 + _catheters.Length][];
+            Centrelines[0] = Rod.Positions;
+            for (int k = 0; k < _catheters.Length; k++)
+            {
+                Centrelines[k + 1] = _catheters[k].Positions;
+            }
+            WallDisplacements = new List<Vector3d[]>(SoftWallDisplacements.Of(run))
+                .ConvertAll(own => new Vector3d[own.Length]).ToArray();
         }
 
         /// <summary>Positions, orientations and lengths of the wire; velocities and masses are not copied.</summary>
@@ -54,8 +60,11 @@ namespace Guidewire.Runtime
         /// <summary>Force of the walls on each sphere, N with a material; empty without walls.</summary>
         public Vector3d[] ContactForces { get; }
 
-        /// <summary>How far soft walls are displaced at each element, units; empty where all are rigid.</summary>
-        internal Vector3d[] WallIndentations { get; }
+        /// <summary>Nodes of the wire and of each catheter, units.</summary>
+        internal Vector3d[][] Centrelines { get; }
+
+        /// <summary>Displacements of soft walls at their elements, m; none where all are rigid.</summary>
+        internal Vector3d[][] WallDisplacements { get; }
 
         /// <summary>The sum of the contact forces.</summary>
         public Vector3d ContactForce { get; private set; }
@@ -115,13 +124,20 @@ namespace Guidewire.Runtime
             if (contacts != null)
             {
                 Array.Copy(contacts.Forces, ContactForces, ContactForces.Length);
-                WallIndentation.Take(contacts, session.Parameters.Scene.MetresPerUnit, WallIndentations);
                 (ContactForce, Reaction, Passages) = (contacts.Total, contacts.Reaction, contacts.Passages);
             }
             IReadOnlyList<CoaxialRecord> catheters = run.Catheters();
             for (int k = 0; k < _catheters.Length; k++)
             {
                 _catheters[k].Take(catheters[k]);
+            }
+            if (WallDisplacements.Length > 0)
+            {
+                int next = 0;
+                foreach (Vector3d[] own in SoftWallDisplacements.Of(run))
+                {
+                    own.CopyTo(WallDisplacements[next++], 0);
+                }
             }
             HubRecord? hub = run.Hub();
             Hub = null;
@@ -151,7 +167,10 @@ namespace Guidewire.Runtime
             Interpolate(older.Rod.Positions, newer.Rod.Positions, t, Rod.Positions);
             Interpolate(older.Rod.Orientations, newer.Rod.Orientations, t, Rod.Orientations);
             Array.Copy(newer.ContactForces, ContactForces, ContactForces.Length);
-            Array.Copy(newer.WallIndentations, WallIndentations, WallIndentations.Length);
+            for (int k = 0; k < WallDisplacements.Length; k++)
+            {
+                newer.WallDisplacements[k].CopyTo(WallDisplacements[k], 0);
+            }
             Array.Copy(newer.ContactPoints, ContactPoints, newer.ContactPointCount);
             for (int k = 0; k < _catheters.Length; k++)
             {

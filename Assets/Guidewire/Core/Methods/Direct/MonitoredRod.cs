@@ -387,6 +387,7 @@ namespace Guidewire.Core
             _monitor?.Serialize(snapshot);
             snapshot.Serialize(ref _hubWork);
             Contacts?.Serialize(snapshot);
+            Contacts?.SerializeDisplacements(snapshot);
             if (!snapshot.IsWritten)
             {
                 (Failure, Divergence) = (null, null);

@@ -25,7 +25,7 @@ namespace Guidewire.Core
                     throw new ArgumentException(outside);
                 }
                 _contacts = new ContactRecord(wire.Rod.ElementCount + 1);
-                _contacts.SetElements(drives.Length == 1 ? wire.Rod.ElementCount : 0, wire.Walls);
+                _contacts.SetElements(wire.Rod.ElementCount, wire.Walls, drives.Length == 1);
             }
             Chain = new CoaxialChain(parameters, report, setup, drives, Hubs, Wire, out failure);
         }
@@ -126,17 +126,18 @@ namespace Guidewire.Core
             if (_contacts != null)
             {
                 _contacts.Take(Rod.Contacts!, Chain.Rod.Joints.First);
-                TakeForces(Drives.Length - 1, _contacts.Forces);
+                TakeWalls(Drives.Length - 1, _contacts.Forces, _contacts.Displacements);
             }
         }
 
-        /// <summary>Takes the forces of walls on an instrument. A node of the chain is one of the outermost instrument
-        /// there; that at a tip is the outer one's.</summary>
-        protected void TakeForces(int instrument, Vector3d[] forces)
+        /// <summary>Takes the forces of walls on an instrument, and how far they give way. A node of the chain is one
+        /// of the outermost instrument there; that at a tip is the outer one's.</summary>
+        protected void TakeWalls(int instrument, Vector3d[] forces, Vector3d[] displacements)
         {
             CoaxialJoints joints = Chain.Rod.Joints;
-            Rod.Contacts!.CopyForces(forces, forces.Length - 1 - joints.TipOf(instrument),
-                instrument == 0 ? 0 : joints.TipOf(instrument - 1) + 1);
+            int offset = forces.Length - 1 - joints.TipOf(instrument);
+            int first = instrument == 0 ? 0 : joints.TipOf(instrument - 1);
+            Rod.Contacts!.CopyTo(forces, displacements, offset, instrument == 0 ? 0 : first + 1, first);
         }
 
         /// <summary>Writes or restores how far hubs have come, and what the run has counted of instruments.</summary>

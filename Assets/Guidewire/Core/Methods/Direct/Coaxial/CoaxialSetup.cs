@@ -170,7 +170,8 @@ namespace Guidewire.Core
             for (int i = records.Length - 1; i >= 0; i--)
             {
                 records[i] = new CoaxialRecord(Scenes[i].Rod.ElementCount, Wire.Metres,
-                    Instruments[i].LumenRadius, new LumenFriction(catheters[i].LumenFriction, slip), i)
+                    Instruments[i].LumenRadius, new LumenFriction(catheters[i].LumenFriction, slip), i,
+                    ContactRecord.HasSoft(Wire.Walls))
                 {
                     Inside = i + 1 < records.Length ? records[i + 1] : null,
                 };

@@ -194,7 +194,7 @@ namespace Guidewire.Core
                 }
                 if (Contacts != null)
                 {
-                    TakeForces(i, _records.All[i].ContactForces);
+                    TakeWalls(i, _records.All[i].ContactForces, _records.All[i].WallDisplacements);
                 }
             }
         }

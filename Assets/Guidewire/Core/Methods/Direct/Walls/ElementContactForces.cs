@@ -102,7 +102,10 @@ namespace Guidewire.Core
                     j <= contact.Element; j++)
                 {
                     int own = Math.Max(j, 0);
-                    record.Displacements[own] = Math.Max(record.Displacements[own], moved);
+                    if (moved * moved > record.Displacements[own].LengthSquared)
+                    {
+                        record.Displacements[own] = -moved * contact.Normal;
+                    }
                 }
             }
             record.MeanDisplacement = count > 0 ? sum / count : 0.0;

@@ -24,7 +24,8 @@ namespace Guidewire.Core.Tests
         /// <summary>Draws both and takes them to the end.</summary>
         /// <param name="isSheathed">Whether both come out of a sheath.</param>
         /// <param name="hasOuter">Whether both are in another catheter.</param>
-        public RandomCoaxialPush(int seed, bool isSheathed = false, bool hasOuter = false)
+        /// <param name="isSoft">Whether walls give way, with 10 kPa to 10 MPa.</param>
+        public RandomCoaxialPush(int seed, bool isSheathed = false, bool hasOuter = false, bool isSoft = false)
         {
             Seed = seed;
             var random = new RandomGeometry(seed);
@@ -51,6 +52,11 @@ namespace Guidewire.Core.Tests
             if (isSheathed)
             {
                 DrawSheath(new RandomGeometry(seed + 2 * OtherSeeds));
+            }
+            var soft = new RandomGeometry(seed + 4 * OtherSeeds);
+            foreach (ContactShape wall in _parameters.Scene.Walls)
+            {
+                wall.Softness = isSoft ? new WallSoftness("wall", Math.Pow(10.0, soft.Number(4.0, 7.0))) : null;
             }
             Simulation = Simulation.Create(_parameters);
             int steps = 20 + random.Index(20);

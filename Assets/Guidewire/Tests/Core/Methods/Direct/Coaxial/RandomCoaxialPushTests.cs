@@ -33,7 +33,8 @@ namespace Guidewire.Core.Tests
         [TestCase(true, false, Category = "Long")]
         [TestCase(false, true, Category = "Long")]
         [TestCase(true, true)]
-        public void NoInstrumentIsEverOutside_AndEveryRunHasAnEnd(bool isSheathed, bool hasOuter)
+        [TestCase(false, false, true, Category = "Long")]
+        public void NoInstrumentIsEverOutside_AndEveryRunHasAnEnd(bool isSheathed, bool hasOuter, bool isSoft = false)
         {
             (int first, int runs) = RandomGeometry.Asked("GUIDEWIRE_COAXIAL_PUSHES");
             runs = runs > 0 ? runs : RandomGeometry.Cases(100, 14);
@@ -46,7 +47,7 @@ namespace Guidewire.Core.Tests
             int beyond = 0;
             double wrong = 0.0;
             foreach (RandomCoaxialPush push in RandomGeometry.Runs(first, runs,
-                seed => new RandomCoaxialPush(seed, isSheathed, hasOuter), refused))
+                seed => new RandomCoaxialPush(seed, isSheathed, hasOuter, isSoft), refused))
             {
                 bool isOutside = push.Contacts.Passages > 0 || push.PointsOutside > 0 || !push.IsFinite
                     || push.Contacts.MaxPenetration > 0.0;

@@ -55,7 +55,8 @@ namespace Guidewire.Core.Tests
             }
             Assert.That(contacts.LargestDisplacement, Is.EqualTo(largest).Within(1e-12));
             Assert.That(contacts.MeanDisplacement, Is.GreaterThan(0.0).And.LessThan(largest));
-            Assert.That(new List<double>(contacts.Displacements), Has.Some.EqualTo(largest).Within(1e-12));
+            Vector3d farthest = Array.Find(contacts.Displacements, one => one.Length > largest - 1e-12);
+            Assert.That((farthest + largest * Vector3d.UnitY).Length, Is.LessThan(1e-12), "out of the lumen");
             Assert.That(simulation.Report()!.Extremes!.WallDisplacement, Is.EqualTo(largest).Within(1e-12));
         }
 
@@ -83,6 +84,7 @@ namespace Guidewire.Core.Tests
                 simulation.Step();
             }
             Simulation restored = Simulation.Restore(parameters, simulation.Save());
+            Assert.That(restored.Contacts!.Displacements, Is.EqualTo(simulation.Contacts!.Displacements));
             SimulationParameters softer = Pressed(1e3, 0.0);
             Simulation changed = simulation.Continue(softer);
             SimulationParameters hard = Pressed(2e3, 0.0);
@@ -94,7 +96,7 @@ namespace Guidewire.Core.Tests
             rigid.Step();
             Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
             Assert.That(rigid.Outcome, Is.EqualTo(Outcome.Running), rigid.Reason);
-            Assert.That(changed.Contacts!.Total.Y, Is.LessThan(0.7 * simulation.Contacts!.Total.Y));
+            Assert.That(changed.Contacts!.Total.Y, Is.LessThan(0.7 * simulation.Contacts.Total.Y));
         }
 
         private static double EnergyOf(Simulation simulation)
