@@ -19,7 +19,7 @@ namespace Guidewire.Core
             _instruments = instruments;
             _timeStep = timeStep;
             _start = new StepStart(SerializeStep, Dynamics.Terms.Rod);
-            _hubs = new SlippingHubs(instruments, _start, StepAsRequested);
+            _hubs = new SlippingHubs(instruments, _start);
         }
 
         /// <summary>What it moves.</summary>
@@ -45,34 +45,35 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The step itself.</summary>
+        /// <summary>The step itself, in the parts between which nodes come and go; again while a hub slips.</summary>
         /// <returns>False where it has no solution or has lost an instrument.</returns>
         public bool Step()
         {
             _start.Save();
             _instruments.Work.BeginStep();
-            bool isDone = _hubs.AreLimited ? _hubs.Step() : StepAsRequested();
+            _hubs.BeginStep();
             MonitoredRod rod = _instruments.Rod;
+            MaterialDrive hub = _instruments.Drives[0];
+            bool isDone;
+            do
+            {
+                (double insertion, double turn) = (hub.Insertion, hub.Turn);
+                _instruments.BeginStep();
+                double start = Dynamics.Time;
+                isDone = true;
+                for (double done = 0.0; isDone && done < _timeStep;)
+                {
+                    double left = _timeStep - done;
+                    double length = _instruments.BeginPart(left);
+                    rod.BeginStep(length);
+                    string? failure = Dynamics.Step(length);
+                    isDone = rod.EndStep(failure, length, insertion, turn);
+                    done = length == left ? _timeStep : Dynamics.Time - start;
+                }
+            }
+            while (_hubs.NeedAnother(isDone));
             (Failure, Divergence) = (rod.Failure, rod.Divergence);
             (SteadyState, PredictionError) = (rod.SteadyState, rod.PredictionError);
-            return isDone;
-        }
-
-        // In the parts between which nodes come and go.
-        private bool StepAsRequested()
-        {
-            MaterialDrive hub = _instruments.Drives[0];
-            (double insertion, double turn) = (hub.Insertion, hub.Turn);
-            _instruments.BeginStep();
-            double start = Dynamics.Time;
-            bool isDone = true;
-            for (double done = 0.0; isDone && done < _timeStep;)
-            {
-                double left = _timeStep - done;
-                double length = _instruments.BeginPart(left);
-                isDone = _instruments.Rod.Step(length, insertion, turn);
-                done = length == left ? _timeStep : Dynamics.Time - start;
-            }
             return isDone;
         }
 

@@ -27,6 +27,11 @@ namespace Guidewire.Core
         private readonly StepFailure _texts;
         private readonly RunExtremes _extremes;
         private double _hubWork;            // J
+        private Vector3d _free;             // where the last node would be without forces at the step's end, m
+        private Vector3d _heldFrom;         // of the spring, when the step began, m
+        private double _exit;               // length in a sheath, the same, m
+        private double _dissipated;         // by friction until then, J
+        private long _innerSteps;           // until then
         private readonly Joint[] _joints;
         private readonly double[] _jointLengths;
 
@@ -124,12 +129,9 @@ namespace Guidewire.Core
         /// <summary>Distance of the last node from where it would be without forces, units.</summary>
         public double PredictionError { get; private set; }
 
-        /// <summary>A step, or a part of one, whose drives have been prepared.</summary>
+        /// <summary>A step, or a part of one, begins, whose drives have been prepared.</summary>
         /// <param name="length">s.</param>
-        /// <param name="insertion">Of the drive when the step began, m.</param>
-        /// <param name="turn">The same, radians.</param>
-        /// <returns>False where it has no solution or has lost the wire.</returns>
-        public bool Step(double length, double insertion, double turn)
+        public void BeginStep(double length)
         {
             int last = Shape.ElementCount;
             SupportSpring? spring = Terms.Walls()?.Spring;
@@ -137,15 +139,24 @@ namespace Guidewire.Core
             {
                 spring.Axis = Drive.Axis;
             }
-            double exit = _scene.Supports.Winds ? _scene.Supports.Coaxial!.Joints.Sheathed : 0.0;
-            _hubWork += 0.5 * SheathWork(exit);
-            Vector3d free = Shape.X[last] + length * Velocities[last]
+            _exit = _scene.Supports.Winds ? _scene.Supports.Coaxial!.Joints.Sheathed : 0.0;
+            _hubWork += 0.5 * SheathWork(_exit);
+            _free = Shape.X[last] + length * Velocities[last]
                 + (length * length) * Schedule.Loads.Gravity;
-            Vector3d held = spring == null ? Vector3d.Zero : spring.HeldPosition(Shape);
-            double dissipated = Dissipated;
-            long innerSteps = _dynamics.Control.Steps;
+            _heldFrom = spring == null ? Vector3d.Zero : spring.HeldPosition(Shape);
+            _dissipated = Dissipated;
+            _innerSteps = _dynamics.Control.Steps;
             _monitor?.BeginStep(Shape);
-            string? failure = _dynamics.Step(length);
+        }
+
+        /// <summary>It ends.</summary>
+        /// <param name="failure">Why it has no solution, or null.</param>
+        /// <param name="length">s.</param>
+        /// <param name="insertion">Of the drive when the whole step began, m.</param>
+        /// <param name="turn">The same, radians.</param>
+        /// <returns>False where it has no solution or has lost the wire.</returns>
+        public bool EndStep(string? failure, double length, double insertion, double turn)
+        {
             if (failure != null)
             {
                 double end = Time;
@@ -164,7 +175,7 @@ namespace Guidewire.Core
             }
             Failure = _scene.Joints.FindLost(Shape, Time);
             SteadyState = _rest.FindRest(Time);
-            PredictionError = Vector3d.Distance(free, Shape.X[last]) / _scene.Metres;
+            PredictionError = Vector3d.Distance(_free, Shape.X[Shape.ElementCount]) / _scene.Metres;
             Failure = Failure == null ? null : Failure + _texts.Advice;
             if (Contacts != null)
             {
@@ -173,16 +184,21 @@ namespace Guidewire.Core
                 Contacts.ReactionAtEnd = _dynamics.Reactions.End.Proximal;
                 Contacts.MeanTotal = mean.Walls;
                 _hubWork += Vector3d.Dot(mean.Proximal, Terms.HubAxis(Shape))
-                    * (Drive.Insertion - insertion) + mean.HubTorque * (Drive.Turn - turn) + 0.5 * SheathWork(exit);
+                    * (Drive.Insertion - insertion) + mean.HubTorque * (Drive.Turn - turn) + 0.5 * SheathWork(_exit);
                 _monitor?.EndStep(Shape, Contacts);
-                if (spring != null && Terms.Walls()!.HoldsStart)
+                if (Terms.Walls()?.HoldsStart == true)
                 {
+                    SupportSpring spring = Terms.Walls()!.Spring;
                     SlipHub(spring);
-                    CountDrive(length / _timeStep * Drive.CommandedDisplacement, held, spring.HeldPosition(Shape));
+                    // What the drive asked, and what of it was not gone.
+                    double asked = length / _timeStep * Drive.CommandedDisplacement;
+                    double gone = Drive.AxialProgress(_heldFrom, spring.HeldPosition(Shape));
+                    Contacts.DriveAsked += asked / _scene.Metres;
+                    Contacts.DriveShortfall += (asked - gone) / _scene.Metres;
                     Failure ??= _texts.FindOverdriven(Contacts) ?? _texts.FindDrivenOut();
                 }
             }
-            TakeExtremes(length, dissipated, innerSteps);
+            TakeExtremes(length);
             return true;
         }
 
@@ -250,11 +266,10 @@ namespace Guidewire.Core
 
         private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
 
-        // Since friction had turned so much into heat, J, and so many inner steps were done.
-        private void TakeExtremes(double length, double dissipated, long innerSteps)
+        private void TakeExtremes(double length)
         {
             _spinLoss?.Take(Terms.Rod, Shape, Spins, length,
-                Math.Max(1, _dynamics.Control.Steps - innerSteps));
+                Math.Max(1, _dynamics.Control.Steps - _innerSteps));
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
             if (_elementForces == null)
             {
@@ -271,7 +286,7 @@ namespace Guidewire.Core
             }
             if (Terms.Walls()!.Friction != null)
             {
-                _extremes.TakeFriction(Dissipated - dissipated, length);
+                _extremes.TakeFriction(Dissipated - _dissipated, length);
             }
         }
 
@@ -372,7 +387,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.
         /// </summary>
         public void SerializeStep(Snapshot snapshot)
         {
@@ -406,14 +421,8 @@ namespace Guidewire.Core
         }
 
         // Between walls more is kept than without.
-        private string SectionKey
-        {
-            get
-            {
-                WallTerms? walls = Terms.Walls();
-                return walls == null ? "direct" : walls.HoldsStart ? "direct, walls" : "direct, walls, free";
-            }
-        }
+        private string SectionKey => Terms.Walls() == null ? "direct"
+            : Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free";
 
         private void SerializeOwn(Snapshot snapshot)
         {
@@ -430,13 +439,6 @@ namespace Guidewire.Core
             _ends.SerializeWork(snapshot);
             _rest.Serialize(snapshot);
             _dynamics.SerializeHistory(snapshot, _timeStep);
-        }
-
-        // What the drive asked in the last step, m, and what of it was not gone.
-        private void CountDrive(double asked, in Vector3d before, in Vector3d after)
-        {
-            Contacts!.DriveAsked += asked / _scene.Metres;
-            Contacts.DriveShortfall += (asked - Drive.AxialProgress(before, after)) / _scene.Metres;
         }
 
         private void FollowEnds()

@@ -350,7 +350,9 @@ namespace Guidewire.Core
         // what is factorised is the second derivative itself, without a negative eigenvalue.
         private bool FindDirection(RodShape shape, bool dropsGeometricStiffness)
         {
-            bool isPlain = TryFactorise(shape, Regularisation.Min, isWhole: _hasFriction);
+            Factorisations++;
+            bool isPlain = System.Factorise(_terms, shape, Gradient, Direction, Regularisation.Min,
+                onlyPositive: !_hasFriction) == 0;
             for (double more = 10.0 * Regularisation.Min; !isPlain && more < Regularisation.Max; more *= 10.0)
             {
                 isPlain = TryFactorise(shape, more);
@@ -381,12 +383,12 @@ namespace Guidewire.Core
             return isPlain;
         }
 
-        // With a multiple of the metric added, N. Says whether all eigenvalues are positive; unless the whole is asked
-        // for it ends at the first that is not.
-        private bool TryFactorise(RodShape shape, double shift, bool isWhole = false)
+        // With a multiple of the metric added, N. Says whether all eigenvalues are positive, and ends at the first that
+        // is not.
+        private bool TryFactorise(RodShape shape, double shift)
         {
             Factorisations++;
-            return System.Factorise(_terms, shape, Gradient, Direction, shift, onlyPositive: !isWhole) == 0;
+            return System.Factorise(_terms, shape, Gradient, Direction, shift, onlyPositive: true) == 0;
         }
 
         private void DropGeometricStiffness(bool isAll, bool isOn)

@@ -11,74 +11,62 @@ namespace Guidewire.Core
         private readonly MaterialDrive[] _drives;
         private readonly HubSlip[] _slips;
         private readonly StepStart _start;
-        private readonly Func<bool> _step;
         private readonly double[] _insertions;   // when the step began, m
-        private bool _isFirst;                   // of its trials
+        private readonly bool _areLimited;
 
         /// <summary>Those of these instruments.</summary>
-        /// <param name="start">Saves and restores a step's start.</param>
-        /// <param name="step">Takes the step with the displacements that drives are given; false where it has no
-        /// solution.</param>
-        public SlippingHubs(InstrumentSet instruments, StepStart start, Func<bool> step)
+        /// <param name="start">Restores a step's start.</param>
+        public SlippingHubs(InstrumentSet instruments, StepStart start)
         {
             _instruments = instruments;
             _drives = instruments.Drives;
             _slips = instruments.Slips;
             _start = start;
-            _step = step;
             _insertions = new double[_drives.Length];
-            AreLimited = Array.Exists(_slips, slip => slip.IsLimited);
+            _areLimited = Array.Exists(_slips, slip => slip.IsLimited);
         }
 
-        /// <summary>Whether one of them has a limit.</summary>
-        public bool AreLimited { get; }
-
-        /// <summary>One step, whose start has been saved.</summary>
-        /// <returns>False where it has no solution.</returns>
-        public bool Step()
+        /// <summary>A step begins, whose start has been saved.</summary>
+        public void BeginStep()
         {
-            _isFirst = true;
             for (int i = 0; i < _drives.Length; i++)
             {
                 _insertions[i] = _drives[i].Insertion;
             }
-            bool isDone = Step(0);
-            for (int i = 0; i < _drives.Length; i++)
+            BeginFrom(0);
+        }
+
+        /// <summary>Whether the step is to be taken again, from its start, with other displacements.</summary>
+        /// <param name="isDone">Whether it has a solution with those that it had.</param>
+        public bool NeedAnother(bool isDone)
+        {
+            for (int i = _drives.Length - 1; i >= 0 && _areLimited; i--)
+            {
+                double force = isDone && _slips[i].IsLimited ? _instruments.ForceOf(i) : double.NaN;
+                if (_slips[i].NeedsAnother(_drives[i].Insertion - _insertions[i], force, _instruments.Work.IsScarce))
+                {
+                    _start.Restore();
+                    _instruments.Work.Count();
+                    _drives[i].OverrideDisplacement(_slips[i].Displacement);
+                    BeginFrom(i + 1);
+                    return true;
+                }
+            }
+            for (int i = 0; i < _drives.Length && _areLimited; i++)
             {
                 _drives[i].OverrideDisplacement(null);
                 _slips[i].EndStep(isDone && _slips[i].IsLimited ? _instruments.ForceOf(i) : 0.0);
             }
-            return isDone;
+            return false;
         }
 
-        private bool Step(int hub)
+        private void BeginFrom(int hub)
         {
-            if (hub == _drives.Length)
+            for (int i = hub; i < _drives.Length && _areLimited; i++)
             {
-                return Try();
+                _slips[i].Begin();
+                _drives[i].OverrideDisplacement(null);
             }
-            HubSlip slip = _slips[hub];
-            slip.Begin();
-            bool isDone;
-            do
-            {
-                _drives[hub].OverrideDisplacement(slip.Displacement);
-                isDone = Step(hub + 1);
-            }
-            while (slip.NeedsAnother(_drives[hub].Insertion - _insertions[hub],
-                isDone && slip.IsLimited ? _instruments.ForceOf(hub) : double.NaN, _instruments.Work.IsScarce));
-            return isDone;
-        }
-
-        private bool Try()
-        {
-            if (!_isFirst)
-            {
-                _start.Restore();
-                _instruments.Work.Count();
-            }
-            _isFirst = false;
-            return _step();
         }
     }
 }

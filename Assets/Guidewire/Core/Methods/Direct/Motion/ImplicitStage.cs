@@ -13,6 +13,8 @@ namespace Guidewire.Core
         public const double SameTime = 1e-9;
 
         private const double LargestPredictedTurn = 1.0;  // radians
+        private const double FirstAccuracy = 1e-4;        // of a solution that only gives normal forces
+        private const double FirstTolerances = 100.0;     // that it may leave at most
 
         private readonly RodSupports _supports;
         private readonly RodTerms _terms;
@@ -183,8 +185,8 @@ namespace Guidewire.Core
             Inner.Clear();
         }
 
-        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's
-        /// rates.</summary>
+        /// <summary>Places the supports, predicts from stages before, solves, and takes the stage's rates. Without
+        /// walls by full steps from the prediction, or else by a search from the stage before.</summary>
         /// <param name="jump">When a load jumps next: a stage at that time is before the jump.</param>
         /// <param name="stage">Its index among the rates.</param>
         /// <param name="predictor">Which stages before it is predicted from.</param>
@@ -209,8 +211,32 @@ namespace Guidewire.Core
                 Array.Copy(_shape.Q, _predicted, _shape.ElementCount);
             }
             Vector3d end = _schedule.Distal.PositionAt(time);
-            failure = _walls != null ? _walls.Solve(_shape, _predicted, start, end, h, _loads)
-                : Solve(start, end);
+            if (_walls == null)
+            {
+                KeepShape();
+                RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
+            }
+            else
+            {
+                failure = _walls.Begin(_shape, _predicted, start, end);
+            }
+            // Friction has the normal forces of a first solution.
+            FrictionEnergy? friction = _terms.Walls()?.Friction;
+            for (int left = friction == null ? 0 : 1; left >= 0 && failure == null; left--)
+            {
+                double first = Math.Min(FirstTolerances, Math.Max(1.0, FirstAccuracy / Newton.Tolerance));
+                failure = Newton.Minimise(_shape, h, _loads, isSearched: _walls != null, left > 0 ? first : 1.0);
+                if (left > 0 && failure == null)
+                {
+                    friction!.Lag(_shape);
+                }
+            }
+            if (failure != null && _walls == null)
+            {
+                GoBack();
+                RodStep.PlaceElements(_supports, _shape, _shape.Q, start, end);
+                failure = Search();
+            }
             if (failure != null)
             {
                 return failure;
@@ -264,20 +290,6 @@ namespace Guidewire.Core
         {
             Damping?.Begin(_shape, _motion.Velocities, _motion.Spins,
                 _schedule.ProximalSpinAt(time), _schedule.DistalSpinAt(time));
-        }
-
-        /// <summary>By full steps from the prediction, or else by a search from the stage before.</summary>
-        private string? Solve(in Vector3d start, in Vector3d end)
-        {
-            KeepShape();
-            RodStep.PlaceElements(_supports, _shape, _predicted, start, end);
-            if (Newton.Minimise(_shape, _inertia.StageLength, _loads, isSearched: false) == null)
-            {
-                return null;
-            }
-            GoBack();
-            RodStep.PlaceElements(_supports, _shape, _shape.Q, start, end);
-            return Search();
         }
 
         private string? Search()

@@ -2,14 +2,10 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>One implicit stage of a wire between walls: starts from the current shape, moves as far towards the
-    /// prediction as the walls allow, and continues to the minimum of the stage's energy.</summary>
+    /// <summary>Where an implicit stage of a wire between walls begins: from the current shape it moves as far towards
+    /// the prediction as the walls allow.</summary>
     internal sealed class WallStage
     {
-        private const int FrictionLagIterations = 1;       // of the normal forces in friction
-        private const double FirstAccuracy = 1e-4;          // of a solution that only gives normal forces
-        private const double FirstTolerances = 100.0;       // that it may leave at most
-
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
         private readonly WallPrediction _prediction;
@@ -35,16 +31,13 @@ namespace Guidewire.Core
             _prediction.Remesh();
         }
 
-        /// <summary>Solves a stage.</summary>
-        /// <param name="shape">In: where the wire was, its frames turned. Out: the stage's.</param>
+        /// <summary>Begins a stage.</summary>
+        /// <param name="shape">In: where the wire was, its frames turned. Out: where the search begins.</param>
         /// <param name="orientations">The prediction of the elements' orientations.</param>
         /// <param name="start">Where node 0 is to be, m.</param>
         /// <param name="end">Where the last node is held, if it is.</param>
-        /// <param name="stageLength">h, s.</param>
-        /// <param name="loads">Sum of the loads' magnitudes, N.</param>
         /// <returns>Null, or why it has no solution; the shape is then not to be used.</returns>
-        public string? Solve(RodShape shape, Quaterniond[] orientations, in Vector3d start, in Vector3d end,
-            double stageLength, double loads)
+        public string? Begin(RodShape shape, Quaterniond[] orientations, in Vector3d start, in Vector3d end)
         {
             SupportSpring spring = _terms.Walls()!.Spring;
             Vector3d lag = spring.LagOf(shape);
@@ -69,16 +62,7 @@ namespace Guidewire.Core
                     break;
                 }
             }
-            FrictionEnergy? friction = _terms.Walls()!.Friction;
-            int lags = friction == null ? 0 : FrictionLagIterations;
-            double first = Math.Min(FirstTolerances, Math.Max(1.0, FirstAccuracy / _newton.Tolerance));
-            string? failure = _newton.Minimise(shape, stageLength, loads, isSearched: true, lags == 0 ? 1.0 : first);
-            for (int k = 1; k <= lags && failure == null; k++)
-            {
-                friction!.Lag(shape);
-                failure = _newton.Minimise(shape, stageLength, loads, isSearched: true, k == lags ? 1.0 : first);
-            }
-            return failure;
+            return null;
         }
 
         // A held last node is where its support is.
