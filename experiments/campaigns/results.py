@@ -43,8 +43,8 @@ class Record:
 
 
 def kinds_of(reasons: Iterable[str]) -> dict[str, int]:
-    """Count reasons that differ in their numbers alone, the most frequent first."""
-    return dict(Counter(_NUMBER.sub("#", reason) for reason in reasons).most_common())
+    """Count reasons whose first part differs in its numbers alone, the most frequent first."""
+    return dict(Counter(_NUMBER.sub("#", reason.split("; ")[0]) for reason in reasons).most_common())
 
 
 def keep(name: str, command: str, seeds: Sequence[int], ends: Mapping[str, int], broken: Sequence[int],

@@ -13,7 +13,7 @@ def test_the_page_quotes_the_last_results():
 
 def test_a_row_takes_the_place_of_its_last_one_and_counts_reasons_by_kind(tmp_path, monkeypatch):
     monkeypatch.setattr(results, "FILE", tmp_path / "results.json")
-    kinds = results.kinds_of(["no solution at t = 0.2 s", "no solution at t = 1.5e-05 s", "buckles"])
+    kinds = results.kinds_of(["no solution at t = 0.2 s; 3 N", "no solution at t = 1.5e-05 s", "buckles"])
     assert kinds == {"no solution at t = # s": 2, "buckles": 1}
     results.keep("b", "push", [3, 4, 9], {"finished": 2, "failed": 1}, [9])
     results.keep("a", "pull", [1], {"finished": 1}, [])

@@ -279,9 +279,12 @@ namespace Guidewire.Io
             string? problem = Simulation.FindProblemOfStart(simulation);
             if (problem != null)
             {
-                string source = _given.SourceOf(
-                    Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles");
-                throw new ParameterException(source + ": " + problem);
+                bool isFile = Values.StartFile.Length > 0;
+                throw new ParameterException(simulation.Scene.Start?.Hub != null
+                    ? _given.SourceOf(isFile ? "startFile" : "start") + ": " + (isFile ? "startFile: " : "start: ")
+                        + (isFile ? Values.StartFile + ": " : "") + problem
+                    : _given.SourceOf(Values.Sheath != null ? "sheath" : vessel.Length > 0 ? "vessel" : "obstacles")
+                        + ": " + problem);
             }
             _warnings.AddRange(SoftWallConflict.Warnings(simulation));
             string? sizes = WireStart.FindOddSizes(simulation, vessel);
@@ -312,7 +315,8 @@ namespace Guidewire.Io
                 }
                 RodStart start = StartFileReader.Read(isFile ? JsonText.ReadObject(name) : (JObject)Values.Start!, name,
                     simulation);
-                string? shear = start.Hub == null ? start.FindShear() : null;
+                string? shear = start.FindShear() ?? start.Catheters.Select((one, k) => one.FindShear() is string its
+                    ? CatheterReader.Key + "[" + k + "]: " + its : null).FirstOrDefault(its => its != null);
                 if (shear != null && MethodTable.Of(Method).TakesMaterial)
                 {
                     throw new ParameterException(name + ": " + shear);

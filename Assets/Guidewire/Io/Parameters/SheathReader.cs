@@ -17,6 +17,13 @@ namespace Guidewire.Io
                 return;
             }
             var fields = new JsonFields(sourceOf, "sheath", values.Sheath);
+            if (values.Sheath["lumenFriction"] != null)
+            {
+                // Where nothing bends exp(mu angle) is 1. There are two forces M/a at the exit, a = sqrt(12 d B/M).
+                throw fields.Wrong("lumenFriction", "no value: along a straight sheath nothing presses on its wall, "
+                    + "and at its exit the bent wire presses by a force that follows from the play, which a sheath "
+                    + "does not state");
+            }
             fields.Allow("exit", "direction");
             var sheath = new Sheath();
             if (values.Sheath["exit"] != null)

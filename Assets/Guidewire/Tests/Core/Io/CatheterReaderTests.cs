@@ -76,6 +76,8 @@ namespace Guidewire.Core.Tests
 
         [TestCase("solver", "\"xpbd\"", "solver direct")]
         [TestCase("sheath", "{}", "sheath")]
+        [TestCase("sheath", "{\"lumenFriction\": 0.1}", "sheath.lumenFriction = 0.1 is not allowed: needs no value: "
+            + "along a straight sheath nothing presses on its wall")]
         [TestCase("proximalEnd", "\"held\"", "clamped")]
         [TestCase("materialDamping", "0.001", "materialDamping 0")]
         [TestCase("clampRule", "\"wholeElement\"", "no clampRule")]

@@ -359,15 +359,14 @@ namespace Guidewire.Core
                 string? other = StartedChain.FindOther(Scenes[i]);
                 if (other != null)
                 {
-                    throw new ArgumentException("start: " + (i == Scenes.Length - 1 ? "" : "catheters[" + i + "]: ")
-                        + other);
+                    throw new ArgumentException((i == Scenes.Length - 1 ? "" : "catheters[" + i + "]: ") + other);
                 }
             }
             var hubs = new CoaxialHubs(Array.ConvertAll(Scenes, scene => scene.Schedule.Hub), Axis, Sheath);
             string? misfit = CoaxialExchange.FindMisfit(this, hubs, 0.0);
             if (misfit != null)
             {
-                throw new ArgumentException("start: " + misfit);
+                throw new ArgumentException(misfit);
             }
         }
 

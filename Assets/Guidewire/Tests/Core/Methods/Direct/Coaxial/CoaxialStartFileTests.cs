@@ -98,7 +98,8 @@ namespace Guidewire.Core.Tests
         [TestCase("hub", "{\"insertion\": 0, \"turn\": \"left\"}", "hub = ")]
         [TestCase("hub", "{\"insertion\": 0.02, \"turn\": 0}", "positions[0] is 0.008 m from where the hub is")]
         [TestCase("catheters[0].hub", "{\"insertion\": -0.02, \"turn\": 0}", "catheters[0]: positions[0] is ")]
-        [TestCase("catheters[0].positions[3]", "[0, 0, 900]", "catheters[0]: positions[2] and positions[3] are ")]
+        [TestCase("catheters[0].positions[3]", "[0, 0, 127.5]", "catheters[0]: positions[2] and positions[3] are ")]
+        [TestCase("catheters[0].orientations[2]", "[0, 1, 0, 1]", "catheters[0]: orientations[2] is 89 degrees off")]
         [TestCase("proximalFrame", "[0, 0, 0, 1]", "proximalFrame and hub: give one of the two")]
         [TestCase("catheters[0].catheters", "[]", "unknown key 'catheters[0].catheters'")]
         public void StartThatDoesNotFit_IsRefused(string path, string? value, string message)
