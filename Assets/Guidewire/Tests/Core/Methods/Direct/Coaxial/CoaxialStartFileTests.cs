@@ -112,7 +112,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             Move(run, parameters, 3, 4.0, 0.01);
             JObject start = Json(StartOf(run, parameters));
-            JToken? holder = path.Contains('.') ? start.SelectToken(path.Substring(0, path.LastIndexOf('.'))) : start;
+            JToken? holder = path.Contains(".") ? start.SelectToken(path.Substring(0, path.LastIndexOf('.'))) : start;
             string key = path.Substring(path.LastIndexOf('.') + 1);
             if (value == null)
             {
