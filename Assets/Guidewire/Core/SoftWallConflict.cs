@@ -8,6 +8,7 @@ namespace Guidewire.Core
     public static class SoftWallConflict
     {
         private const double AsRigid = 1e7;    // Pa
+        private const double OnePercent = 0.2;    // of the length over which a load spreads: l^2/4 of it is the error
         private const double MostInStep = 1e12;    // Pa, of a wall and its dashpot
 
         /// <summary>The first value that does not, or null.</summary>
@@ -51,7 +52,8 @@ namespace Guidewire.Core
                 }
                 if (length > 0.0)
                 {
-                    yield return WarningTable.SoftElements.Text(length, length / worst, wall.Softness.Name);
+                    yield return WarningTable.SoftElements.Text(length, length / worst, wall.Softness.Name,
+                        OnePercent * length / worst);
                 }
             }
         }

@@ -1,5 +1,5 @@
 using System;
-using System.Collections.Generic;
+using System.Globalization;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -97,6 +97,20 @@ namespace Guidewire.Core.Tests
             Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
             Assert.That(rigid.Outcome, Is.EqualTo(Outcome.Running), rigid.Reason);
             Assert.That(changed.Contacts!.Total.Y, Is.LessThan(0.7 * simulation.Contacts.Total.Y));
+        }
+
+        // A load on a node is spread over (4 EI/K)^(1/4), with an error of a quarter of the square of an element over it.
+        [Test]
+        public void ElementsTooLongForTheWall_AreToldTheLengthThatIsOnePercentOff()
+        {
+            SimulationParameters parameters = Pressed(1e8, 0.0);
+            double spread = Math.Pow(4.0 * parameters.Material.YoungsModulus * Math.PI / 4.0 * Math.Pow(0.5e-3, 4.0)
+                / 1e8, 0.25);
+            string warning = string.Join("; ", SoftWallConflict.Warnings(parameters));
+            Assert.That(warning, Does.Contain("elements of 0.015 m are longer than " + spread.ToString("G3",
+                CultureInfo.InvariantCulture) + " m"));
+            Assert.That(warning, Does.Contain("with " + (Math.Sqrt(4.0 * 0.01) * spread).ToString("G3",
+                CultureInfo.InvariantCulture) + " m, by more numberRodElements"));
         }
 
         private static double EnergyOf(Simulation simulation)
