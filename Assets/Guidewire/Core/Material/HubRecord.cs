@@ -10,16 +10,11 @@ namespace Guidewire.Core
         private readonly double[] _jointLength;  // m
         private readonly Vector3d[] _turns;      // of the joints, rad
 
-        internal HubRecord(MaterialRod rod, RodSupports supports)
+        /// <param name="jointLengths">Of the wire that each joint stands for, m; they may change.</param>
+        internal HubRecord(double[] jointLengths)
         {
-            _jointLength = rod.JointLengths(supports);
-            _turns = new Vector3d[_jointLength.Length];
-        }
-
-        /// <summary>The rod has other elements.</summary>
-        internal void Remesh(MaterialRod rod, RodSupports supports)
-        {
-            rod.SetJointLengths(supports, _jointLength);
+            _jointLength = jointLengths;
+            _turns = new Vector3d[jointLengths.Length];
         }
 
         /// <summary>Insertion of the hub since the start, m.</summary>

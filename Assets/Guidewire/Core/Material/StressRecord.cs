@@ -8,20 +8,15 @@ namespace Guidewire.Core
     /// end, along the world's axes, by the law of the material in this shape.</remarks>
     public sealed class StressRecord
     {
-        internal StressRecord(MaterialRod rod, RodSupports supports)
+        /// <param name="jointLengths">Of the wire that each joint stands for, m; they may change.</param>
+        internal StressRecord(double[] jointLengths)
         {
-            int n = rod.Capacity;
+            int n = jointLengths.Length - 1;
             Strain = new Vector3d[n];
             Force = new Vector3d[n];
             Curvature = new Vector3d[n + 1];
             Couple = new Vector3d[n + 1];
-            JointLength = rod.JointLengths(supports);
-        }
-
-        /// <summary>The rod has other elements.</summary>
-        internal void Remesh(MaterialRod rod, RodSupports supports)
-        {
-            rod.SetJointLengths(supports, JointLength);
+            JointLength = jointLengths;
         }
 
         /// <summary>Shear along d1 and d2 and stretch along d3 of each of the n elements, dimensionless.</summary>

@@ -74,7 +74,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override StressRecord? Stress()
         {
-            _stress ??= new StressRecord(Scene.Rod, Scene.Supports);
+            _stress ??= new StressRecord(Scene.Rod.JointLengths(Scene.Supports));
             Terms.SetTime(Schedule, Time);
             _stress.Take(Terms, Shape, KineticEnergy);
             return _stress;

@@ -75,7 +75,7 @@ namespace Guidewire.Core
         public override double Value(RodShape shape)
         {
             double sum = 0.0;
-            for (int i = 0; i <= _mass.ElementCount; i++)
+            for (int i = 0; i <= shape.ElementCount; i++)
             {
                 sum -= Vector3d.Dot(Force[i], shape.X[i]);
             }

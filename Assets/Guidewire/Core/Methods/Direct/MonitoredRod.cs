@@ -98,8 +98,6 @@ namespace Guidewire.Core
             Contacts?.Remesh(rod.ElementCount + 1);
             rod.SetJoints(_scene.Supports, _joints);
             rod.SetJointLengths(_scene.Supports, _jointLengths);
-            _hub?.Remesh(rod, _scene.Supports);
-            _stress?.Remesh(rod, _scene.Supports);
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
             FollowEnds();
             _energy.Remesh();
@@ -300,7 +298,7 @@ namespace Guidewire.Core
             {
                 return null;
             }
-            _hub ??= new HubRecord(_scene.Rod, _scene.Supports);
+            _hub ??= new HubRecord(_jointLengths);
             // A hub that may slip has the force of where it has slipped to, not that of the step.
             Vector3d force = Terms.Walls()?.Spring.HasLimit == true ? Terms.Walls()!.SupportForce(Shape)
                 : _dynamics.ReactionAt(0);
@@ -332,7 +330,7 @@ namespace Guidewire.Core
         /// <summary>Strains, forces, couples and energies as it is.</summary>
         public StressRecord Stress()
         {
-            _stress ??= new StressRecord(_scene.Rod, _scene.Supports);
+            _stress ??= new StressRecord(_jointLengths);
             Terms.SetTime(Schedule, Time);
             _stress.Take(Terms, Shape, Terms.Mass.KineticEnergy(Velocities, Spins));
             return _stress;

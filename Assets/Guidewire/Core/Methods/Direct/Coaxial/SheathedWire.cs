@@ -11,7 +11,7 @@ namespace Guidewire.Core
             MaterialDrive[] drives, out string? failure)
             : base(parameters, report, setup, drives, out failure)
         {
-            _stress = new StressRecord(setup.Wire.Rod, setup.Wire.Supports);
+            _stress = new StressRecord(setup.Wire.Rod.JointLengths(setup.Wire.Supports));
         }
 
         /// <inheritdoc/>

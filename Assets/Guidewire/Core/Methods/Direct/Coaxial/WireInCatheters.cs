@@ -27,7 +27,7 @@ namespace Guidewire.Core
                 _inner[i] = i == _inner.Length - 1 ? Wire : new InnerInstrument(setup, Hubs, i + 1);
             }
             _insertions = new double[drives.Length];
-            _hub = new HubRecord(setup.Wire.Rod, setup.Wire.Supports);
+            _hub = new HubRecord(setup.Wire.Rod.JointLengths(setup.Wire.Supports));
             _stress = new WireStress(setup, Wire);
         }
 

@@ -24,7 +24,7 @@ namespace Guidewire.Core
             _own = setup.Instruments[setup.Instruments.Length - 1];
             _joints = _own.Rod.Joints(supports);
             _lengths = _own.Rod.JointLengths(supports);
-            _record = new StressRecord(_own.Rod, supports);
+            _record = new StressRecord(_lengths);
         }
 
         /// <summary>The record at the time that was set last; the next call writes it anew.</summary>

@@ -69,37 +69,33 @@ namespace Guidewire.Core
         /// <param name="shift">Index of what was element 0; null: no query is kept.</param>
         public void Remesh(int count, int? shift)
         {
-            int was = _count;
+            int was = shift == null ? 0 : _count;    // of those whose queries are kept
+            int by = shift ?? 0;
             _count = count;
             if (shift == null)
             {
                 _features.Clear();
                 _maxFeatures = 0;
                 Array.Clear(_version, 0, _version.Length);
-                Array.Fill(_hint, -1);
-                Forget(_element);
-                Forget(_elementBefore);
-                Forget(_node);
-                Forget(_nodeBefore);
-                return;
             }
             // From the end on that nothing is overwritten before it is read.
-            int sense = shift > 0 ? -1 : 1;
-            for (int w = shift > 0 ? _walls.Length - 1 : 0; w >= 0 && w < _walls.Length; w += sense)
+            bool grows = count > was;
+            int sense = grows ? -1 : 1;
+            for (int w = grows ? _walls.Length - 1 : 0; w >= 0 && w < _walls.Length; w += sense)
             {
-                for (int j = shift > 0 ? count - 1 : 0; j >= 0 && j < count; j += sense)
+                for (int j = grows ? count - 1 : 0; j >= 0 && j < count; j += sense)
                 {
-                    int from = j - shift.Value;
-                    bool isKept = from >= 0 && _range[j] == _formerRange[from];
+                    int from = j - by;
+                    bool isKept = from >= 0 && from < was && _range[j] == _formerRange[from];
                     int to = w * count + j;
                     Move(_element, to, isKept ? w * was + from : -1);
                     Move(_elementBefore, to, isKept ? w * was + from : -1);
                     _hint[to] = isKept ? _hint[w * was + from] : -1;
                 }
-                for (int i = shift > 0 ? count : 0; i >= 0 && i <= count; i += sense)
+                for (int i = grows ? count : 0; i >= 0 && i <= count; i += sense)
                 {
-                    int from = i - shift.Value;
-                    bool isKept = from >= 0
+                    int from = i - by;
+                    bool isKept = from >= 0 && from <= was && was > 0
                         && RangeOfNode(_range, i, count) == RangeOfNode(_formerRange, from, was);
                     int to = w * (count + 1) + i;
                     Move(_node, to, isKept ? w * (was + 1) + from : -1);

@@ -246,12 +246,13 @@ namespace Guidewire.Core
             double perSquare = 1.0 / (StageLength * StageLength);
             double perTurn = PerTurn;
             double nodes = 0.0;
+            int n = Elements;
             double turns = 0.0;
-            for (int i = 0; i <= Elements; i++)
+            for (int i = 0; i <= n; i++)
             {
                 Vector3d d = shape.X[i] - FreePositions[i];
                 nodes += 0.5 * _diagonal[i] * d.LengthSquared;
-                if (i < Elements)
+                if (i < n)
                 {
                     Vector3d e = shape.X[i + 1] - FreePositions[i + 1];
                     nodes += _coupling[i] * Vector3d.Dot(d, e);
@@ -283,8 +284,9 @@ namespace Guidewire.Core
             ref GradientMeasures measured)
         {
             double perSquare = 1.0 / (StageLength * StageLength);
-            int nodes = Math.Min(to, Elements + 1);
-            int elements = Math.Min(to, Elements);
+            int n = Elements;
+            int nodes = Math.Min(to, n + 1);
+            int elements = Math.Min(to, n);
             FindCouples(shape, from, elements);
             int first = InertiaLanes.AddGradient(this, _diagonal, _coupling, _couple, shape, gradient, from, elements);
             for (int i = first; i < nodes; i++)
@@ -292,7 +294,7 @@ namespace Guidewire.Core
                 Vector3d a = perSquare * (shape.X[i] - FreePositions[i]);
                 double mass = _diagonal[i];
                 Vector3d force = mass * a;
-                if (i < Elements)
+                if (i < n)
                 {
                     Vector3d b = perSquare * (shape.X[i + 1] - FreePositions[i + 1]);
                     double coupling = _coupling[i];

@@ -176,11 +176,12 @@ namespace Guidewire.Core
             {
                 double scale = _ofMass * _perStage;
                 Vector3d next = shape.X[0] - _history.Position[0];
-                for (int i = 0; i <= shape.ElementCount; i++)
+                int n = shape.ElementCount;
+                for (int i = 0; i <= n; i++)
                 {
                     Vector3d d = next;
                     sum += 0.5 * scale * _mass.Diagonal[i] * d.LengthSquared;
-                    if (i < _mass.ElementCount)
+                    if (i < n)
                     {
                         next = shape.X[i + 1] - _history.Position[i + 1];
                         sum += scale * _mass.Coupling[i] * Vector3d.Dot(d, next);
@@ -217,13 +218,14 @@ namespace Guidewire.Core
             {
                 AddDrag(shape, gradient, from, to);
                 double scale = _ofMass * _perStage;
-                for (int i = from; i < Math.Min(to, _mass.ElementCount + 1); i++)
+                int n = shape.ElementCount;
+                for (int i = from; i < Math.Min(to, n + 1); i++)
                 {
                     ref RodBlock b = ref blocks[i];
                     b.A11 += scale * _mass.Diagonal[i];
                     b.A22 += scale * _mass.Diagonal[i];
                     b.A33 += scale * _mass.Diagonal[i];
-                    if (i < _mass.ElementCount)
+                    if (i < n)
                     {
                         b.D11 += scale * _mass.Coupling[i];
                         b.D22 += scale * _mass.Coupling[i];
