@@ -56,7 +56,7 @@ def test_a_catheter_is_withdrawn_and_another_one_goes_over_the_wire(browse, runn
         seen = browse(
             ["open", address], DRAWN, ["click", "got it"],
             ["see", GAMEPAD if hand is by_gamepad else "0"],
-            *do["push"], ["until", f"{HUB} > 0.02"], *do["rest"], *do["next"], ["until", f"{STATUS}.held === 1"],
+            *do["push"], ["until", f"{HUB} > 0.005"], *do["rest"], *do["next"], ["until", f"{STATUS}.held === 1"],
             *do["open"], ["until", f"{CARD}.open"], ["picture", str(tmp_path / "choose.png")], CHOOSE, *do["do"],
             ["until", f"{CARD}.open && {text('#card')}.includes('not exchanged')"], ["see", text("#card")],
             ["picture", str(tmp_path / "refused.png")], ["see", f"{CARD}.close()"],
