@@ -260,6 +260,18 @@ def test_the_tasks_of_two_devices_begin_and_their_baselines_act():
                 assert not terminated and own.observation_space.contains(observation)
 
 
+def test_a_tip_thrown_off_a_wall_loses_no_turn():
+    with Environment("microcatheter") as environment:
+        observation, _ = environment.reset(seed=3_000_027)
+        policy = Chance(environment, 3_000_027)
+        policy.reset(observation)
+        for _ in range(32):    # an element of the tip turned by a whole turn in the 31st, under 0.01 N
+            observation, _, _, is_over, _ = environment.step(policy.act(observation))
+            assert not is_over
+            q = environment.session_state.orientations
+            assert (np.einsum("ij,ij->i", q[1:], q[:-1]) > np.cos(0.5)).all()    # half the angle between neighbours
+
+
 def test_what_is_drawn_from_a_list_of_any_kind_is_an_option_and_is_recorded(tube):
     task = replace(tube, random={"proximalEnd": {"choice": ["clamped", "hinged"]}, "logContacts": {"choice": [False]}})
     with Environment(task) as own:

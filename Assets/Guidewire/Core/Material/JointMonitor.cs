@@ -64,6 +64,19 @@ namespace Guidewire.Core
         /// 1.</param>
         public string? FindTurned(RodShape shape, double time, double done = 1.0)
         {
+            return FindTurned(shape, time, done, _least);
+        }
+
+        /// <summary>The same of a joint that is turned by more than half a turn: a wire that turned as it should would
+        /// have been found before.</summary>
+        public string? FindPassed(RodShape shape, double time)
+        {
+            return FindTurned(shape, time, 1.0, 0.0);
+        }
+
+        // That whose cos(a/2) is the least, below a limit.
+        private string? FindTurned(RodShape shape, double time, double done, double limit)
+        {
             Quaterniond[] q = shape.Q;
             int n = shape.ElementCount;
             double least = 1.0;
@@ -90,7 +103,7 @@ namespace Guidewire.Core
                 least = clamp;
                 worst = n;
             }
-            if (!(least < _least))
+            if (!(least < limit))
             {
                 return null;
             }

@@ -59,6 +59,7 @@ namespace Guidewire.Core
                 walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
                 dynamics.IntervalDone = EndInterval;
+                dynamics.FindLost = () => scene.Joints.FindPassed(Shape, Time);
                 _elementForces = new ElementContactForces(scene.Rod, walls.Barrier);
                 if (record != null)
                 {

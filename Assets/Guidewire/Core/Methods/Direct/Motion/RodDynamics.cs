@@ -119,6 +119,10 @@ namespace Guidewire.Core
         /// <summary>How intervals follow from error estimates.</summary>
         public StepControl Control => _stepper.Control;
 
+        /// <summary>Says after an interval what it has lost, in one line, or null: then a shorter one is
+        /// tried.</summary>
+        public Func<string?>? FindLost { get; set; }
+
         /// <summary>Called after each interval that is kept, or null.</summary>
         public Action? IntervalDone { get; set; }
 
@@ -162,6 +166,7 @@ namespace Guidewire.Core
                     string? failure = _stepper.Step(interval);
                     _work.Take(Newton.Iterations - before);
                     Time = interval.End;
+                    failure ??= FindLost?.Invoke();
                     if (Clock.Accepts(interval, failure))
                     {
                         break;
