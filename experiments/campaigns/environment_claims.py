@@ -97,17 +97,20 @@ class Lumen:
             self.along = way.turn.apply(end["direction"])
             self.exit = way.placed(np.array([end["centre"]]))[0] + way.scale * end["radius"] * self.along
 
+    def is_out(self, points: np.ndarray) -> bool:
+        """Say whether one of these points (n, 3) is out of the vessel, and not in the sheath."""
+        return bool((((points - self.exit) @ self.along > 0.0) & ~self.closed.inside(points)).any())
+
     def faults(self, state: State, lengths: np.ndarray) -> list[str]:
         """Say what of a state is through the wall, or outside and not through a rim; lengths (n,) of the wire's
         elements."""
         catheters = [one.positions for one in state.catheters]
         path, _ = through_tips(state.positions, catheters, lengths)
-        chains = [(nodes, nodes[-1]) for nodes in catheters]
-        for nodes, tip in chains[-1:]:    # what is inside lies on its centreline: the wire is looked at beyond it
-            tips = np.flatnonzero((path == tip).all(axis=1))
-            path = path[tips[0]:] if len(tips) else path[len(path):]
+        for nodes in catheters[-1:]:    # what is inside lies on its centreline: the wire goes on from its tip
+            tips = np.flatnonzero((path == nodes[-1]).all(axis=1))
+            path = np.concatenate([nodes, path[tips[0] + 1:] if len(tips) else path[len(path):]])
         wrong = []
-        for nodes in (path, *(nodes for nodes, _ in chains)):
+        for nodes in (path, *catheters):
             beyond = (nodes - self.exit) @ self.along > 0.0
             if not beyond.any():
                 continue
@@ -187,12 +190,12 @@ class Judge:
             for fault in lumen.faults(self._states[k], lengths):
                 self.faults.append(f"state {k}: {fault}")
         tips = np.array([one.positions[-1] for state in self._states[:-1] for one in _each(state)])
-        is_out = ((tips - lumen.exit) @ lumen.along > 0.0) & ~lumen.closed.inside(tips)
-        if is_out.any():
-            self.faults.append("a tip is outside, and the episode goes on")
-        ends_out = not lumen.closed.inside(np.array([one.positions[-1] for one in _each(state)])).all()
-        if end == "left the vessel" and not ends_out:
-            self._fault("left the vessel, and all tips are inside")
+        is_out = [lumen.is_out(np.concatenate([one.positions for one in _each(self._states[k])]))
+                  for k in sorted(looked_at)]
+        if any(is_out[:-1]) or lumen.is_out(tips):
+            self.faults.append("something is outside, and the episode goes on")
+        if end == "left the vessel" and not is_out[-1]:
+            self._fault("left the vessel, and all is inside")
         self._sum.update(digest_of(state).encode())
         return self._sum.hexdigest()[:16]
 
