@@ -31,10 +31,11 @@ namespace Guidewire.Runtime
 #endif
         }
 
-        /// <summary>Waits until it is done, in another thread than that of the frames.</summary>
+        /// <summary>Waits until it is done, in another thread than that of the frames. What could not be compiled is
+        /// compiled where it is called.</summary>
         public static void Wait()
         {
-            _done.Wait();
+            Task.WaitAny(_done);
         }
 
         private static void Compile()
