@@ -31,19 +31,36 @@ namespace UnityStubs
             public readonly Dictionary<string, List<string>> Lists = new Dictionary<string, List<string>>();
         }
 
+        private static readonly Dictionary<string, Dictionary<string, string>> Known =
+            new Dictionary<string, Dictionary<string, string>>();
+
         private readonly string _root;
         private readonly Assembly _scripts;
-        private readonly Dictionary<string, string> _paths = new Dictionary<string, string>();
+        private Dictionary<string, string> _paths = new Dictionary<string, string>();
         private readonly Dictionary<long, UnityEngine.Object> _objects = new Dictionary<long, UnityEngine.Object>();
 
         private SceneFile(string root, Assembly scripts)
         {
             _root = root;
             _scripts = scripts;
-            foreach (string file in Seen(root, "*.meta"))
+            if (Known.TryGetValue(root, out Dictionary<string, string> paths))
             {
-                _paths[Guid.Match(File.ReadAllText(file)).Groups[1].Value] = file.Substring(0, file.Length - 5);
+                _paths = paths;
             }
+        }
+
+        // Of the asset with a GUID; a project's metas are read once, and again where one is not among them.
+        private string PathOf(string guid)
+        {
+            if (!_paths.ContainsKey(guid))
+            {
+                _paths = Known[_root] = new Dictionary<string, string>();
+                foreach (string file in Seen(_root, "*.meta"))
+                {
+                    _paths[Guid.Match(File.ReadAllText(file)).Groups[1].Value] = file.Substring(0, file.Length - 5);
+                }
+            }
+            return _paths[guid];
         }
 
         /// <summary>Files that Unity imports, of the project and of packages that lie in it.</summary>
@@ -136,7 +153,7 @@ namespace UnityStubs
                 var instance = new PrefabInstance(string.Join("\n", document.Lines));
                 instances[document] = instance;
                 var source = new SceneFile(_root, _scripts);
-                created.AddRange(source.Read(Parse(_paths[instance.Source])));
+                created.AddRange(source.Read(Parse(PathOf(instance.Source))));
                 foreach (KeyValuePair<long, UnityEngine.Object> pair in source._objects)
                 {
                     _objects[PrefabInstance.IdOf(pair.Key, document.Id)] = pair.Value;
@@ -203,7 +220,7 @@ namespace UnityStubs
                 case 108:
                     return typeof(Light);
                 case 114:
-                    string path = _paths[Guid.Match(document.Values["m_Script"]).Groups[1].Value];
+                    string path = PathOf(Guid.Match(document.Values["m_Script"]).Groups[1].Value);
                     string name = Path.GetFileNameWithoutExtension(path);
                     return _scripts.GetTypes().Single(type => type.Name == name);
                 default:
@@ -272,7 +289,7 @@ namespace UnityStubs
                 {
                     return null;
                 }
-                return guid.Success ? Asset(_paths[guid.Groups[1].Value])
+                return guid.Success ? Asset(PathOf(guid.Groups[1].Value))
                     : _objects[long.Parse(FileId.Match(text).Groups[1].Value, CultureInfo.InvariantCulture)];
             }
             return Convert.ChangeType(text, type, CultureInfo.InvariantCulture);
