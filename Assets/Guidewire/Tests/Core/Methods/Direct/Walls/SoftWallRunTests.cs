@@ -99,7 +99,8 @@ namespace Guidewire.Core.Tests
             Assert.That(changed.Contacts!.Total.Y, Is.LessThan(0.7 * simulation.Contacts.Total.Y));
         }
 
-        // A load on a node is spread over (4 EI/K)^(1/4), with an error of a quarter of the square of an element over it.
+        // A load on a node is spread over (4 EI/K)^(1/4), with an error of a quarter of the square of an element over
+        // it.
         [Test]
         public void ElementsTooLongForTheWall_AreToldTheLengthThatIsOnePercentOff()
         {
