@@ -77,7 +77,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
         for wall in (scene["vessel"], *scene.get("obstacles", [])):
             wall["frictionCoefficient"] = random.uniform(0.02, 0.4)
     if method in _CATHETERS:
-        _in_catheters(np.random.default_rng([57, seed]), scene, widths, distance, folder / f"push-{seed}")
+        _in_catheters(np.random.default_rng([57, seed]), scene, widths, distance, folder / f"push-{seed}.hub")
     elif seed % 3 == 2 and method != "xpbd":
         _turn_back(np.random.default_rng([67, seed]), scene, folder / f"push-{seed}.csv")
     return kind, scene
@@ -183,7 +183,7 @@ def _in_catheters(random, scene: dict[str, Any], widths: np.ndarray, distance: f
     turn = scene["maxSimulationSteps"] * scene.pop("twistPerStep", 0.0)
     times = scene["maxSimulationSteps"] * scene["timeStep"] * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
     drives = [[0.0, *(ahead * random.uniform(-0.1, 1.0, 4) * [0.3, 0.6, 0.8, 1.0])] for _ in range(1 + len(widths))]
-    files = [stem.with_name(f"{stem.name}-hub{k}.csv") for k in range(len(drives))]
+    files = [stem.with_name(f"{stem.name}{k}.csv") for k in range(len(drives))]
     for file, drive in zip(files, drives):
         turns = [0.0, *random.uniform(-1.0, 1.0, 4) * (abs(turn) + np.pi)]
         file.write_text("time,insertion,rotation\n" + "".join(
