@@ -318,7 +318,7 @@ export class Run {
       const [corners, sides] = [3 * view.getInt32(at, true), 3 * view.getInt32(at + 4, true)];
       const part = (/** @type {number} */ from, /** @type {number} */ to) => bytes.slice(at + from, at + to).buffer;
       walls.push({ kind: walls.length === 0 && this._parameters?.vessel ? "vessel" : "obstacle",
-        isSoft: ["wallStiffness", "modulus"].some((key) => key in own[walls.length]),
+        isSoft: ["wallStiffness", "modulus"].some((key) => key in (own[walls.length] ?? {})),
         vertices: Float32Array.from(new Float64Array(part(8, 8 + 8 * corners))),
         triangles: new Uint32Array(part(8 + 8 * corners, 8 + 8 * corners + 4 * sides)) });
       at += 8 + 8 * corners + 4 * sides;
