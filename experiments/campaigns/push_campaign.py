@@ -126,6 +126,7 @@ def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
     """Whether the straight wire along z of the start, as far as it is out of a sheath, is nearer to a wall than its
     radius."""
     first, last = scene["guidewireOffset"], scene["guidewireOffset"] + scene["guidewireLength"]
+    first += scene["catheters"][0]["start"] if "catheters" in scene else 0.0    # the hub behind which nothing is
     if "sheath" in scene:
         first = min(last, scene["sheath"]["exit"][2])
     ends = np.array([[[0.0, 0.0, first]], [[0.0, 0.0, last]]])
