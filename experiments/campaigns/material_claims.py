@@ -70,10 +70,11 @@ def chain(positions: np.ndarray, catheters: tuple[np.ndarray, ...], radii: list[
 
 
 def _first_outside(scene: dict[str, Any], positions: np.ndarray) -> np.ndarray:
-    """The first node of each entry, shape (k,), from which on a wire is outside its sheath."""
+    """The first node of each entry, shape (k,), from which on a wire is outside its sheath; n + 1 where none is."""
     if "sheath" not in scene:
         return np.zeros(len(positions), int)
-    return (positions[:, :, 2] > scene["sheath"]["exit"][2]).argmax(axis=1)
+    is_out = positions[:, :, 2] > scene["sheath"]["exit"][2]
+    return np.where(is_out.any(axis=1), is_out.argmax(axis=1), positions.shape[1])
 
 
 def _passages(summary: dict[str, Any], positions: np.ndarray, first: np.ndarray, walls: Walls) -> list[str]:

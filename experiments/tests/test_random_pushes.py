@@ -245,6 +245,8 @@ def test_the_outermost_instrument_of_several_is_looked_at_with_its_own_radius():
     scene = {"hubForceLimit": 2.0, "catheters": [{}, {"hubForceLimit": 0.5}]}
     forces = [np.array([1.0, -1.9]), np.array([9.0]), np.array([0.1, -0.6])]
     assert material_claims.beyond(scene, forces) == pytest.approx(0.2)
+    assert [material_claims._first_outside({"sheath": {"exit": [0.0, 0.0, at]}}, wire).tolist()
+            for at in (12.0, 41.0)] == [[3, 2], [9, 8]]
     hubs = {"catheters": [{"start": 30.0}, {"start": 10.0}]}
     rest = np.zeros(2)
     assert material_claims.order(hubs, [rest, rest, rest]) == []
