@@ -44,8 +44,8 @@ def violations(scene: dict[str, Any], summary: dict[str, Any], positions: np.nda
 
 def chain(positions: np.ndarray, catheters: tuple[np.ndarray, ...], radii: list[np.ndarray]
           ) -> tuple[np.ndarray, np.ndarray]:
-    """The outermost instrument at each place: nodes (k, m + 1, 3), and the radius of each element (k, m). Where an entry
-    has fewer the last node stands several times.
+    """The outermost instrument at each place: nodes (k, m + 1, 3), and the radius of each element (k, m). Where an
+    entry has fewer the last node stands several times.
 
     Parameters
     ----------
@@ -65,7 +65,8 @@ def chain(positions: np.ndarray, catheters: tuple[np.ndarray, ...], radii: list[
                 wide = np.concatenate([wide, width[pieces[at[0]:]]])
         rows.append((nodes, wide))
     most = max(len(wide) for _, wide in rows)
-    return (np.array([np.concatenate([nodes, np.repeat(nodes[-1:], most + 1 - len(nodes), axis=0)]) for nodes, _ in rows]),
+    return (np.array([np.concatenate([nodes, np.repeat(nodes[-1:], most + 1 - len(nodes), axis=0)])
+                      for nodes, _ in rows]),
             np.array([np.concatenate([wide, np.repeat(wide[-1:], most - len(wide))]) for _, wide in rows]))
 
 

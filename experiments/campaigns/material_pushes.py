@@ -1,5 +1,5 @@
-"""Random wires with a material pushed into the vessels of `pushes`: by direct, by direct through a sheath ("sheath"), in
-one catheter or in two, in one in a sheath ("sheathed"), and by xpbd. Lengths are millimetres, one unit each."""
+"""Random wires with a material pushed into the vessels of `pushes`: by direct, by direct through a sheath ("sheath"),
+in one catheter or in two, in two in a sheath ("sheathed"), and by xpbd. Lengths are millimetres, one unit each."""
 
 from __future__ import annotations
 

@@ -109,8 +109,8 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
         claims = material_claims.violations(scene, summary, nodes, radii, walls)
         if scene.get("logHub"):
             with np.load(out / "positions.npz") as arrays:
-                forces, insertions = ([arrays[name + of] for name in ("hub", "catheter", "catheter2") if name + of in arrays]
-                                      for of in ("Force", "Insertion"))
+                forces, insertions = ([arrays[name + of] for name in ("hub", "catheter", "catheter2")
+                                       if name + of in arrays] for of in ("Force", "Insertion"))
             beyond = material_claims.beyond(scene, forces)
             claims += material_claims.order(scene, insertions)
         if beyond > MOST_BEYOND and not any("hubForceLimit" in warning for warning in summary["warnings"]):

@@ -71,12 +71,14 @@ def keep(name: str, command: str, seeds: Sequence[int], ends: Mapping[str, int],
 
 def table() -> str:
     """Return the table of all rows."""
-    lines = ["| command | date, commit of the program | seeds | runs | ends | claims broken |", "|---|---|---|---|---|---|"]
+    lines = ["| command | date, commit of the program | seeds | runs | ends | claims broken |",
+             "|---|---|---|---|---|---|"]
     for row in json.loads(FILE.read_text(encoding="utf-8")).values():
         first, last = row["seeds"]
         ends = ", ".join(f"{count} *{end}*" if end != "finished" else f"{count} finished"
                          for end, count in row["ends"].items())
-        lines.append(f"| `python3 -m experiments.campaigns.{row['command']}` | {row['date']}, {row['commit']} | {first} to {last} | {row['runs']:,} | "
+        lines.append(f"| `python3 -m experiments.campaigns.{row['command']}` | {row['date']}, "
+                     f"{row['commit']} | {first} to {last} | {row['runs']:,} | "
                      f"{ends} | {len(row['broken'])} |")
     return "\n".join(lines) + "\n"
 
