@@ -49,8 +49,10 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
         "timeStep": _between(random, 1e-3, 3e-2) * (0.1 if method == "xpbd" else 1.0), "displacementPerStep": per_step,
         "deltaThreshold": 0.0,
         "maxSimulationSteps": int(np.clip(random.uniform(0.3, 1.2) * distance / per_step, 12, 120)),
-        "logFormat": "npz", "logContacts": True, "logHub": method != "xpbd", "vessel": dict(vessel.wall),
+        "logFormat": "npz", "logContacts": True, "vessel": dict(vessel.wall),
     }
+    if method != "xpbd":
+        scene["logHub"] = True
     if random.uniform() < 0.5:
         scene["gravity"] = (9.81 * pushes.direction(random)).tolist()
     if random.uniform() < 0.4:

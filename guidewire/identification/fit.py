@@ -146,9 +146,10 @@ class _Search:
         curvature of either sign, with other stiffnesses, may make nearly the same shape, and each is the end of a
         search that begins on its side. A search whose first step goes back across is given up. The worse one is kept
         where it cannot be ruled out."""
-        signed = np.array([not one.by_ratio for one in self._unknowns])
         variance = 2.0 * found.cost / self._free()
         error = np.sqrt(np.diag(_covariance(self._unknowns, found.jac, math.sqrt(variance))[0]))
+        # What the measurement does not show at all has no other side.
+        signed = np.array([not one.by_ratio for one in self._unknowns]) & np.isfinite(error)
         reach = np.sign(found.x) * np.minimum(error, 2.0 * _USELESS)
         at = np.clip(np.where(signed, -found.x - reach, found.x), low, high)
         if np.allclose(at, found.x, rtol=0.0, atol=_EXACT) or self._residual(at) is self._bad:
