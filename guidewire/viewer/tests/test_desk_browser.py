@@ -219,7 +219,7 @@ BOXES = """(() => { const box = (one) => {
 
 
 @pytest.mark.parametrize("size", [(390, 844), (844, 390), (1440, 900)])
-@pytest.mark.few(1)
+@pytest.mark.long("what buttons and dials do stands in the tests of the suite")
 def test_picture_dials_and_buttons_are_where_hands_and_eyes_are(browse, runner_command, tmp_path, size):
     rows = "[...document.querySelectorAll('#keys tr')].filter((one) => one.offsetHeight).map((one) => one.textContent)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):

@@ -45,11 +45,8 @@ def by_gamepad():
             "report": [["click", "report"]]}
 
 
-@pytest.mark.parametrize("hand, size", [
-    (by_keys, (720, 520)),
-    pytest.param(by_finger, (390, 844), marks=pytest.mark.long("the same by keys")),
-    pytest.param(by_gamepad, (844, 390), marks=pytest.mark.long("the same by keys")),
-])
+@pytest.mark.parametrize("hand, size", [(by_keys, (720, 520)), (by_finger, (390, 844)), (by_gamepad, (844, 390))])
+@pytest.mark.long("an exchange stands in the tests of sessions, keys in those of the suite")
 def test_a_catheter_is_withdrawn_and_another_one_goes_over_the_wire(browse, runner_command, tmp_path, hand, size):
     do = hand()
     with serving(tmp_path, BRANCH, with_three=True) as (address, _):

@@ -40,7 +40,7 @@ namespace Guidewire.Core.Tests
                     new Vector3d(random.Number(0.5, 1.5), random.Number(0.5, 1.5), -random.Number(0.5, 1.5)));
                 Vector3d[] moved = Array.ConvertAll(corners, corner => placement.Apply(corner));
                 tree.Refit(moved);
-                Compare(tree, moved, random, RandomGeometry.Cases(1_000, 25));
+                Compare(tree, moved, random, RandomGeometry.Cases(1_000, 50));
             }
         }
 
@@ -50,7 +50,7 @@ namespace Guidewire.Core.Tests
             Vector3d[] corners = TestMeshes.Ball(10, 0.0).Corners;
             var tree = new Bvh(corners);
             var random = new RandomGeometry(24);
-            for (int i = 0; i < RandomGeometry.Cases(2_500, 25); i++)
+            for (int i = 0; i < RandomGeometry.Cases(2_500, 50); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 double distance = BruteForce.Distance(s, corners, out _);
@@ -89,7 +89,7 @@ namespace Guidewire.Core.Tests
             var found = new StructList<int>(16);
             int wanted = 0;
             int all = 0;
-            for (int i = 0; i < RandomGeometry.Cases(2_000, 40); i++)
+            for (int i = 0; i < RandomGeometry.Cases(2_000, 80); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 double range = random.Number(0.0, 0.3);
@@ -111,7 +111,7 @@ namespace Guidewire.Core.Tests
             var found = new StructList<int>(16);
             int wanted = 0;
             int all = 0;
-            for (int i = 0; i < RandomGeometry.Cases(300, 30); i++)
+            for (int i = 0; i < RandomGeometry.Cases(300, 60); i++)
             {
                 Vector3d[] s = random.Segment(Vector3d.UnitX);
                 Vector3d[] to = { s[0] + 0.2 * random.Point(), s[1] + 0.2 * random.Point() };
