@@ -34,7 +34,7 @@ from guidewire.runs.runner import Request, Runner
 from tools.seeds import keep, red
 
 RUN_LIMIT = 600.0  # s of wall time of one run
-MOST_BEYOND = 0.02  # of its hubForceLimit, by which the force of a hub may be above it where no warning says so
+MOST_BEYOND = 0.02  # of its hubForceLimit, by which the force of a hub may be above it where nothing says so
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
 OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", material_claims.KINKED,
            "the drive fell short: ", "over which the wire spreads a load on the wall",
@@ -113,8 +113,9 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
                                        if name + of in arrays] for of in ("Force", "Insertion"))
             beyond = material_claims.beyond(scene, forces)
             claims += material_claims.order(scene, insertions)
-        if beyond > MOST_BEYOND and not any("hubForceLimit" in warning for warning in summary["warnings"]):
-            claims.append(f"a hub is above its hubForceLimit by {beyond:.1%}, and no warning says so")
+        said = (*summary["warnings"], summary["reason"])
+        if beyond > MOST_BEYOND and not any("hubForceLimit" in one for one in said):
+            claims.append(f"a hub is above its hubForceLimit by {beyond:.1%}, and nothing says so")
     # A mesh of a push is closed; a tube goes on beyond its last knot, where the tip has left it.
     known = OF_ENDS if scene["vessel"]["shape"] == "mesh" else (*OF_ENDS, push_claims.RIM)
     claims += [f"warning: {warning}" for warning in summary["warnings"]

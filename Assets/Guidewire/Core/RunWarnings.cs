@@ -17,11 +17,12 @@ namespace Guidewire.Core
         private readonly RimMonitor _rims;
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
-        public RunWarnings(SimulationParameters parameters)
+        /// <param name="isCovered">As in <see cref="RimMonitor"/>.</param>
+        public RunWarnings(SimulationParameters parameters, Func<ContactShape, bool> isCovered)
         {
             _length = parameters.Scene.GuidewireLength;
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
-                wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)));
+                wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), isCovered);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);

@@ -26,7 +26,7 @@ namespace Guidewire.Core
         private Simulation(MethodStart start, SimulationParameters parameters, in Quaterniond proximalFrame,
             in Quaterniond distalFrame)
         {
-            _warnings = new RunWarnings(parameters);
+            _warnings = new RunWarnings(parameters, IsTipCovered);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
             _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
@@ -367,6 +367,22 @@ namespace Guidewire.Core
         {
             return lengths.Length == others.Length
                 && !lengths.Where((length, j) => Math.Abs(length - others[j]) > Same * others[j]).Any();
+        }
+
+        // In its sheath, or in a catheter whose own tip is within the wall: the wire's axis is not that of its catheter.
+        private bool IsTipCovered(ContactShape wall)
+        {
+            if (_hasSheath && Hub()?.SpheresInBody == 0)
+            {
+                return true;
+            }
+            CoaxialRecord? inner = Coaxial();
+            while (inner?.Inside != null)
+            {
+                inner = inner.Inside;
+            }
+            return inner != null && inner.Extension <= 0.0
+                && wall.IsWithin(inner.Positions[inner.Positions.Length - 1]);
         }
 
         private static double[][] LengthsOf(SimulationParameters parameters)

@@ -1,10 +1,14 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
-    /// inside before a step, outside after it, and no passage in it.</summary>
+    /// inside before a step, outside after it, and no passage in it. A tip that is drawn back into a sheath or a catheter has
+    /// not left.</summary>
     internal sealed class RimMonitor
     {
         private readonly ContactShape[] _walls;
+        private readonly Func<ContactShape, bool> _isCovered;    // by what is not outside
         private readonly bool[] _isInside;    // the tip, by wall
         private long _passages;
         private bool _hasLeft;
@@ -12,8 +16,10 @@ namespace Guidewire.Core
         private double _time;                 // s
 
         /// <summary>A monitor of these walls; <see cref="Begin"/> says where the tip is.</summary>
-        public RimMonitor(ContactShape[] walls)
+        /// <param name="isCovered">Whether the tip is in a sheath, or in a catheter with its tip within a wall.</param>
+        public RimMonitor(ContactShape[] walls, Func<ContactShape, bool> isCovered)
         {
+            _isCovered = isCovered;
             _walls = walls;
             _isInside = new bool[walls.Length];
         }
@@ -41,7 +47,7 @@ namespace Guidewire.Core
             for (int w = 0; w < _walls.Length && !_hasLeft; w++)
             {
                 bool wasInside = _isInside[w];
-                _isInside[w] = _walls[w].IsWithin(tip);
+                _isInside[w] = _walls[w].IsWithin(tip) || wasInside && _isCovered(_walls[w]);
                 if (wasInside && !_isInside[w] && passages == _passages && tip.IsFinite)
                 {
                     _hasLeft = true;

@@ -242,6 +242,22 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Hub()!.LengthInBody, Is.EqualTo(inBody).Within(1e-9));
         }
 
+        // The sheath's exit is at 250. Both tips are drawn back into it, or the wire's into a catheter in the vessel.
+        [TestCase(-0.5, 240.0, 0.34)]
+        [TestCase(0.0, 260.0, 0.29)]
+        public void TipDrawnBackIntoItsSheathOrCatheter_HasNotLeftTheVessel(double catheter, double inlet, double time)
+        {
+            SimulationParameters parameters = Fed();
+            parameters.Scene.Walls = WallScenes.Tube(inlet, 1000.0, 12.0);
+            parameters.Drive.InsertionSpeed = -0.5;
+            parameters.Scene.Catheters[0].Drive.InsertionSpeed = catheter;
+            parameters.Method.MaxSimulationSteps = (int)Math.Ceiling(time / parameters.Method.TimeStep);
+            Simulation run = Wires.Finish(parameters);
+            Assert.That(run.State.Positions[40].Z, Is.LessThan(inlet));
+            Assert.That(run.Hub()!.SpheresInBody == 0, Is.EqualTo(catheter < 0.0));
+            Assert.That(run.Warnings, Has.None.Contains("open rim"));
+        }
+
         [Test]
         public void Step_LeavesNothingForTheCollector_WhereNoNodeComesOrGoes()
         {
