@@ -369,7 +369,7 @@ namespace Guidewire.Core
                 && !lengths.Where((length, j) => Math.Abs(length - others[j]) > Same * others[j]).Any();
         }
 
-        // In its sheath, or in a catheter whose own tip is within the wall: the wire's axis is not that of its catheter.
+        // In its sheath, or in a catheter whose own tip is within the wall and whose axis the wire's does not follow.
         private bool IsTipCovered(ContactShape wall)
         {
             if (_hasSheath && Hub()?.SpheresInBody == 0)

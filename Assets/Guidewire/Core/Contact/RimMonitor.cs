@@ -3,8 +3,8 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
-    /// inside before a step, outside after it, and no passage in it. A tip that is drawn back into a sheath or a catheter has
-    /// not left.</summary>
+    /// inside before a step, outside after it, and no passage in it. A tip that is drawn back into a sheath or a
+    /// catheter has not left.</summary>
     internal sealed class RimMonitor
     {
         private readonly ContactShape[] _walls;
