@@ -26,13 +26,13 @@ namespace Guidewire.Core
         private Simulation(MethodStart start, SimulationParameters parameters, in Quaterniond proximalFrame,
             in Quaterniond distalFrame)
         {
-            _warnings = new RunWarnings(parameters, IsTipCovered);
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
             _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
             _lengths = LengthsOf(parameters);
             State = start.State;
             _stepper = start.Stepper;
+            _warnings = new RunWarnings(parameters, _stepper.IsTipCovered);
             _stopRule = new StopRule(
                 parameters.Drive.Steering == null ? parameters.Method.MaxSimulationSteps : int.MaxValue);
             _clock = new StepClock(parameters.Method.TimeStep);
@@ -367,22 +367,6 @@ namespace Guidewire.Core
         {
             return lengths.Length == others.Length
                 && !lengths.Where((length, j) => Math.Abs(length - others[j]) > Same * others[j]).Any();
-        }
-
-        // In its sheath, or in a catheter whose own tip is within the wall and whose axis the wire's does not follow.
-        private bool IsTipCovered(ContactShape wall)
-        {
-            if (_hasSheath && Hub()?.SpheresInBody == 0)
-            {
-                return true;
-            }
-            CoaxialRecord? inner = Coaxial();
-            while (inner?.Inside != null)
-            {
-                inner = inner.Inside;
-            }
-            return inner != null && inner.Extension <= 0.0
-                && wall.IsWithin(inner.Positions[inner.Positions.Length - 1]);
         }
 
         private static double[][] LengthsOf(SimulationParameters parameters)

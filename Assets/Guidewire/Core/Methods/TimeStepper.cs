@@ -61,6 +61,19 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>Whether the wire's tip is in its sheath, or in a catheter whose own tip is within a wall and whose
+        /// axis the wire's does not follow.</summary>
+        public bool IsTipCovered(ContactShape wall)
+        {
+            CoaxialRecord? inner = Coaxial();
+            while (inner?.Inside != null)
+            {
+                inner = inner.Inside;
+            }
+            return Hub()?.SpheresInBody == 0
+                || inner?.Extension <= 0.0 && wall.IsWithin(inner.Positions[inner.Positions.Length - 1]);
+        }
+
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);
 
