@@ -143,6 +143,12 @@ namespace Guidewire.Core
             return _carrier[element];
         }
 
+        /// <summary>Gives the outermost instrument at a node, one of whose own nodes it is.</summary>
+        public int CarrierAt(int node)
+        {
+            return node <= OuterCount ? 0 : _carrier[node - 1];
+        }
+
         /// <summary>The instrument on whose frame the joint at node k stands.</summary>
         public int FrameOf(int k)
         {

@@ -50,7 +50,7 @@ namespace Guidewire.Core
             }
             for (int k = 0; k <= joints.ElementCount; k++)
             {
-                int carrier = k <= joints.OuterCount ? 0 : joints.CarrierOf(k - 1);
+                int carrier = joints.CarrierAt(k);
                 int fromTip = joints.TipOf(carrier) - k;
                 Node[k] = isOther?[carrier] == true ? -1 : carrier == 0 ? Math.Max(k - Entered, -1)
                     : fromTip < old.BeyondOf(carrier) ? old.TipOf(carrier) - fromTip : -1;

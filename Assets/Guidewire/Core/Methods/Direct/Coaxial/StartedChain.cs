@@ -31,7 +31,7 @@ namespace Guidewire.Core
             RodShape shape = scene.Shape;
             for (int k = 0; k <= shape.ElementCount; k++)
             {
-                int carrier = CarrierAt(k);
+                int carrier = _joints.CarrierAt(k);
                 int own = NodeOf(carrier, k);
                 shape.X[k] = _setup.Scenes[carrier].Shape.X[own];
                 scene.Velocities[k] = _setup.Scenes[carrier].Velocities[own];
@@ -88,12 +88,6 @@ namespace Guidewire.Core
                 }
             }
             return null;
-        }
-
-        // As CoaxialChange has it.
-        private int CarrierAt(int node)
-        {
-            return node <= _joints.OuterCount ? 0 : _joints.CarrierOf(node - 1);
         }
 
         private int NodeOf(int instrument, int node)
