@@ -6,6 +6,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 _PIECES = 8  # straight pieces an element: of an arc they are 64 times nearer than its chord
+_SAME = 1e-12    # of the chain's length: points no farther apart coincide
 _NEWTON = 4    # iterations from the nearest point of a chain to that of its spline
 
 
@@ -56,8 +57,14 @@ def offsets(points: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarra
     tuple of ndarray
         (p, d), from the curve to each point; (p,), where along the line the nearest point lies, in pieces.
     """
+    # Points that coincide, as those of a wire seen end on, are one.
+    steps = np.linalg.norm(np.diff(line, axis=0), axis=1)
+    kept = np.concatenate(([0], 1 + np.flatnonzero(steps > _SAME * np.sum(steps))))
+    if len(kept) < 2:
+        return points - line[0], np.zeros(len(points))
+    line = line[kept]
     chords = np.diff(line, axis=0)
-    squares = np.maximum(np.sum(chords**2, axis=1), np.finfo(float).tiny)
+    squares = np.sum(chords**2, axis=1)
     off = points[:, None, :] - line[None, :-1, :]
     share = np.clip(np.sum(off * chords, axis=2) / squares, 0.0, 1.0)
     nearest = np.argmin(np.sum((off - share[:, :, None] * chords)**2, axis=2), axis=1)
@@ -72,4 +79,4 @@ def offsets(points: np.ndarray, line: np.ndarray) -> tuple[np.ndarray, np.ndarra
         slope = speed - np.sum(vectors * curve(at, 2), axis=1)
         step = np.sum(vectors * tangents, axis=1) / np.where(slope > 0.1 * speed, slope, speed)
         at = np.clip(at + np.clip(step, -piece, piece), 0.0, along[-1])
-    return points - curve(at), np.interp(at, along, np.arange(len(line)))
+    return points - curve(at), np.interp(at, along, kept)

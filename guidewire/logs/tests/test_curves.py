@@ -22,3 +22,12 @@ def test_points_beyond_the_ends_are_measured_from_the_ends():
     line = np.array([[0.0, 0.0], [1.0, 0.0]])
     found, along = offsets(np.array([[-3.0, 4.0], [0.25, 2.0], [2.0, 0.0]]), line)
     assert np.allclose(found, [[-3.0, 4.0], [0.0, 2.0], [1.0, 0.0]]) and np.allclose(along, [0.0, 0.25, 1.0])
+
+
+def test_points_that_coincide_are_one():
+    """A wire that is seen end on is a point, and one that is seen nearly so has some points in one place."""
+    found, along = offsets(np.array([[3.0, 4.0]]), np.zeros((9, 2)))
+    assert np.allclose(found, [[3.0, 4.0]]) and np.allclose(along, 0.0)
+    line = np.array([[0.0, 0.0], [0.0, 0.0], [1.0, 0.0], [1.0, 0.0], [2.0, 0.0]])
+    found, along = offsets(np.array([[1.5, 2.0], [0.5, -1.0]]), line)
+    assert np.allclose(found, [[0.0, 2.0], [0.0, -1.0]]) and np.allclose(along, [3.0, 1.0])
