@@ -4,16 +4,18 @@ namespace Guidewire.Core
 {
     /// <summary>Determines which nodes of inner instruments are beyond the surrounding tips, and when that set has to
     /// change.</summary>
-    /// <remarks>A node comes in where it is 0.02 of its element's length beyond the tip to the end of a step. It goes
-    /// where it is 0.01 beyond it, and a step ends a part there: so what takes its place lies where it was. The tip
-    /// around an instrument is that of the next one around it which is beyond those around it in turn.</remarks>
+    /// <remarks>A node comes in where it is 0.02 of its element's length beyond the tip to the end of a step, or the
+    /// difference of the two radii where that is less: so far the ball of a tip inside lies in the one around it, and
+    /// misses no wall. It goes where it is half as far beyond it, and a step ends a part there: so what takes its place
+    /// lies where it was. The tip around an instrument is that of the next one around it which is beyond those around
+    /// it in turn.</remarks>
     internal sealed class CoaxialNodes
     {
         /// <summary>The fraction of a step, or of an element's length, below which two moments are one.</summary>
         public const double SameTime = 1e-6;
 
-        private const double Reached = 0.02;    // of an element's length
-        private const double Left = 0.01;
+        private const double OfLength = 0.02;    // of an element's length, beyond a tip it comes in
+        private const double Left = 0.5;    // of that, where it goes
         private const double LeaveHysteresis = 0.3;    // of an element's length, by which it goes late in a sheath
         private const int MinElements = 2;
 
@@ -67,7 +69,7 @@ namespace Guidewire.Core
                 int around = AroundOf(i, Beyond);
                 double lead = _hubs.LeadAt(i, time) - _hubs.LeadAt(around, time);
                 double next = _hubs.LeadAt(i, time + length) - _hubs.LeadAt(around, time + length);
-                Beyond[i] = Find(i, Beyond[i], Math.Max(lead, next) + _instrument[around].Rod.TotalLength);
+                Beyond[i] = Find(i, around, Beyond[i], Math.Max(lead, next) + _instrument[around].Rod.TotalLength);
             }
         }
 
@@ -82,7 +84,7 @@ namespace Guidewire.Core
                 int around = AroundOf(i, Beyond);
                 double tip = _hubs.LeadAt(i, time) - _hubs.LeadAt(around, time)
                     + _instrument[around].Rod.TotalLength;
-                least = Math.Min(least, TimeToNode(i, Beyond[i], tip, _hubs.SlideOf(i, around)));
+                least = Math.Min(least, TimeToNode(i, around, Beyond[i], tip, _hubs.SlideOf(i, around)));
             }
             return least;
         }
@@ -93,17 +95,26 @@ namespace Guidewire.Core
             return instrument == 2 && beyond[1] > 0 ? 1 : 0;
         }
 
-        private int Find(int instrument, int beyond, double tip)
+        // How far beyond the tip around it the end of an element comes in, m.
+        private double Reached(int instrument, int around, int element)
+        {
+            MaterialRod inner = _instrument[instrument].Rod;
+            double[] outer = _instrument[around].Rod.Radius;
+            return Math.Min(OfLength * inner.Length[element], outer[outer.Length - 1] - inner.Radius[element]);
+        }
+
+        private int Find(int instrument, int around, int beyond, double tip)
         {
             double[] station = _instrument[instrument].Stations;
             double[] length = _instrument[instrument].Rod.Length;
             int n = length.Length;
-            while (beyond > 0 && station[n + 1 - beyond] - tip < (1.0 - SameTime) * Left * length[n - beyond])
+            while (beyond > 0 && station[n + 1 - beyond] - tip
+                < (1.0 - SameTime) * Left * Reached(instrument, around, n - beyond))
             {
                 beyond--;
             }
             while (beyond < n && station[n - beyond] - tip
-                >= Reached * length[n - 1 - beyond] - SameTime * length[n - 1 - beyond])
+                >= Reached(instrument, around, n - 1 - beyond) - SameTime * length[n - 1 - beyond])
             {
                 beyond++;
             }
@@ -111,23 +122,24 @@ namespace Guidewire.Core
         }
 
         // slide: of the instrument against the one around it, m/s.
-        private double TimeToNode(int instrument, int beyond, double tip, double slide)
+        private double TimeToNode(int instrument, int around, int beyond, double tip, double slide)
         {
             double[] station = _instrument[instrument].Stations;
             double[] length = _instrument[instrument].Rod.Length;
             int n = length.Length;
             if (beyond == 0 || !(slide < 0.0))
             {
-                double ahead = Reached * length[n - 1] - (station[n] - tip);
+                double ahead = Reached(instrument, around, n - 1) - (station[n] - tip);
                 return beyond == 0 && slide > 0.0 && ahead > SameTime * length[n - 1] ? ahead / slide
                     : double.PositiveInfinity;
             }
-            while (beyond > 0 && station[n + 1 - beyond] - tip <= (1.0 + SameTime) * Left * length[n - beyond])
+            while (beyond > 0 && station[n + 1 - beyond] - tip
+                <= (1.0 + SameTime) * Left * Reached(instrument, around, n - beyond))
             {
                 beyond--;
             }
             return beyond == 0 ? double.PositiveInfinity
-                : (station[n + 1 - beyond] - tip - Left * length[n - beyond]) / -slide;
+                : (station[n + 1 - beyond] - tip - Left * Reached(instrument, around, n - beyond)) / -slide;
         }
     }
 }

@@ -100,6 +100,34 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Running));
         }
 
+        [Test]
+        public void TipInside_LiesInTheBallOfTheTipAroundIt_OrHasANodeOfItsOwn(
+            [Values(4, 8, 40, 200)] int elements, [Values(0.3, 0.445, 0.58)] double radius)
+        {
+            SimulationParameters parameters = CoaxialScenes.Pair(Integrator.ImplicitEuler);
+            parameters.Scene.NumberRodElements = elements;
+            parameters.Scene.Catheters[0].Start = 152.0;    // the tip 2 mm inside
+            parameters.Material.WireRadius = radius * Unit;
+            double[] times = { 0.0, 0.2, 0.4 };
+            parameters.Drive.Table = new DriveTable(new TimeTable(times, new[] { 0.0, 4e-3, 0.0 }),
+                new TimeTable(times, new double[3]));
+            MethodStart start = MethodBuilder.Build(parameters, new Scene(parameters));
+            var run = (DirectStep)start.Stepper;
+            int within = run.Dynamics.Terms.Rod.ElementCount;
+            int with = 0;
+            for (int k = 1; k <= 200; k++)
+            {
+                run.Advance(start.State);
+                Assert.That(run.Failure, Is.Null);
+                double beyond = 2e-3 - Math.Abs(k * parameters.Method.TimeStep - 0.2) * 0.02;
+                bool hasNode = run.Dynamics.Terms.Rod.ElementCount > within;
+                Assert.That(hasNode || beyond + radius * Unit < 0.83e-3 + 1e-9, beyond + " m beyond, without a node");
+                Assert.That(!hasNode || beyond > 0.0, beyond + " m beyond, with a node");
+                with += hasNode ? 1 : 0;
+            }
+            Assert.That(with, Is.GreaterThan(70));
+        }
+
         private static double WireShortfall(Simulation run, double asked)
         {
             return Math.Abs(asked - run.Hub()!.Insertion);
