@@ -2,24 +2,26 @@
 
 ``python3 -m experiments.campaigns.environment_campaign --runs 1000 --record FILE [TASK ...]`` plays so many episodes of
 each task, and adds a line of JSON to FILE for each. What stands there is not played again, so a campaign that was ended
-goes on, and grows with a larger number. One episode in ten is also played in threads, in processes, and by the runner.
-``--resets 3000`` begins so many episodes besides, and looks at the memory. The criteria are those of
-`environment_claims`.
+goes on, and grows with a larger number. ``--result`` writes the rows of `results` from all that stands in FILE. One
+episode in ten is also played in threads, in processes, and by the runner. ``--resets 3000`` begins so many episodes
+besides, and looks at the memory. The criteria are those of `environment_claims`.
 """
 
 from __future__ import annotations
 
 import hashlib
-import json
 import re
 import sys
 from collections import Counter
 from collections.abc import Sequence
+from dataclasses import dataclass, field
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
+from experiments.campaigns import results
 from experiments.campaigns.environment_claims import Judge, add_bits
 from experiments.campaigns.push_campaign import parser_of
 from guidewire.env import Environment, VectorEnvironment, all_tasks
@@ -87,51 +89,88 @@ def grown(task: str | Task, resets: int) -> float:
         return _resident() - before
 
 
-class Record:
-    """A file of one JSON object a line: what was found, by task, seed and host."""
+class Record(results.Record):
+    """What was found, by task, seed and host."""
 
-    def __init__(self, file: Path) -> None:
-        self._file = file
-        lines = file.read_text(encoding="utf-8").splitlines() if file.is_file() else []
-        self.found = {(one["task"], one["seed"], one["host"]): one for one in map(json.loads, lines)}
+    key = itemgetter("task", "seed", "host")
 
-    def add(self, task: str, seed: int, host: str, **found: Any) -> None:
-        """Take in a line; it is in the file when this returns."""
-        one = self.found[task, seed, host] = {"task": task, "seed": seed, "host": host, "version": version(), **found}
-        with self._file.open("a", encoding="utf-8") as file:
-            file.write(json.dumps(one) + "\n")
+    def note(self, task: str, seed: int, host: str, **found: Any) -> None:
+        """Take in a line."""
+        self.add({"task": task, "seed": seed, "host": host, "version": version(), **found})
 
     def lacks(self, task: str, seeds: Sequence[int], host: str) -> list[int]:
         """Return those seeds that a host has not played."""
         return [seed for seed in seeds if (task, seed, host) not in self.found]
 
-    def lines(self, task: str) -> tuple[list[str], int]:
-        """Say what is known of a task, and how many faults there are."""
+    def count(self, task: str) -> Counted:
+        """Count what is known of a task."""
         own = [one for (name, _, _), one in self.found.items() if name == task]
         alone = {one["seed"]: one for one in own if one["host"] == ALONE}
-        faults = [f"seed {seed}: {fault}" for seed, one in alone.items() for fault in one["faults"]]
-        compared = Counter()
+        faults = {seed: list(one["faults"]) for seed, one in alone.items()}
+        counted = Counted(task, list(alone.values()), faults, Counter(one["end"] for one in alone.values()))
         for one in own:
             if one["host"] in HOSTS:
-                compared[one["host"]] += 1
+                counted.hosts[one["host"]] += 1
                 if one["digest"] != alone[one["seed"]]["digest"]:
-                    faults.append(f"seed {one['seed']}: other bits with {one['host']}")
-            elif one["host"] == "resets" and one["grown"] > GROWTH:
-                faults.append(f"{one['grown']:.0f} MB more after {one['seed']} resets")
-        ends = Counter(one["end"] for one in alone.values())
-        told = f"{task}: {len(alone)} episodes of {sum(one['steps'] for one in alone.values())} steps ("
-        told += ", ".join(f"{count} {end}" for end, count in ends.most_common()) + ")"
-        told += "".join(f"; {count} with {host}" for host, count in compared.items())
-        told += "".join(f"; {one['seed']} resets {one['grown']:+.1f} MB" for one in own if one["host"] == "resets")
-        reasons = [f"seed {seed} ended: {one['reason']}" for seed, one in alone.items() if one["reason"]]
-        return [f"{told}; {len(faults)} faults", *(f"  {line}" for line in faults + reasons)], len(faults)
+                    faults[one["seed"]].append(f"other bits with {one['host']}")
+            elif one["host"] == "resets":
+                counted.resets[one["seed"]] = one["grown"]
+        return counted
+
+
+@dataclass(frozen=True)
+class Counted:
+    """What is known of a task.
+
+    Attributes
+    ----------
+    task : its name.
+    episodes : the record's lines of those played alone.
+    faults : of each seed.
+    ends, hosts : how many episodes ended so, and how many each other host played.
+    resets : by how much the memory grew in so many, MB.
+    """
+
+    task: str
+    episodes: list[dict[str, Any]]
+    faults: dict[int, list[str]]
+    ends: Counter[str]
+    hosts: Counter[str] = field(default_factory=Counter)
+    resets: dict[int, float] = field(default_factory=dict)
+
+    def told(self) -> list[str]:
+        """Return all faults in words."""
+        return [*(f"seed {seed}: {fault}" for seed, faults in self.faults.items() for fault in faults),
+                *(f"{grown:.0f} MB more after {count} resets" for count, grown in self.resets.items()
+                  if grown > GROWTH)]
+
+    def lines(self) -> list[str]:
+        """Say all of it."""
+        faults = self.told()
+        told = f"{self.task}: {len(self.episodes)} episodes of {self._steps} steps ("
+        told += ", ".join(f"{count} {end}" for end, count in self.ends.most_common()) + ")"
+        told += "".join(f"; {count} with {host}" for host, count in self.hosts.items())
+        told += "".join(f"; {count} resets {grown:+.1f} MB" for count, grown in self.resets.items())
+        reasons = [f"seed {one['seed']} ended: {one['reason']}" for one in self.episodes if one["reason"]]
+        return [f"{told}; {len(faults)} faults", *(f"  {line}" for line in faults + reasons)]
+
+    def keep(self) -> None:
+        """Write the row of the task."""
+        results.keep(f"environment {self.task}", f"environment_campaign --record FILE {self.task}", self.episodes,
+                     self.ends, [seed for seed, faults in self.faults.items() if faults], task=self.task,
+                     steps=self._steps, hosts=self.hosts, resets=self.resets, faults=len(self.told()),
+                     reasons=results.kinds_of(one["reason"] for one in self.episodes if one["reason"]))
+
+    @property
+    def _steps(self) -> int:
+        return sum(one["steps"] for one in self.episodes)
 
 
 def play(record: Record, task: str, seeds: Sequence[int]) -> None:
     """Play what is not in the record: all of these alone, and the first with other hosts."""
     with Environment(task) as environment:
         for seed in record.lacks(task, seeds, ALONE):
-            record.add(task, seed, ALONE, **judged(environment, seed))
+            record.note(task, seed, ALONE, **judged(environment, seed))
     for host in HOSTS:
         seeds_of_host = record.lacks(task, seeds[:COMPARED], host)
         if not seeds_of_host:
@@ -139,7 +178,7 @@ def play(record: Record, task: str, seeds: Sequence[int]) -> None:
         options = {"native": False} if host == "runner" else {}
         digests = together(task, seeds_of_host, "processes" if host == "processes" else "threads", **options)
         for seed, digest in zip(seeds_of_host, digests):
-            record.add(task, seed, host, digest=digest)
+            record.note(task, seed, host, digest=digest)
 
 
 def _resident() -> float:
@@ -153,6 +192,7 @@ def main(arguments: Sequence[str]) -> int:
     parser.set_defaults(first=FIRST)
     parser.add_argument("tasks", nargs="*", metavar="TASK", help="of those that ship (default all)")
     parser.add_argument("--record", type=Path, required=True, metavar="FILE", help="what was found, a line each")
+    parser.add_argument("--result", action="store_true", help="write a row of each task in results.json")
     parser.add_argument("--resets", type=int, default=0, help="how many (default 0)")
     given = parser.parse_args(arguments)
     record, tasks = Record(given.record), given.tasks or list(all_tasks())
@@ -162,12 +202,14 @@ def main(arguments: Sequence[str]) -> int:
             play(record, task, range(first, min(first + BLOCK, given.first + given.runs)))
     for task in tasks if given.resets else ():
         if record.lacks(task, [given.resets], "resets"):
-            record.add(task, given.resets, "resets", grown=grown(task, given.resets))
+            record.note(task, given.resets, "resets", grown=grown(task, given.resets))
     found = 0
     for task in tasks:
-        lines, faults = record.lines(task)
-        print("\n".join(lines), flush=True)
-        found += faults
+        counted = record.count(task)
+        print("\n".join(counted.lines()), flush=True)
+        found += len(counted.told())
+        if given.result and counted.episodes:
+            counted.keep()
     return 1 if found else 0
 
 

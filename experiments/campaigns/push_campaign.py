@@ -56,6 +56,7 @@ class Push:
     reason : its reason.
     is_reliable : whether its summary says that nothing speaks against its result.
     beyond : part of its hubForceLimit by which the force of a hub was above it, at most.
+    commit : of the program, in a record.
     """
 
     seed: int
@@ -66,6 +67,7 @@ class Push:
     reason: str = ""
     is_reliable: bool = False
     beyond: float = 0.0
+    commit: str = ""
 
 
 def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
@@ -190,7 +192,7 @@ def main(arguments: Sequence[str]) -> int:
           f"{max((push.seconds for push in pushes_of_range), default=0.0):.1f} s")
     if given.result and pushes_of_range:
         results.keep(f"push {name}", f"push_campaign --method {given.method}{' --soft' if given.soft else ''}",
-                     [push.seed for push in pushes_of_range], outcomes, broken, beyond=beyond,
+                     [asdict(push) for push in pushes_of_range], outcomes, broken, beyond=beyond,
                      failures=results.kinds_of(push.reason for push in pushes_of_range if push.outcome != "finished"))
     return 1 if broken else 0
 

@@ -1,11 +1,12 @@
-"""The last result of each full campaign: a row of `results.json`, which the campaign writes itself, and the table of
-docs/verification.md made of the rows.
+"""The last result of each full campaign: a row of `results.json`, which the campaign writes itself, and the tables of
+docs/verification.md and docs/environments.md made of the rows.
 
-``python3 -m experiments.campaigns.results`` writes the table anew.
+``python3 -m experiments.campaigns.results`` writes the tables anew.
 """
 
 from __future__ import annotations
 
+import functools
 import json
 import re
 import subprocess
@@ -13,6 +14,7 @@ import sys
 from collections import Counter
 from collections.abc import Iterable, Mapping, Sequence
 from datetime import date
+from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -20,26 +22,38 @@ from guidewire.prepare import ROOT
 from guidewire.runs.whole_files import write_whole
 
 FILE = Path(__file__).with_name("results.json")
-PAGE = ROOT / "docs" / "verification.md"
+VERIFICATION, ENVIRONMENTS = (ROOT / "docs" / name for name in ("verification.md", "environments.md"))
 _PROGRAM = ("Assets/Guidewire/Core", "Assets/Guidewire/Io", "headless/Guidewire.Cli")
 _TABLE = re.compile(r"(?s)(?<=<!-- campaigns -->\n).*?(?=<!-- /campaigns -->)")
 _NUMBER = re.compile(r"-?\d+(\.\d+)?([eE][-+]?\d+)?")
 
 
 class Record:
-    """A file of one JSON object a line, by which a campaign that was ended goes on: what each seed came to."""
+    """A file of one JSON object a line, by which a campaign that was ended goes on: what each seed came to, and the
+    commit of the program that ran it."""
+
+    key = itemgetter("seed")
 
     def __init__(self, file: Path | None) -> None:
         self._file = file
         lines = file.read_text(encoding="utf-8").splitlines() if file and file.is_file() else []
-        self.found: dict[int, dict[str, Any]] = {one["seed"]: one for one in map(json.loads, lines)}
+        self.found: dict[Any, dict[str, Any]] = {self.key(one): one for one in map(json.loads, lines)}
 
     def add(self, found: Mapping[str, Any]) -> None:
-        """Take in what a seed came to; it is in the file when this returns."""
-        self.found[found["seed"]] = dict(found)
+        """Take in what was found; it is in the file when this returns."""
+        one = {**found, "commit": commit()}
+        self.found[self.key(one)] = one
         if self._file:
             with self._file.open("a", encoding="utf-8") as file:
-                file.write(json.dumps(found) + "\n")
+                file.write(json.dumps(one) + "\n")
+
+
+@functools.cache
+def commit() -> str:
+    """Return the last commit that changed the program."""
+    told = subprocess.run(["git", "-C", str(ROOT), "log", "-1", "--format=%h", "--abbrev=8", "--", *_PROGRAM],
+                          capture_output=True, text=True)
+    return told.stdout.strip()
 
 
 def kinds_of(reasons: Iterable[str]) -> dict[str, int]:
@@ -47,45 +61,57 @@ def kinds_of(reasons: Iterable[str]) -> dict[str, int]:
     return dict(Counter(_NUMBER.sub("#", reason.split("; ")[0]) for reason in reasons).most_common())
 
 
-def keep(name: str, command: str, seeds: Sequence[int], ends: Mapping[str, int], broken: Sequence[int],
+def keep(name: str, command: str, lines: Sequence[Mapping[str, Any]], ends: Mapping[str, int], broken: Sequence[int],
          **more: Any) -> None:
-    """Write the row of a campaign, in place of its last one; its commit is the last that changed the program.
+    """Write the row of a campaign, in place of its last one.
 
     Parameters
     ----------
     name : of the row.
     command : that repeats it.
-    seeds : all that count as runs.
+    lines : of its record, all that count as runs.
     ends : how many runs had each outcome.
     broken : seeds of runs that broke a claim.
     more : what else the campaign counts.
     """
-    commit = subprocess.run(["git", "-C", str(ROOT), "log", "-1", "--format=%h", "--abbrev=8", "--", *_PROGRAM],
-                            capture_output=True, text=True)
+    seeds = [line["seed"] for line in lines]
+    commits = dict.fromkeys(line.get("commit", "unknown") for line in lines)
     rows = json.loads(FILE.read_text(encoding="utf-8")) if FILE.is_file() else {}
-    rows[name] = {"command": command, "date": date.today().isoformat(), "commit": commit.stdout.strip(),
+    rows[name] = {"command": command, "date": date.today().isoformat(), "commit": ", ".join(commits),
                   "seeds": [min(seeds), max(seeds)], "runs": len(seeds), "ends": dict(sorted(ends.items())),
                   "broken": sorted(broken), **more}
     write_whole(FILE, json.dumps(dict(sorted(rows.items())), indent=1) + "\n")
 
 
-def table() -> str:
-    """Return the table of all rows."""
-    lines = ["| command | date, commit of the program | seeds | runs | ends | claims broken |",
-             "|---|---|---|---|---|---|"]
+def tables() -> dict[Path, str]:
+    """Return the table of each page: of environments their own, of all other campaigns that of the verification."""
+    lines = {VERIFICATION: ["| command | date, commit of the program | seeds | runs | ends | claims broken |",
+                            "|---|---|---|---|---|---|"],
+             ENVIRONMENTS: ["| task | date, commit of the program | seeds | episodes, steps | ends | the same bits in "
+                            "other hosts | resets | faults |", "|---|---|---|---|---|---|---|---|"]}
     for row in json.loads(FILE.read_text(encoding="utf-8")).values():
-        first, last = row["seeds"]
-        ends = ", ".join(f"{count} *{end}*" if end != "finished" else f"{count} finished"
-                         for end, count in row["ends"].items())
-        lines.append(f"| `python3 -m experiments.campaigns.{row['command']}` | {row['date']}, "
-                     f"{row['commit']} | {first} to {last} | {row['runs']:,} | "
-                     f"{ends} | {len(row['broken'])} |")
-    return "\n".join(lines) + "\n"
+        told = (f"{row['date']}, {row['commit']} | {row['seeds'][0]} to {row['seeds'][1]} | {row['runs']:,}", ", ".join(
+            f"{count} {end}" if end == "finished" or "task" in row else f"{count} *{end}*"
+            for end, count in row["ends"].items()))
+        if "task" in row:
+            resets = "; ".join(f"{int(count):,}: {grown:+.1f} MB" for count, grown in row["resets"].items())
+            hosts = ", ".join(f"{count} {host}" for host, count in row["hosts"].items())
+            lines[ENVIRONMENTS].append(f"| `{row['task']}` | {told[0]}, {row['steps']:,} | {told[1]} | {hosts} | "
+                                       f"{resets} | {row['faults']} |")
+        else:
+            lines[VERIFICATION].append(f"| `python3 -m experiments.campaigns.{row['command']}` | {' | '.join(told)} | "
+                                       f"{len(row['broken'])} |")
+    return {page: "\n".join(own) + "\n" for page, own in lines.items()}
+
+
+def quoted(page: Path) -> str:
+    """Return the table that a page has."""
+    return _TABLE.search(page.read_text(encoding="utf-8"))[0]
 
 
 def main() -> int:
-    page = PAGE.read_text(encoding="utf-8")
-    write_whole(PAGE, _TABLE.sub(lambda _: table(), page))
+    for page, table in tables().items():
+        write_whole(page, _TABLE.sub(lambda _: table, page.read_text(encoding="utf-8")))
     return 0
 
 

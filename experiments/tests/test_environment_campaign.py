@@ -1,11 +1,13 @@
 """The campaign of environments: claims that are wrong are found, hosts are compared by bits, and it goes on."""
 
+import json
 from dataclasses import replace
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 
+from experiments.campaigns import results
 from experiments.campaigns.environment_campaign import ALONE, Record, judged, together
 from experiments.campaigns.environment_claims import Judge, Lumen, Way
 from guidewire.env import Environment
@@ -47,14 +49,20 @@ def test_claims_are_judged_from_the_states_and_hosts_by_their_bits(task):
             assert lumen.faults(SimpleNamespace(positions=state.positions + moved, catheters=[]), lengths) == [wrong]
 
 
-def test_a_record_goes_on_where_it_was_ended_and_counts_other_bits_as_faults(tmp_path):
+def test_a_record_goes_on_where_it_was_ended_and_counts_other_bits_as_faults(tmp_path, monkeypatch):
     record = Record(tmp_path / "record.jsonl")
     for seed in (1, 2):
-        record.add("a", seed, ALONE, end="time", reason="", steps=5, digest=str(seed), faults=[])
-    record.add("a", 1, "threads", digest="1")
+        record.note("a", seed, ALONE, end="time", reason="", steps=5, digest=str(seed), faults=[])
+    record.note("a", 1, "threads", digest="1")
     again = Record(tmp_path / "record.jsonl")
     assert again.lacks("a", [1, 2, 3], ALONE) == [3] and again.lacks("a", [1, 2], "threads") == [2]
-    assert again.lines("a") == (["a: 2 episodes of 10 steps (2 time); 1 with threads; 0 faults"], 0)
-    again.add("a", 2, "threads", digest="1")
-    again.add("a", 3000, "resets", grown=99.0)
-    assert again.lines("a")[1] == 2
+    assert again.count("a").lines() == ["a: 2 episodes of 10 steps (2 time); 1 with threads; 0 faults"]
+    again.note("a", 2, "threads", digest="1")
+    again.note("a", 3000, "resets", grown=99.0)
+    monkeypatch.setattr(results, "FILE", tmp_path / "results.json")
+    again.count("a").keep()
+    row = json.loads(results.FILE.read_text())["environment a"]
+    assert (row["runs"], row["steps"], row["ends"], row["broken"], row["faults"]) == (2, 10, {"time": 2}, [2], 2)
+    line = results.tables()[results.ENVIRONMENTS].splitlines()[-1]
+    assert line.startswith("| `a` | ") and line.endswith(
+        "| 1 to 2 | 2, 10 | 2 time | 2 threads | 3,000: +99.0 MB | 2 |")
