@@ -65,13 +65,17 @@ namespace Guidewire.Core
         /// axis the wire's does not follow.</summary>
         public bool IsTipCovered(ContactShape wall)
         {
-            CoaxialRecord? inner = Coaxial();
-            while (inner?.Inside != null)
-            {
-                inner = inner.Inside;
-            }
-            return Hub()?.SpheresInBody == 0
-                || inner?.Extension <= 0.0 && wall.IsWithin(inner.Positions[inner.Positions.Length - 1]);
+            return Hub()?.SpheresInBody == 0 || Coaxial() is CoaxialRecord outer && IsIn(outer, wall, out _);
+        }
+
+        // Whether the wire's tip is in this catheter or one inside it, and how far beyond this one, m.
+        private static bool IsIn(CoaxialRecord catheter, ContactShape wall, out double beyond)
+        {
+            double beyondInner = 0.0;
+            bool isInInner = catheter.Inside != null && IsIn(catheter.Inside, wall, out beyondInner);
+            beyond = catheter.Extension + beyondInner;
+            return isInInner
+                || (beyond <= 0.0 && wall.IsWithin(catheter.Positions[catheter.Positions.Length - 1]));
         }
 
         /// <summary>Advances the state by one step.</summary>

@@ -259,6 +259,23 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void TipBetweenThoseOfTwoCatheters_IsInTheOuterOne()
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, 250.0) };
+            parameters.Scene.Walls = WallScenes.Tube(260.0, 1000.0, 12.0);
+            parameters.Drive.InsertionSpeed = -0.5;
+            parameters.Scene.Catheters[1].Drive.InsertionSpeed = -0.5;
+            parameters.Method.MaxSimulationSteps = 145;
+            Simulation run = Wires.Finish(parameters);
+            CoaxialRecord outer = run.Coaxial()!;
+            Assert.That(run.State.Positions[40].Z, Is.LessThan(260.0).And.GreaterThan(250.0));
+            Assert.That(outer.Positions[outer.Positions.Length - 1].Z, Is.GreaterThan(260.0));
+            Assert.That(outer.Inside!.Extension, Is.Positive);
+            Assert.That(run.Warnings, Has.None.Contains("open rim"));
+        }
+
+        [Test]
         public void Step_LeavesNothingForTheCollector_WhereNoNodeComesOrGoes()
         {
             SimulationParameters parameters = Fed();
