@@ -197,7 +197,17 @@ namespace Guidewire.Core
                 {
                     EnergySum.Anchor(_terms, shape);
                 }
-                bool isPlain = FindDirection(shape, k < MaxWithoutGeometricStiffness);
+                Factorisations++;
+                bool isPlain = System.Factorise(_terms, shape, Gradient, Direction, Regularisation.Min,
+                    onlyPositive: !_hasFriction) == 0 || TryRegularised(shape);
+                if (isPlain)
+                {
+                    System.Back(Direction);
+                }
+                else
+                {
+                    FindOtherDirection(shape, k < MaxWithoutGeometricStiffness);
+                }
                 double size = Size(out double relative);
                 if (!(size <= double.MaxValue))
                 {
@@ -272,12 +282,6 @@ namespace Guidewire.Core
             return RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative, System.VectorCount);
         }
 
-        /// <summary>Largest part of the motion that a step of this direction may take, 0 to 1.</summary>
-        public double MaxStepOf(RodShape shape, RodVector[] direction)
-        {
-            return EnergySum.MaxStep(_terms, shape, direction, 1.0);
-        }
-
         /// <summary>Writes or restores what the next stage depends on.</summary>
         public void SerializeShift(Snapshot snapshot)
         {
@@ -346,41 +350,41 @@ namespace Guidewire.Core
             return true;
         }
 
-        // At first without the terms of forces that may vanish; then only those of walls are left out. Says whether
-        // what is factorised is the second derivative itself, without a negative eigenvalue.
-        private bool FindDirection(RodShape shape, bool dropsGeometricStiffness)
+        // Whether the second derivative with what it may have of the metric has no negative eigenvalue.
+        private bool TryRegularised(RodShape shape)
         {
-            Factorisations++;
-            bool isPlain = System.Factorise(_terms, shape, Gradient, Direction, Regularisation.Min,
-                onlyPositive: !_hasFriction) == 0;
-            for (double more = 10.0 * Regularisation.Min; !isPlain && more < Regularisation.Max; more *= 10.0)
+            bool isPositive = false;
+            for (double more = 10.0 * Regularisation.Min; !isPositive && more < Regularisation.Max; more *= 10.0)
             {
-                isPlain = TryFactorise(shape, more);
+                isPositive = TryFactorise(shape, more);
             }
-            if (!isPlain && _hasFriction)
+            return isPositive;
+        }
+
+        // Where the second derivative has negative eigenvalues: by those with their signs changed, or with others. At
+        // first these leave the terms of forces that may vanish out; then only those of walls.
+        private void FindOtherDirection(RodShape shape, bool dropsGeometricStiffness)
+        {
+            if (_hasFriction)
             {
                 System.ReflectNegativePivots(Direction);
                 System.Back(Direction);
                 if (Size(out _) < MaxReflected)
                 {
-                    return false;
+                    return;
                 }
             }
-            if (!isPlain)
+            DropGeometricStiffness(dropsGeometricStiffness, true);
+            if (_barrier == null || !TryFactorise(shape, 0.0))
             {
-                DropGeometricStiffness(dropsGeometricStiffness, true);
-                if (_barrier == null || !TryFactorise(shape, 0.0))
+                _shift = Math.Max(0.25 * _shift, MinShift * _bendForce);
+                while (!TryFactorise(shape, _shift) && _shift <= double.MaxValue)
                 {
-                    _shift = Math.Max(0.25 * _shift, MinShift * _bendForce);
-                    while (!TryFactorise(shape, _shift) && _shift <= double.MaxValue)
-                    {
-                        _shift *= 4.0;
-                    }
+                    _shift *= 4.0;
                 }
-                DropGeometricStiffness(dropsGeometricStiffness, false);
             }
+            DropGeometricStiffness(dropsGeometricStiffness, false);
             System.Back(Direction);
-            return isPlain;
         }
 
         // With a multiple of the metric added, N. Says whether all eigenvalues are positive, and ends at the first that

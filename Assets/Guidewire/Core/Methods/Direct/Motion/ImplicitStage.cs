@@ -70,7 +70,7 @@ namespace Guidewire.Core
             EnergyTerm[] all = terms.With(moving);
             Newton = new Newton(terms, all);
             _creep = terms.HavePotential ? null : new ViscousRelaxation(terms.Rod, _supports, all, terms.Followers);
-            _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, Newton);
+            _walls = terms.Walls() == null ? null : new WallStage(terms, _inertia, all);
             Frames = new ClampFrames(schedule, Search);
             Rates = new StageRates(stageCount, _shape);
             Reactions = new RodReactions(terms, schedule, motion, all, Newton.BalanceRounding, Damping);

@@ -11,17 +11,18 @@ namespace Guidewire.Core
         private readonly WallPrediction _prediction;
         private readonly RodShape _predicted;
         private readonly RodVector[] _direction;
-        private readonly Newton _newton;
+        private readonly EnergyTerm[] _all;
 
         /// <summary>For a rod under terms that hold walls.</summary>
-        public WallStage(RodTerms terms, InertiaEnergy inertia, Newton newton)
+        /// <param name="all">Those and the terms of its motion.</param>
+        public WallStage(RodTerms terms, InertiaEnergy inertia, EnergyTerm[] all)
         {
             _terms = terms;
             _supports = terms.Supports;
             _prediction = new WallPrediction(terms, inertia);
             _predicted = new RodShape(terms.Rod.ElementCount, terms.Supports.InnerCount, terms.Rod.Capacity);
             _direction = new RodVector[terms.VectorCapacity];
-            _newton = newton;
+            _all = all;
         }
 
         /// <summary>The rod has other elements.</summary>
@@ -51,7 +52,7 @@ namespace Guidewire.Core
                 _predicted.CopyFrom(shape);
                 _prediction.Set((double)k / parts, orientations, shape, _predicted);
                 SetDirection(shape);
-                double fraction = _newton.MaxStepOf(shape, _direction);
+                double fraction = EnergySum.MaxStep(_all, shape, _direction, 1.0);
                 if (!(fraction > 0.0) && k == 1)
                 {
                     return "the wire's surface touches a wall at the start of the step";
