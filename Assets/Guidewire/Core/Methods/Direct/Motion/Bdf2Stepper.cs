@@ -32,7 +32,6 @@ namespace Guidewire.Core
                 _history.Forget();
                 _lastStep = dt;
             }
-            IsTwoStep = _history.IsComplete && dt == interval.StepLength;
             Stage.BeginStep(interval.Start, dt);
             Stage.BeginStage(_history, dt);
             string? failure = Stage.Solve(interval.Start + dt, double.PositiveInfinity, 0,

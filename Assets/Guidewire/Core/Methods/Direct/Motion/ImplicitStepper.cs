@@ -27,9 +27,6 @@ namespace Guidewire.Core
         /// <summary>Whether the last interval may be tried by the scheme's start, which it has not used.</summary>
         public bool MayRestart { get; protected set; }
 
-        /// <summary>Whether the last interval is a whole step and used the step before it.</summary>
-        public bool IsTwoStep { get; protected set; }
-
         /// <summary>Whether the scheme estimates the errors of its steps.</summary>
         public virtual bool HasErrorEstimate => false;
 
@@ -47,7 +44,7 @@ namespace Guidewire.Core
         {
             Stage.Remesh();
             Control.Forget();
-            (Error, MayRestart, IsTwoStep) = (0.0, false, false);
+            (Error, MayRestart) = (0.0, false);
         }
 
         /// <summary>Takes the rod through an interval.</summary>

@@ -180,7 +180,6 @@ namespace Guidewire.Core
                 }
                 IntervalDone?.Invoke();
             }
-            Reactions.EndStep(dt, _stepper.IsTwoStep);
             return null;
         }
 

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>The external forces on a moving rod: in its last stage, their means over the last step by the scheme's
-    /// weights, and the change of momentum that they cause.</summary>
+    /// <summary>The external forces on a moving rod: in its last stage, and their means over the last step by the
+    /// scheme's weights.</summary>
     internal sealed class RodReactions
     {
         private const int MinApart = 3;     // elements, of which the first and the last have no node in common
@@ -18,9 +18,6 @@ namespace Guidewire.Core
         private readonly RodVector[] _loads;
         private StageForces _end;
         private StageForces _mean;
-        private Vector3d _momentum;      // at the start of the last step, kg m/s
-        private Vector3d _oldMomentum;   // at that of the step before
-        private Vector3d _momentumRate;  // N
         private bool _hasStepped;
 
         /// <summary>Makes one of a rod at its start.</summary>
@@ -48,45 +45,26 @@ namespace Guidewire.Core
 
         /// <summary>Their means over the last step by the scheme's weights (BDF2: at the step's end). That of the
         /// supports on node 0 or n is the stress of the element beside it, less the node's own fraction of weight and
-        /// inertia.</summary>
+        /// inertia. With loads, walls and what mass-proportional damping takes they are the change of the momentum as
+        /// the scheme writes it.</summary>
         public StageForces Mean => _mean;
-
-        /// <summary>Change of the momentum in the last step, N, as the scheme writes it: (P_new - P)/dt with stages,
-        /// (3 P_new - 4 P + P_old)/(2 dt) for BDF2 after its first step. With the same scheme's weights it equals the
-        /// forces, <see cref="Mean"/> of supports, loads and walls, and what mass-proportional damping takes.</summary>
-        public Vector3d MomentumRate => _momentumRate;
 
         /// <summary>The rod has other elements and has not stepped.</summary>
         public void Remesh()
         {
             (_end, _mean, _hasStepped) = (default, default, false);
-            (_momentum, _oldMomentum, _momentumRate) = (Vector3d.Zero, Vector3d.Zero, Vector3d.Zero);
         }
 
         /// <summary>A step begins.</summary>
         public void BeginStep()
         {
             _mean = default;
-            _momentum = AreKept ? Momentum : Vector3d.Zero;
-        }
-
-        /// <summary>A step ends.</summary>
-        /// <param name="dt">s.</param>
-        /// <param name="isTwoStep">Whether the scheme used the step before.</param>
-        public void EndStep(double dt, bool isTwoStep)
-        {
-            _hasStepped = true;
-            if (AreKept)
-            {
-                Vector3d change = Momentum - _momentum;
-                _momentumRate = (isTwoStep ? 1.5 * change - 0.5 * (_momentum - _oldMomentum) : change) / dt;
-                _oldMomentum = _momentum;
-            }
         }
 
         /// <summary>Takes the forces of a stage that is solved.</summary>
         public void TakeStage()
         {
+            _hasStepped = true;
             if (AreKept)
             {
                 _terms.Walls()?.Barrier.Value(_motion.Shape);
@@ -168,7 +146,7 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             snapshot.Serialize(ref _hasStepped);
-            snapshot.Serialize(ref _oldMomentum);
+            snapshot.Serialize(Vector3d.Zero);    // a place that the format has
             _end.Serialize(snapshot);
         }
 
@@ -177,8 +155,6 @@ namespace Guidewire.Core
         {
             Serialize(snapshot);
             _mean.Serialize(snapshot);
-            snapshot.Serialize(ref _momentum);
-            snapshot.Serialize(ref _momentumRate);
         }
 
         // The gradient of terms: what the supports have to exert.
@@ -211,8 +187,6 @@ namespace Guidewire.Core
                 term.AddGradient(shape, _gradient, n - 1, n + 1, ref measured);
             }
         }
-
-        private Vector3d Momentum => _terms.Mass.Momentum(_motion.Velocities);
 
         private static Vector3d ForceOf(in RodVector g)
         {
