@@ -216,7 +216,7 @@ namespace Guidewire.Core
             if (supports.Winds)
             {
                 // It stands for all of the wire before it.
-                Joint whole = supports.Coaxial!.Joints.AloneAt(0);
+                Joint whole = supports.Coaxial!.Joints[0].Alone;
                 joints[0].Twist = whole.Twist;
                 joints[0].Rest = new Vector3d(joints[0].Rest.X, joints[0].Rest.Y, whole.Rest.Z);
             }

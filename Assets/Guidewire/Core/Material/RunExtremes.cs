@@ -87,7 +87,7 @@ namespace Guidewire.Core
             {
                 Vector3d turn = _turns[k];
                 double fraction = terms.Supports.FractionOutside(k);
-                Vector3d change = turn - (terms.Supports.Winds ? coaxial!.AloneAt(k).Rest : fraction * joints[k].Rest);
+                Vector3d change = turn - (terms.Supports.Winds ? coaxial![k].Alone.Rest : fraction * joints[k].Rest);
                 if (fraction <= CoaxialJoints.MinFraction)
                 {
                     continue;

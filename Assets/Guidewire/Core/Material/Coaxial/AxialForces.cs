@@ -83,7 +83,7 @@ namespace Guidewire.Core
         {
             double rest = _joints.Stations[element + 1] - _joints.Stations[element];
             double other = (length - RestLengthOf(element)) / _compliance[element] - _force[element];
-            return _strain[element] + Math.Abs(other) * _joints.AxialOf(element) / rest;
+            return _strain[element] + Math.Abs(other) * _joints[element].Axial / rest;
         }
 
         /// <summary>The axial strain of an instrument in an element: that of its own loads, and its part of what else
@@ -94,7 +94,7 @@ namespace Guidewire.Core
             double rest = _joints.Stations[element + 1] - _joints.Stations[element];
             int at = instrument * (N + 1) + element;
             double stretch = _slide[at + 1] - _slide[at] + _shift[element];
-            return (stretch + (force - _force[element]) * _joints.AxialOf(element)) / rest;
+            return (stretch + (force - _force[element]) * _joints[element].Axial) / rest;
         }
 
         /// <summary>Finds the compliance of element j of the chain, m/N, after a change of the hubs; those before it
@@ -102,7 +102,7 @@ namespace Guidewire.Core
         /// <param name="before">In and out: of all before it.</param>
         public double FindCompliance(int j, ref double before)
         {
-            double compliance = _joints.AxialOf(j);
+            double compliance = _joints[j].Axial;
             if (_joints.IsTip(j))
             {
                 double stiffness = 0.0;

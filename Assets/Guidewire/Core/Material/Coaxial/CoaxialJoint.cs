@@ -25,6 +25,17 @@ namespace Guidewire.Core
         public CoaxialPart Second;   // and the inner one
         public double PairCosine;    // C'', J
         public double PairSine;      // S''
+        public double Axial;         // compliance along the axis of the element after it, m/N: of all, held together
+        public double Shear;         // and across it: GA of all that are there adds
+
+        /// <summary>As that of an instrument alone.</summary>
+        public readonly Joint Alone => new Joint
+        {
+            Bend1 = 1.0 / Compliance1,
+            Bend2 = 1.0 / Compliance2,
+            Twist = Twist,
+            Rest = new Vector3d(FixedX, FixedY, RestTwist),
+        };
 
         /// <summary>Adds a piece of one instrument.</summary>
         /// <param name="lambda">m.</param>

@@ -25,8 +25,6 @@ namespace Guidewire.Core
         private readonly int[] _active;            // elements of each whose angle is unknown
         private readonly double[] _stretch;        // of each instrument, then by element, m/N
         private readonly double[] _leadStretch;    // of each before the outermost hub, m/N
-        private readonly double[] _axial;          // of each element, m/N
-        private readonly double[] _shear;
         private readonly double[] _station;        // of the chain's nodes
         private readonly CoaxialJoint[] _joint;
         private readonly CoaxialPieces _before;    // on one side of a joint
@@ -59,8 +57,6 @@ namespace Guidewire.Core
             _joint = new CoaxialJoint[Capacity + 1];
             _stretch = new double[count * Capacity];
             _leadStretch = new double[count];
-            _axial = new double[Capacity];
-            _shear = new double[Capacity];
             _before = CreatePieces();
             _after = CreatePieces();
             _compliance = new double[count];
@@ -225,18 +221,6 @@ namespace Guidewire.Core
             return _leadStretch[instrument];
         }
 
-        /// <summary>Gives the same of all in an element, held together, m/N.</summary>
-        public double AxialOf(int element)
-        {
-            return _axial[element];
-        }
-
-        /// <summary>Compliance of an element across the axis, m/N: GA of all that are in it adds.</summary>
-        public double ShearOf(int element)
-        {
-            return _shear[element];
-        }
-
         /// <summary>Whether node k is the tip of an instrument with another one going on beyond it.</summary>
         public bool IsTip(int k)
         {
@@ -256,19 +240,6 @@ namespace Guidewire.Core
         public double FractionOutside(int k)
         {
             return Hubs.FractionOutside(k, _station, ElementCount);
-        }
-
-        /// <summary>Gives the joint at node k of an instrument alone.</summary>
-        public Joint AloneAt(int k)
-        {
-            ref readonly CoaxialJoint joint = ref _joint[k];
-            return new Joint
-            {
-                Bend1 = 1.0 / joint.Compliance1,
-                Bend2 = 1.0 / joint.Compliance2,
-                Twist = joint.Twist,
-                Rest = new Vector3d(joint.FixedX, joint.FixedY, joint.RestTwist),
-            };
         }
 
         /// <summary>The next position along the chain after one, m, up to which forces at a border are linear: a node
@@ -374,7 +345,7 @@ namespace Guidewire.Core
             if (k < ElementCount)
             {
                 AddSide(ref joint, k, k + 1, frame, _after);
-                SetElement(k);
+                SetElement(ref joint, k);
             }
             if (k == 0)
             {
@@ -395,10 +366,10 @@ namespace Guidewire.Core
             }
         }
 
-        private void SetElement(int j)
+        private void SetElement(ref CoaxialJoint joint, int j)
         {
-            _axial[j] = _after.Axial;
-            _shear[j] = _after.Shear;
+            joint.Axial = _after.Axial;
+            joint.Shear = _after.Shear;
             for (int i = 0; i < Count; i++)
             {
                 _stretch[i * ElementCount + j] = _after.Stretch[i];

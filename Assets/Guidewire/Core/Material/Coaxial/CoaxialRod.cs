@@ -103,7 +103,7 @@ namespace Guidewire.Core
             int changed = Joints.SetHubs(leads, sheathed);
             for (int j = 0; j < Joints.ElementCount; j++)
             {
-                Rod.ShearStiffness[j] = (Joints.Stations[j + 1] - Joints.Stations[j]) / Joints.ShearOf(j);
+                Rod.ShearStiffness[j] = (Joints.Stations[j + 1] - Joints.Stations[j]) / Joints[j].Shear;
             }
             SetLengths();
             return changed;

@@ -247,7 +247,7 @@ namespace Guidewire.Core
             double load = _rod.Axial.LoadOn(j);
             double length = grows - along * load;
             double across = _rod.Rod.ShearStiffness[j];
-            double acrossRate = (grows - across * _after.Shear) / _joints.ShearOf(j);
+            double acrossRate = (grows - across * _after.Shear) / _joints[j].Shear;
             return -n.Z * length - 0.5 * along * (n.Z * n.Z + load * load)
                 + 0.5 * (n.X * n.X + n.Y * n.Y) / across * (acrossRate / across * _rod.Rod.Length[j] - length);
         }

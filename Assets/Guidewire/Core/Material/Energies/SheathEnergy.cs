@@ -73,7 +73,7 @@ namespace Guidewire.Core
             _held = joints.HeldInLead;
             for (int k = 0; k < changed && k < joints.ElementCount; k++)
             {
-                _bending.SetJoint(k, joints.AloneAt(k));
+                _bending.SetJoint(k, joints[k].Alone);
                 _held += joints[k].Held;
             }
         }
