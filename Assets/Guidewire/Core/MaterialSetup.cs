@@ -57,7 +57,7 @@ namespace Guidewire.Core
             var instruments = CoaxialInstruments.Create(parameters, new SolverReport(), out string? failure);
             instruments.Write(state);
             instruments.Write(state);
-            return new MethodStart(state, new DirectStep(instruments, parameters.Method.TimeStep))
+            return new MethodStart(state, instruments)
             {
                 Failure = failure,
                 IsAtRest = instruments.Chain.IsAtRest,
@@ -91,7 +91,7 @@ namespace Guidewire.Core
         {
             var rod = new MonitoredRod(scene, DirectSetup.DynamicsOf(parameters, scene, terms), parameters.Method,
                 report, Reactions(parameters, scene));
-            return new DirectStep(new InstrumentSet(rod), parameters.Method.TimeStep);
+            return new DirectStep(rod, parameters.Method.TimeStep);
         }
 
         /// <summary>Gives the iterations over constraints with compliance.</summary>

@@ -392,7 +392,7 @@ namespace Guidewire.Core
             return continued;
         }
 
-        private WireInCatheters Instruments => (WireInCatheters)((DirectStep)_stepper).Instruments;
+        private WireInCatheters Instruments => (WireInCatheters)_stepper;
 
         // isOther: of the wire and of each catheter.
         private Simulation Exchange(SimulationParameters parameters, bool[] isOther)

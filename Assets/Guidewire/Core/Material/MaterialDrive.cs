@@ -20,6 +20,8 @@ namespace Guidewire.Core
         private double? _override;           // of the next step, m
         private readonly double _length;     // of the instrument, m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
+        private double _insertionBefore;     // the present step, m
+        private double _turnBefore;          // the same, rad
 
         /// <summary>Makes the drive of this scene.</summary>
         /// <param name="followsSpring">Whether node 0 follows its support on a spring, which yields a little.</param>
@@ -72,6 +74,15 @@ namespace Guidewire.Core
         /// <summary>Rotation of the clamp by the drive since the start, rad.</summary>
         public double Turn { get; private set; }
 
+        /// <summary>How far node 0 goes in the present step, m.</summary>
+        public double Moved => Insertion - _insertionBefore;
+
+        /// <summary>The same in the sense in which the drive was last asked to go, m.</summary>
+        public double Progress => _sense * Moved;
+
+        /// <summary>By how much the clamp turns in the present step, rad.</summary>
+        public double Turned => Turn - _turnBefore;
+
         /// <summary>Direction of the drive in the present step, a unit vector; zero where nothing is driven.</summary>
         public Vector3d Axis { get; private set; }
 
@@ -119,6 +130,7 @@ namespace Guidewire.Core
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
         {
+            (_insertionBefore, _turnBefore) = (Insertion, Turn);
             if (_steering != null)
             {
                 Hub.TurnOn(time, _steering.Turn / _timeStep);
@@ -172,12 +184,6 @@ namespace Guidewire.Core
         public double AxialProgress(in Vector3d from, in Vector3d to)
         {
             return _sense * Vector3d.Dot(to - from, Axis);
-        }
-
-        /// <summary>Gives the same since another insertion, m.</summary>
-        public double DisplacementSince(double insertion)
-        {
-            return _sense * (Insertion - insertion);
         }
 
         /// <summary>Writes or restores how far the hub has come.</summary>

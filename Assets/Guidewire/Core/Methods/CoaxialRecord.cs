@@ -256,14 +256,11 @@ namespace Guidewire.Core
         /// <summary>Counts a step that all drives have prepared.</summary>
         /// <param name="drives">The outermost one first, the wire's last.</param>
         /// <param name="from">Insertion of each hub before it, m.</param>
-        internal void TakeStep(MaterialDrive[] drives, double[] from)
+        internal void TakeStep(MaterialDrive[] drives)
         {
-            int wire = drives.Length - 1;
-            int inside = _instrument + 1;
-            MaterialDrive drive = drives[_instrument];
-            _displacement += drive.DisplacementSince(from[_instrument]);
-            _wireDisplacement += drives[wire].DisplacementSince(from[wire]);
-            _friction.Slide(drives[inside].Insertion - from[inside] - (drive.Insertion - from[_instrument]));
+            _displacement += drives[_instrument].Progress;
+            _wireDisplacement += drives[drives.Length - 1].Progress;
+            _friction.Slide(drives[_instrument + 1].Moved - drives[_instrument].Moved);
         }
 
         internal void Serialize(Snapshot snapshot)

@@ -1,43 +1,82 @@
+using System;
 using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
     /// <summary>One step of the direct solver: the hubs' motion, then all stages of the scheme, each an exact
     /// minimisation over the whole rod. One without a solution leaves everything, hubs and instruments, as it was
-    /// before.</summary>
-    internal sealed class DirectStep : TimeStepper
+    /// before. This one is of a wire alone.</summary>
+    internal class DirectStep : TimeStepper
     {
-        private readonly InstrumentSet _instruments;
         private readonly double _timeStep;      // s
         private readonly StepStart _start;
-        private readonly SlippingHubs _hubs;
+        private readonly SlippingHubs _slipping;
 
-        /// <summary>A step of these instruments.</summary>
+        /// <summary>A step of a wire alone.</summary>
         /// <param name="timeStep">s.</param>
-        public DirectStep(InstrumentSet instruments, double timeStep)
+        public DirectStep(MonitoredRod rod, double timeStep)
+            : this(rod, new[] { rod.Drive }, Array.Empty<HubSlip>(), timeStep)
         {
-            _instruments = instruments;
-            _timeStep = timeStep;
-            _start = new StepStart(SerializeStep, Dynamics.Terms.Rod);
-            _hubs = new SlippingHubs(instruments, _start);
         }
 
-        /// <summary>What it moves.</summary>
-        public InstrumentSet Instruments => _instruments;
+        /// <summary>A step of instruments on these hubs, the outermost one first, the wire last.</summary>
+        /// <param name="rod">What is simulated of them.</param>
+        /// <param name="slips">What hubs do at a hubForceLimit that only other steps can find.</param>
+        /// <param name="timeStep">s.</param>
+        protected DirectStep(MonitoredRod rod, MaterialDrive[] drives, HubSlip[] slips, double timeStep)
+        {
+            Rod = rod;
+            Drives = drives;
+            Slips = slips;
+            _timeStep = timeStep;
+            _start = new StepStart(SerializeStep, Dynamics.Terms.Rod);
+            _slipping = new SlippingHubs(this, _start);
+        }
 
-        /// <summary>The motion of what is simulated at present.</summary>
-        public RodDynamics Dynamics => _instruments.Rod.Dynamics;
+        /// <summary>What moves each hub, the outermost one first, the wire's last.</summary>
+        public MaterialDrive[] Drives { get; }
+
+        /// <summary>What they do at a hubForceLimit.</summary>
+        public HubSlip[] Slips { get; }
+
+        /// <summary>What is simulated at present.</summary>
+        public MonitoredRod Rod { get; }
+
+        /// <summary>The motion of that.</summary>
+        public RodDynamics Dynamics => Rod.Dynamics;
 
         /// <inheritdoc/>
-        public override ContactRecord? Contacts => _instruments.Contacts;
+        public override ContactRecord? Contacts => Rod.Contacts;
 
-        /// <inheritdoc/>
+        /// <summary>Takes the parts between which nodes come and go; again while a hub slips.</summary>
         public override void Advance(RodState state)
         {
-            if (Step())
+            _start.Save();
+            Dynamics.Work.BeginStep();
+            _slipping.BeginStep();
+            bool isDone;
+            do
             {
-                _instruments.Take();
-                _instruments.Write(state);
+                BeginStep();
+                double start = Dynamics.Time;
+                isDone = true;
+                for (double done = 0.0; isDone && done < _timeStep;)
+                {
+                    double left = _timeStep - done;
+                    double length = BeginPart(left);
+                    Rod.BeginStep(length);
+                    string? failure = Dynamics.Step(length);
+                    isDone = Rod.EndStep(failure, length);
+                    done = length == left ? _timeStep : Dynamics.Time - start;
+                }
+            }
+            while (_slipping.NeedAnother(isDone));
+            (Failure, Divergence) = (Rod.Failure, Rod.Divergence);
+            (SteadyState, PredictionError) = (Rod.SteadyState, Rod.PredictionError);
+            if (isDone)
+            {
+                Take();
+                Write(state);
             }
             else
             {
@@ -45,79 +84,72 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The step itself, in the parts between which nodes come and go; again while a hub slips.</summary>
-        /// <returns>False where it has no solution or has lost an instrument.</returns>
-        public bool Step()
+        /// <summary>Writes the wire as it is into a state.</summary>
+        public virtual void Write(RodState state)
         {
-            _start.Save();
-            _instruments.Work.BeginStep();
-            _hubs.BeginStep();
-            MonitoredRod rod = _instruments.Rod;
-            MaterialDrive hub = _instruments.Drives[0];
-            bool isDone;
-            do
-            {
-                (double insertion, double turn) = (hub.Insertion, hub.Turn);
-                _instruments.BeginStep();
-                double start = Dynamics.Time;
-                isDone = true;
-                for (double done = 0.0; isDone && done < _timeStep;)
-                {
-                    double left = _timeStep - done;
-                    double length = _instruments.BeginPart(left);
-                    rod.BeginStep(length);
-                    string? failure = Dynamics.Step(length);
-                    isDone = rod.EndStep(failure, length, insertion, turn);
-                    done = length == left ? _timeStep : Dynamics.Time - start;
-                }
-            }
-            while (_hubs.NeedAnother(isDone));
-            (Failure, Divergence) = (rod.Failure, rod.Divergence);
-            (SteadyState, PredictionError) = (rod.SteadyState, rod.PredictionError);
-            return isDone;
+            Rod.Write(state);
+        }
+
+        /// <summary>Gives the force of a hub on its instrument, N: of the outermost one first, of the wire
+        /// last.</summary>
+        public virtual double ForceOf(int hub)
+        {
+            return Hub()!.Force;
         }
 
         /// <inheritdoc/>
         public override void AddWarnings(List<RunWarning> warnings)
         {
-            _instruments.AddWarnings(warnings);
+            Rod.AddWarnings(warnings);
         }
 
         /// <inheritdoc/>
         public override HubRecord? Hub()
         {
-            return _instruments.Hub();
+            return Rod.Hub();
         }
 
-        /// <inheritdoc/>
-        public override StressRecord? Stress()
+        /// <summary>Strains, forces and couples of the wire, and energies of all.</summary>
+        public override StressRecord Stress()
         {
-            return _instruments.Stress();
-        }
-
-        /// <inheritdoc/>
-        public override CoaxialRecord? Coaxial()
-        {
-            return _instruments.Coaxial();
+            return Rod.Stress();
         }
 
         /// <inheritdoc/>
         public override SolverReport? Report()
         {
-            return _instruments.Rod.Report();
+            return Rod.Report();
         }
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            _instruments.Serialize(snapshot);
+            Rod.Serialize(snapshot);
         }
 
-        /// <summary>Writes or restores all that <see cref="Step"/> may touch, for a <see cref="StepStart"/>.
-        /// </summary>
-        public void SerializeStep(Snapshot snapshot)
+        /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
+        public virtual void SerializeStep(Snapshot snapshot)
         {
-            _instruments.SerializeStep(snapshot);
+            Rod.SerializeStep(snapshot);
+        }
+
+        /// <summary>Moves the hubs, as far as they may go.</summary>
+        protected virtual void BeginStep()
+        {
+            Drives[0].Prepare(Dynamics.Shape, Dynamics.Time);
+        }
+
+        /// <summary>Takes in and leaves out nodes.</summary>
+        /// <param name="left">Of the step, s.</param>
+        /// <returns>How long no other ones come or go, at most what is left, s.</returns>
+        protected virtual double BeginPart(double left)
+        {
+            return left;
+        }
+
+        /// <summary>Takes what a step has come to.</summary>
+        protected virtual void Take()
+        {
         }
     }
 }

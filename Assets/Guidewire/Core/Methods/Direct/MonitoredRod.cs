@@ -151,10 +151,8 @@ namespace Guidewire.Core
         /// <summary>It ends.</summary>
         /// <param name="failure">Why it has no solution, or null.</param>
         /// <param name="length">s.</param>
-        /// <param name="insertion">Of the drive when the whole step began, m.</param>
-        /// <param name="turn">The same, radians.</param>
         /// <returns>False where it has no solution or has lost the wire.</returns>
-        public bool EndStep(string? failure, double length, double insertion, double turn)
+        public bool EndStep(string? failure, double length)
         {
             if (failure != null)
             {
@@ -183,7 +181,7 @@ namespace Guidewire.Core
                 Contacts.ReactionAtEnd = _dynamics.Reactions.End.Proximal;
                 Contacts.MeanTotal = mean.Walls;
                 _hubWork += Vector3d.Dot(mean.Proximal, Terms.HubAxis(Shape))
-                    * (Drive.Insertion - insertion) + mean.HubTorque * (Drive.Turn - turn) + 0.5 * SheathWork(_exit);
+                    * Drive.Moved + mean.HubTorque * Drive.Turned + 0.5 * SheathWork(_exit);
                 _monitor?.EndStep(Shape, Contacts);
                 if (Terms.Walls()?.HoldsStart == true)
                 {

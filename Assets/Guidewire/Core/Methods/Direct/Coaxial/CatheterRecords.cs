@@ -26,13 +26,12 @@ namespace Guidewire.Core
         /// <summary>The records of all catheters.</summary>
         public CoaxialRecord[] All => _records;
 
-        /// <summary>A step begins.</summary>
-        /// <param name="insertions">Of the hubs before it, m.</param>
-        public void BeginStep(double[] insertions)
+        /// <summary>A step begins, for which the hubs' drives have been prepared.</summary>
+        public void BeginStep()
         {
             foreach (CoaxialRecord record in _records)
             {
-                record.TakeStep(_drives, insertions);
+                record.TakeStep(_drives);
             }
         }
 

@@ -28,16 +28,16 @@ namespace Guidewire.Core
 
         /// <summary>Lays the chain at the start of all instruments.</summary>
         /// <param name="drives">Of the hubs.</param>
-        /// <param name="wire">Takes the wire's shape.</param>
         /// <param name="failure">Why there is no rest shape to start from, or null.</param>
         public CoaxialChain(SimulationParameters parameters, SolverReport report, CoaxialSetup setup,
-            MaterialDrive[] drives, CoaxialHubs hubs, InnerInstrument wire, out string? failure)
+            MaterialDrive[] drives, out string? failure)
         {
             _method = parameters.Method;
             _setup = setup;
             _drives = drives;
+            var hubs = new CoaxialHubs(Array.ConvertAll(drives, drive => drive.Hub), setup.Axis, setup.Sheath);
             _hubs = hubs;
-            _wire = wire;
+            _wire = new InnerInstrument(setup, hubs, drives.Length - 1);
             _nodes = new CoaxialNodes(setup.Instruments, hubs);
             _isAlone = drives.Length == 1;
             _active = new int[drives.Length];
@@ -57,7 +57,7 @@ namespace Guidewire.Core
             if (_isAlone)
             {
                 setup.CopyStart(_scene, first);
-                turn = _frameTurn = setup.HasStart ? wire.TurnAt(setup.Wire.Shape, first) : 0.0;
+                turn = _frameTurn = setup.HasStart ? _wire.TurnAt(setup.Wire.Shape, first) : 0.0;
                 HoldFrame(shape);
             }
             else if (setup.HasStart)
@@ -89,6 +89,12 @@ namespace Guidewire.Core
 
         /// <summary>Whether the start is a rest shape.</summary>
         public bool IsAtRest { get; }
+
+        /// <summary>Where the hubs are.</summary>
+        public CoaxialHubs Hubs => _hubs;
+
+        /// <summary>The wire's own shape.</summary>
+        public InnerInstrument Wire => _wire;
 
         /// <summary>All instruments as one rod.</summary>
         public CoaxialRod Rod { get; }

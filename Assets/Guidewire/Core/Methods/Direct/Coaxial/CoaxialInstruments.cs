@@ -2,32 +2,28 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>A wire in a sheath or in one or two catheters, as one rod (<see cref="CoaxialChain"/>).</summary>
-    internal abstract class CoaxialInstruments : InstrumentSet
+    /// <summary>A step of coaxial instruments as one rod (<see cref="CoaxialChain"/>). This one is of a wire alone in a
+    /// sheath, of which only the part near the exit and beyond is simulated.</summary>
+    internal class CoaxialInstruments : DirectStep
     {
         private readonly ContactRecord? _contacts;
+        private readonly HubOrder _order;
+        private StressRecord? _stress;
 
         /// <summary>The instruments of a setup at their start.</summary>
-        /// <param name="failure">Why there is no rest shape to start from, or null.</param>
-        protected CoaxialInstruments(SimulationParameters parameters, SolverReport report, CoaxialSetup setup,
-            MaterialDrive[] drives, out string? failure)
-            : base(drives, setup.Slips(drives), setup.Work)
+        /// <param name="timeStep">s.</param>
+        protected CoaxialInstruments(CoaxialSetup setup, MaterialDrive[] drives, CoaxialChain chain, double timeStep)
+            : base(chain.Whole, drives, setup.Slips(drives), timeStep)
         {
             Setup = setup;
-            Hubs = new CoaxialHubs(Array.ConvertAll(drives, drive => drive.Hub), setup.Axis, setup.Sheath);
-            Wire = new InnerInstrument(setup, Hubs, drives.Length - 1);
+            Chain = chain;
+            _order = new HubOrder(setup, drives, chain.Hubs);
             MaterialScene wire = setup.Wire;
             if (wire.Walls.Length > 0)
             {
-                string? outside = setup.FindProblemOfStart();
-                if (outside != null)
-                {
-                    throw new ArgumentException(outside);
-                }
                 _contacts = new ContactRecord(wire.Rod.ElementCount + 1);
                 _contacts.SetElements(wire.Rod.ElementCount, wire.Walls, drives.Length == 1);
             }
-            Chain = new CoaxialChain(parameters, report, setup, drives, Hubs, Wire, out failure);
         }
 
         /// <summary>The instruments of these parameters at their start.</summary>
@@ -36,19 +32,21 @@ namespace Guidewire.Core
             out string? failure)
         {
             var setup = new CoaxialSetup(parameters);
+            if (setup.Wire.Walls.Length > 0 && setup.FindProblemOfStart() is string outside)
+            {
+                throw new ArgumentException(outside);
+            }
+            double timeStep = parameters.Method.TimeStep;
             MaterialDrive[] drives = setup.Drives();
-            CoaxialInstruments all = drives.Length == 1
-                ? new SheathedWire(parameters, report, setup, drives, out failure)
-                : (CoaxialInstruments)new WireInCatheters(parameters, report, setup, drives, out failure);
+            var chain = new CoaxialChain(parameters, report, setup, drives, out failure);
+            CoaxialInstruments all = drives.Length == 1 ? new CoaxialInstruments(setup, drives, chain, timeStep)
+                : new WireInCatheters(setup, drives, chain, report, timeStep);
             all.TakeMoment();
             return all;
         }
 
         /// <summary>What is simulated of them.</summary>
         public CoaxialChain Chain { get; }
-
-        /// <inheritdoc/>
-        public override MonitoredRod Rod => Chain.Whole;
 
         /// <summary>Sums over the run and the walls' forces; on spheres those of the wire, beyond the tips around it.
         /// </summary>
@@ -58,22 +56,10 @@ namespace Guidewire.Core
         protected CoaxialSetup Setup { get; }
 
         /// <summary>Where their hubs are.</summary>
-        protected CoaxialHubs Hubs { get; }
+        protected CoaxialHubs Hubs => Chain.Hubs;
 
         /// <summary>The wire's own shape.</summary>
-        protected InnerInstrument Wire { get; }
-
-        /// <inheritdoc/>
-        public override double BeginPart(double left)
-        {
-            return Chain.BeginPart(left);
-        }
-
-        /// <inheritdoc/>
-        public override void Take()
-        {
-            TakeMoment();
-        }
+        protected InnerInstrument Wire => Chain.Wire;
 
         /// <inheritdoc/>
         public override void Write(RodState state)
@@ -82,9 +68,31 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override HubRecord Hub()
+        {
+            HubRecord hub = OwnHub();
+            if (Setup.Sheath != null)
+            {
+                CoaxialJoints joints = Chain.Rod.Joints;
+                Wire.WriteBody(hub, Setup.Sheath, joints.LeadOf(Drives.Length - 1) + joints.Sheathed);
+            }
+            return hub;
+        }
+
+        /// <inheritdoc/>
+        public override StressRecord Stress()
+        {
+            Chain.TakeTime();
+            Wire.TakeForces(Dynamics.Terms, Dynamics.Shape);
+            _stress ??= new StressRecord(Setup.Wire.Rod.JointLengths(Setup.Wire.Supports));
+            _stress.Take(Rod.Stress(), Setup.Wire.Rod, Chain.Rod.Joints.First, Setup.Axis, Wire.Thrust, Wire.Torque);
+            return _stress;
+        }
+
+        /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {
-            double time = Rod.Dynamics.Time;
+            double time = Dynamics.Time;
             int first = Chain.Rod.Joints.First;
             Chain.SerializeNodes(snapshot, ref first);
             snapshot.Serialize(ref time);
@@ -92,7 +100,7 @@ namespace Guidewire.Core
             Chain.Serialize(snapshot, first, time);
             if (!snapshot.IsWritten)
             {
-                Setup.LimitAlone(Drives, Rod.Dynamics.Time);
+                _order.LimitAlone(Dynamics.Time);
                 TakeShapes();
             }
         }
@@ -112,6 +120,36 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The wire's hub without what is out of a sheath.</summary>
+        protected virtual HubRecord OwnHub()
+        {
+            return Rod.Hub()!;
+        }
+
+        /// <inheritdoc/>
+        protected override void BeginStep()
+        {
+            _order.Limit(Dynamics.Time);
+            Chain.MoveWindow();
+            Chain.TakeLoads();
+            foreach (MaterialDrive drive in Drives)
+            {
+                drive.Prepare(Dynamics.Shape, Dynamics.Time);
+            }
+        }
+
+        /// <inheritdoc/>
+        protected override double BeginPart(double left)
+        {
+            return Chain.BeginPart(left);
+        }
+
+        /// <inheritdoc/>
+        protected override void Take()
+        {
+            TakeMoment();
+        }
+
         /// <summary>Takes where the instruments are and what touches them.</summary>
         protected virtual void TakeMoment()
         {
@@ -122,7 +160,7 @@ namespace Guidewire.Core
         /// <summary>Takes the shape of each and the forces of walls on it.</summary>
         protected virtual void TakeShapes()
         {
-            Wire.Take(Rod.Dynamics, Chain.Rod.Joints);
+            Wire.Take(Dynamics, Chain.Rod.Joints);
             if (_contacts != null)
             {
                 _contacts.Take(Rod.Contacts!, Chain.Rod.Joints.First);

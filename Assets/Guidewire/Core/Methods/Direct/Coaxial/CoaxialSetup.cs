@@ -9,7 +9,6 @@ namespace Guidewire.Core
     /// and one rod for all.</summary>
     internal sealed class CoaxialSetup
     {
-        private const double Nowhere = 1e9;     // m, farther than any drive goes
         private const double Rounding = 1e-6;   // of a length
         private const int MaxSearches = 8;     // of rest shapes
         private const double SameLength = 1e-12;    // of a length
@@ -18,9 +17,6 @@ namespace Guidewire.Core
 
         private readonly SimulationParameters _parameters;
         private readonly double _drag;
-        private readonly double[] _move;        // of each hub in the next step, m
-        private readonly double[] _inside;      // how far each tip may go back, m
-        private readonly double[] _gap;         // how far each hub is behind the next one around it, m
         private readonly Barrier _barrier;
         private readonly double _limit;         // of the hub of an instrument alone, N; 0: none
         private readonly RodStart[] _starts = Array.Empty<RodStart>();    // of each instrument
@@ -34,9 +30,6 @@ namespace Guidewire.Core
             int count = catheters.Count + 1;
             Scenes = new MaterialScene[count];
             Instruments = new CoaxialInstrument[count];
-            _move = new double[count];
-            _inside = new double[count];
-            _gap = new double[count];
             SimulationParameters wire = parameters.Copy();
             // Without a hub that of catheters is of a run that goes on, and its snapshot says all of it.
             RodStart? start = wire.Scene.Start;
@@ -112,8 +105,7 @@ namespace Guidewire.Core
             return rod;
         }
 
-        /// <summary>Drives of the hubs along the axis. That of an instrument alone goes on to the exit of its sheath,
-        /// and back until the tip is there.</summary>
+        /// <summary>Drives of the hubs along the axis.</summary>
         public MaterialDrive[] Drives()
         {
             MaterialDrive[] drives = Array.ConvertAll(Scenes,
@@ -123,19 +115,7 @@ namespace Guidewire.Core
                 (double insertion, double turn) = _starts[i].Hub!.Value;
                 drives[i].BeginAt(insertion, turn);
             }
-            LimitAlone(drives, 0.0);
             return drives;
-        }
-
-        /// <summary>Lets the hub of an instrument alone go to the exit of its sheath, and back until the tip is
-        /// there.</summary>
-        public void LimitAlone(MaterialDrive[] drives, double time)
-        {
-            if (drives.Length == 1)
-            {
-                double outside = Sheath!.Outside(drives[0].Hub.PositionAt(time));
-                drives[0].Limit(-outside - Wire.Rod.TotalLength, -outside);
-            }
         }
 
         /// <summary>Whether the run starts where a start has the instruments.</summary>
@@ -189,58 +169,6 @@ namespace Guidewire.Core
             Array.Copy(Wire.Velocities, first, scene.Velocities, 0, n + 1);
             Array.Copy(Wire.Spins, first, scene.Spins, 0, n);
             shape.DistalFrame = Wire.Shape.DistalFrame;
-        }
-
-        /// <summary>Lets hubs go in the step that begins at a time so far that none passes the next one nor the exit of
-        /// a sheath, and that the tips inside stay in the outermost catheter by an element at least.</summary>
-        public void LimitDrives(MaterialDrive[] drives, CoaxialHubs hubs, double time)
-        {
-            int last = drives.Length - 1;
-            if (last == 0)
-            {
-                return;
-            }
-            for (int i = 1; i <= last; i++)
-            {
-                double lead = hubs.LeadAt(i, time);
-                double[] station = Instruments[i].Stations;
-                _inside[i] = station[station.Length - 1] - lead - Catheter.Rod.Length[0];
-                _gap[i] = lead - hubs.LeadAt(i - 1, time);
-            }
-            double toExit = Sheath == null ? Nowhere : hubs.SheathedAt(time);
-            drives[0].Limit(-Nowhere, toExit);
-            _move[0] = drives[0].NextMove(time);
-            LimitInner(drives, time);
-            // What is to rest inside may hold back what is around it.
-            for (int i = last - 1; i > 0; i--)
-            {
-                drives[i].Limit(Math.Min(0.0, Math.Max(_move[0] - _inside[i], _move[i + 1] - _gap[i + 1])),
-                    Math.Max(0.0, _gap[i] + _move[i - 1]));
-                _move[i] = drives[i].NextMove(time);
-            }
-            double forward = toExit;
-            for (int i = 1; i <= last; i++)
-            {
-                forward = Math.Min(forward, Math.Max(0.0, _inside[i] + _move[i]));
-            }
-            drives[0].Limit(Math.Min(0.0, _move[1] - _gap[1]), forward);
-            if (last > 1)
-            {
-                _move[0] = drives[0].NextMove(time);
-                LimitInner(drives, time, true);
-            }
-        }
-
-        // isLast: what is inside has been limited before, and goes no farther than it was to go then.
-        private void LimitInner(MaterialDrive[] drives, double time, bool isLast = false)
-        {
-            for (int i = 1; i < drives.Length; i++)
-            {
-                double back = _move[0] - _inside[i];
-                back = isLast && i + 1 < drives.Length ? Math.Max(back, _move[i + 1] - _gap[i + 1]) : back;
-                drives[i].Limit(Math.Min(0.0, back), Math.Max(0.0, _gap[i] + _move[i - 1]));
-                _move[i] = drives[i].NextMove(time);
-            }
         }
 
         /// <summary>Gives the energies and loads of all, which follow their hubs.</summary>

@@ -44,9 +44,6 @@ namespace Guidewire.Core
             _shortest = shortest;
         }
 
-        /// <summary>The hub's drive.</summary>
-        public MaterialDrive Drive => _drive;
-
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
 

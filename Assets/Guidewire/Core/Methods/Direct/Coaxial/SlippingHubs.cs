@@ -7,32 +7,26 @@ namespace Guidewire.Core
     /// <remarks>In each trial of one hub those of the instruments inside it are found anew.</remarks>
     internal sealed class SlippingHubs
     {
-        private readonly InstrumentSet _instruments;
+        private readonly DirectStep _step;
         private readonly MaterialDrive[] _drives;
         private readonly HubSlip[] _slips;
         private readonly StepStart _start;
-        private readonly double[] _insertions;   // when the step began, m
         private readonly bool _areLimited;
 
-        /// <summary>Those of these instruments.</summary>
-        /// <param name="start">Restores a step's start.</param>
-        public SlippingHubs(InstrumentSet instruments, StepStart start)
+        /// <summary>Those of a step.</summary>
+        /// <param name="start">Restores its start.</param>
+        public SlippingHubs(DirectStep step, StepStart start)
         {
-            _instruments = instruments;
-            _drives = instruments.Drives;
-            _slips = instruments.Slips;
+            _step = step;
+            _drives = step.Drives;
+            _slips = step.Slips;
             _start = start;
-            _insertions = new double[_drives.Length];
             _areLimited = Array.Exists(_slips, slip => slip.IsLimited);
         }
 
         /// <summary>A step begins, whose start has been saved.</summary>
         public void BeginStep()
         {
-            for (int i = 0; i < _drives.Length; i++)
-            {
-                _insertions[i] = _drives[i].Insertion;
-            }
             BeginFrom(0);
         }
 
@@ -40,13 +34,14 @@ namespace Guidewire.Core
         /// <param name="isDone">Whether it has a solution with those that it had.</param>
         public bool NeedAnother(bool isDone)
         {
+            WorkLimit work = _step.Dynamics.Work;
             for (int i = _drives.Length - 1; i >= 0 && _areLimited; i--)
             {
-                double force = isDone && _slips[i].IsLimited ? _instruments.ForceOf(i) : double.NaN;
-                if (_slips[i].NeedsAnother(_drives[i].Insertion - _insertions[i], force, _instruments.Work.IsScarce))
+                double force = isDone && _slips[i].IsLimited ? _step.ForceOf(i) : double.NaN;
+                if (_slips[i].NeedsAnother(_drives[i].Moved, force, work.IsScarce))
                 {
                     _start.Restore();
-                    _instruments.Work.Count();
+                    work.Count();
                     _drives[i].OverrideDisplacement(_slips[i].Displacement);
                     BeginFrom(i + 1);
                     return true;
@@ -55,7 +50,7 @@ namespace Guidewire.Core
             for (int i = 0; i < _drives.Length && _areLimited; i++)
             {
                 _drives[i].OverrideDisplacement(null);
-                _slips[i].EndStep(isDone && _slips[i].IsLimited ? _instruments.ForceOf(i) : 0.0);
+                _slips[i].EndStep(isDone && _slips[i].IsLimited ? _step.ForceOf(i) : 0.0);
             }
             return false;
         }

@@ -9,15 +9,14 @@ namespace Guidewire.Core
         private readonly SolverReport _report;
         private readonly CatheterRecords _records;
         private readonly InnerInstrument[] _inner;     // the wire last
-        private readonly double[] _insertions;         // before a step, m
         private readonly HubRecord _hub;
         private readonly WireStress _stress;
 
         /// <summary>At their start.</summary>
-        /// <param name="failure">Why there is no rest shape to start from, or null.</param>
-        public WireInCatheters(SimulationParameters parameters, SolverReport report, CoaxialSetup setup,
-            MaterialDrive[] drives, out string? failure)
-            : base(parameters, report, setup, drives, out failure)
+        /// <param name="timeStep">s.</param>
+        public WireInCatheters(CoaxialSetup setup, MaterialDrive[] drives, CoaxialChain chain, SolverReport report,
+            double timeStep)
+            : base(setup, drives, chain, timeStep)
         {
             _report = report;
             _records = new CatheterRecords(setup, drives);
@@ -26,34 +25,8 @@ namespace Guidewire.Core
             {
                 _inner[i] = i == _inner.Length - 1 ? Wire : new InnerInstrument(setup, Hubs, i + 1);
             }
-            _insertions = new double[drives.Length];
             _hub = new HubRecord(setup.Wire.Rod.JointLengths(setup.Wire.Supports));
             _stress = new WireStress(setup, Wire);
-        }
-
-        /// <inheritdoc/>
-        public override void BeginStep()
-        {
-            RodDynamics dynamics = Rod.Dynamics;
-            Chain.TakeLoads();
-            Setup.LimitDrives(Drives, Hubs, dynamics.Time);
-            for (int i = 0; i < Drives.Length; i++)
-            {
-                _insertions[i] = Drives[i].Insertion;
-                Drives[i].Prepare(dynamics.Shape, dynamics.Time);
-            }
-            _records.BeginStep(_insertions);
-        }
-
-        /// <inheritdoc/>
-        public override void Take()
-        {
-            base.Take();
-            if (_records.HasFriction)
-            {
-                Coaxial();
-                Setup.TakeStrains(_records.All, _report);
-            }
         }
 
         /// <inheritdoc/>
@@ -63,37 +36,21 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override HubRecord? Hub()
-        {
-            CoaxialRecord record = Coaxial()!;
-            Quaterniond[] q = Wire.Shape.Q;
-            _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
-                record.WireTwist, record.LargestCurvature);
-            if (Setup.Sheath != null)
-            {
-                CoaxialJoints joints = Chain.Rod.Joints;
-                Wire.WriteBody(_hub, Setup.Sheath, joints.LeadOf(Drives.Length - 1) + joints.Sheathed);
-            }
-            return _hub;
-        }
-
-        /// <inheritdoc/>
         public override StressRecord Stress()
         {
             double force = Coaxial()!.WireForce;
-            RodDynamics dynamics = Rod.Dynamics;
-            RodTerms terms = dynamics.Terms;
-            var energies = new Vector3d(dynamics.KineticEnergy,
-                terms.ElasticEnergy(dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
-                terms.LoadPotential(dynamics.Shape));
-            return _stress.Take(dynamics, Chain.Rod.Joints, energies, force);
+            RodTerms terms = Dynamics.Terms;
+            var energies = new Vector3d(Dynamics.KineticEnergy,
+                terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
+                terms.LoadPotential(Dynamics.Shape));
+            return _stress.Take(Dynamics, Chain.Rod.Joints, energies, force);
         }
 
         /// <inheritdoc/>
         public override CoaxialRecord? Coaxial()
         {
             Chain.TakeTime();
-            return _records.Take(Rod.Dynamics, Chain.Rod.Joints, _inner);
+            return _records.Take(Dynamics, Chain.Rod.Joints, _inner);
         }
 
         /// <inheritdoc/>
@@ -125,7 +82,7 @@ namespace Guidewire.Core
         /// <param name="instrument">0 the outermost one.</param>
         public string? FindInVessel(int instrument)
         {
-            return CoaxialExchange.FindInVessel(Setup, Hubs, instrument, Rod.Dynamics.Time);
+            return CoaxialExchange.FindInVessel(Setup, Hubs, instrument, Dynamics.Time);
         }
 
         /// <summary>Goes on from where other instruments were: hubs with the insertion that they had, the rest where it
@@ -139,7 +96,7 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException("walls cannot come or go together with an instrument");
             }
-            double time = former.Rod.Dynamics.Time;
+            double time = former.Dynamics.Time;
             Vector3d[] starts = Array.ConvertAll(Drives, drive => drive.Hub.PositionAt(0.0));
             var kept = new Snapshot();
             former.SerializeHubs(kept, time, 0);
@@ -174,10 +131,38 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        protected override HubRecord OwnHub()
+        {
+            CoaxialRecord record = Coaxial()!;
+            Quaterniond[] q = Wire.Shape.Q;
+            _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
+                record.WireTwist, record.LargestCurvature);
+            return _hub;
+        }
+
+        /// <inheritdoc/>
+        protected override void BeginStep()
+        {
+            base.BeginStep();
+            _records.BeginStep();
+        }
+
+        /// <inheritdoc/>
+        protected override void Take()
+        {
+            base.Take();
+            if (_records.HasFriction)
+            {
+                Coaxial();
+                Setup.TakeStrains(_records.All, _report);
+            }
+        }
+
+        /// <inheritdoc/>
         protected override void TakeMoment()
         {
-            RodShape shape = Rod.Dynamics.Shape;
-            Rod.Dynamics.Terms.CoaxialBending!.SetIdleTwists(shape);
+            RodShape shape = Dynamics.Shape;
+            Dynamics.Terms.CoaxialBending!.SetIdleTwists(shape);
             _records.TakePlay(Chain.Rod.Joints, shape);
             base.TakeMoment();
         }
@@ -190,7 +175,7 @@ namespace Guidewire.Core
             {
                 if (i < _inner.Length - 1)
                 {
-                    _inner[i].Take(Rod.Dynamics, Chain.Rod.Joints);
+                    _inner[i].Take(Dynamics, Chain.Rod.Joints);
                 }
                 if (Contacts != null)
                 {

@@ -163,8 +163,7 @@ namespace Guidewire.Core.Tests
                 case Solver.Direct:
                     var dynamics = new RodDynamics(terms, scene.Schedule, scene.Shape,
                         DirectSetup.Scheme(parameters.Method.Integrator), 1e-9, 50);
-                    return new DirectStep(
-                        new InstrumentSet(new MonitoredRod(scene, dynamics, parameters.Method, report, null)),
+                    return new DirectStep(new MonitoredRod(scene, dynamics, parameters.Method, report, null),
                         parameters.Method.TimeStep);
                 case Solver.Explicit:
                     return new ExplicitStep(scene, terms, parameters.Method, report, null);

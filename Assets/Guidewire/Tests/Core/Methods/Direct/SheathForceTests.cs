@@ -82,7 +82,7 @@ namespace Guidewire.Core.Tests
             double peak = 0.0;
             for (int k = 0; k < (int)(20.0 / perStep); k++)
             {
-                ((SheathedWire)run.Instruments).Chain.MoveWindow();
+                ((CoaxialInstruments)run).Chain.MoveWindow();
                 RodDynamics motion = run.Dynamics;
                 double elements = CoaxialScenes.ElementsOf(run);
                 RodShape before = Rods.Copy(motion.Shape);

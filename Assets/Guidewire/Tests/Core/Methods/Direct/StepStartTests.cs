@@ -185,7 +185,7 @@ namespace Guidewire.Core.Tests
         private static (Action<Snapshot> Exchange, Action Take) StepOf(MethodStart start)
         {
             var step = (DirectStep)start.Stepper;
-            return (step.SerializeStep, () => step.Step());
+            return (step.SerializeStep, () => step.Advance(start.State));
         }
 
         private static MethodStart Start(SimulationParameters parameters)
