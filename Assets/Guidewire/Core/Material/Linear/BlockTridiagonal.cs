@@ -54,6 +54,9 @@ namespace Guidewire.Core
             _perLengthSquared = 1.0 / (_rod.TotalLength * _rod.TotalLength);
         }
 
+        // How far rows of second angles are behind those of the first ones; 0: there are none.
+        private int Second => _isPair ? _count : 0;
+
         /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, and as many as
         /// blocks again where there are twist angles.</summary>
         public int VectorCount => _count + 1 + _entryCount;
@@ -109,16 +112,9 @@ namespace Guidewire.Core
                     ref RodVector z = ref y[_count + 1 + i];
                     ref RodVector nextZ = ref y[_count + 2 + i];
                     z.T3 -= gradient[_count + 1 + i].T3;
-                    if (_isPair)
-                    {
-                        z.T2 -= gradient[_count + 1 + i].T2;
-                        negative += TwistPairElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
-                            ref _twist[_count + i], ref _twist[i + 1], ref _twist[_count + i + 1], y[i],
-                            ref y[i + 1], ref z, ref nextZ);
-                        continue;
-                    }
-                    negative += TwistElimination.Eliminate(_block[i], ref _block[i + 1], ref _twist[i],
-                        ref _twist[i + 1], y[i], ref y[i + 1], ref z.T3, ref nextZ.T3);
+                    z.T2 -= gradient[_count + 1 + i].T2;
+                    negative += TwistElimination.Eliminate(_block[i], ref _block[i + 1], _twist, i, Second, y[i],
+                        ref y[i + 1], ref z, ref nextZ);
                 }
                 if (twists < to)
                 {
@@ -176,15 +172,10 @@ namespace Guidewire.Core
             for (int i = 0; i < _count; i++)
             {
                 BlockElimination.Forward(_block[i], ref y[i], ref y[i + 1]);
-                if (i < _twistCount && _isPair)
+                if (i < _twistCount)
                 {
-                    TwistPairElimination.Forward(_twist[i], _twist[_count + i], y[i], ref y[i + 1],
-                        ref y[_count + 1 + i], ref y[_count + 2 + i]);
-                }
-                else if (i < _twistCount)
-                {
-                    TwistElimination.Forward(_twist[i], y[i], ref y[i + 1], ref y[_count + 1 + i].T3,
-                        ref y[_count + 2 + i].T3);
+                    TwistElimination.Forward(_twist, i, Second, y[i], ref y[i + 1], ref y[_count + 1 + i],
+                        ref y[_count + 2 + i]);
                 }
             }
             Back(y);
@@ -197,15 +188,10 @@ namespace Guidewire.Core
             y[_count] = default;
             for (int i = _count - 1; i >= 0; i--)
             {
-                if (i < _twistCount && _isPair)
+                if (i < _twistCount)
                 {
-                    TwistPairElimination.Backward(_twist[i], _twist[_count + i], ref y[i], y[i + 1],
-                        ref y[_count + 1 + i], i + 1 < _twistCount ? y[_count + 2 + i] : default);
-                }
-                else if (i < _twistCount)
-                {
-                    TwistElimination.Backward(_twist[i], ref y[i], y[i + 1], ref y[_count + 1 + i].T3,
-                        i + 1 < _twistCount ? y[_count + 2 + i].T3 : 0.0);
+                    TwistElimination.Backward(_twist, i, Second, ref y[i], y[i + 1], ref y[_count + 1 + i],
+                        i + 1 < _twistCount ? y[_count + 2 + i] : default);
                 }
                 BlockElimination.Backward(_block[i], ref y[i], y[i + 1]);
             }

@@ -1,22 +1,27 @@
 namespace Guidewire.Core
 {
-    /// <summary>Eliminates a twist angle after the block of its element (<see cref="BlockElimination"/>): its columns
-    /// go through that block as right-hand sides do, then the angle is a pivot of its own,
+    /// <summary>Eliminates the twist angles of an element, one or two, after its block (<see cref="BlockElimination"/>):
+    /// the columns of each go through that block as right-hand sides do, then it is a pivot of its own,
     ///   u = L^-1 U_j, v = L^-1 V_j, d = Z_jj - u^T D^-1 u, c = Z_(j+1)j - v^T D^-1 u, Z_(j+1)(j+1) -= v^T D^-1 v,
     ///   K_(j+1) -= b b^T/d, Z_(j+1)(j+1) -= c^2/d, U_(j+1) -= c b/d,
-    /// with U_j, V_j the columns of z_j and z_(j+1) in block j and b that of z_j in block j + 1.</summary>
-    /// <remarks>Nothing is filled in but the positions of b: a rotation meets the next position, so z_j does
-    /// too.</remarks>
+    /// with U_j, V_j the columns of z_j and z_(j+1) in block j and b that of z_j in block j + 1. A second angle is one
+    /// more of what comes after the first.</summary>
+    /// <remarks>Nothing is filled in but the positions of b: a rotation meets the next position, so z_j does too. Rows
+    /// are those of all first angles, then those of the second ones, by an offset behind them; 0: there are none. Of
+    /// vectors T3 is the first angle's, T2 the second one's.</remarks>
     internal static class TwistElimination
     {
-        /// <summary>Eliminates z_j from what comes after it.</summary>
+        /// <summary>Eliminates the angles of element j from what comes after it.</summary>
         /// <param name="block">Block j, eliminated.</param>
+        /// <param name="second">The offset.</param>
         /// <param name="y">Its right-hand side, D^-1 L^-1 of it.</param>
-        /// <param name="z">Right-hand side of z_j; receives it over the pivot.</param>
-        /// <returns>1 where the pivot is not positive, else 0.</returns>
-        public static int Eliminate(in RodBlock block, ref RodBlock next, ref TwistRow row, ref TwistRow nextRow,
-            in RodVector y, ref RodVector nextY, ref double z, ref double nextZ)
+        /// <param name="z">Right-hand sides of the angles; receives them over the pivots.</param>
+        /// <returns>How many pivots are not positive.</returns>
+        public static int Eliminate(in RodBlock block, ref RodBlock next, TwistRow[] rows, int j, int second,
+            in RodVector y, ref RodVector nextY, ref RodVector z, ref RodVector nextZ)
         {
+            ref TwistRow row = ref rows[j];
+            ref TwistRow nextRow = ref rows[j + 1];
             PassBlock(block, ref row, ref nextRow);
             double pivot = row.Diagonal - Dot(row.WeightedOwn, row.Own);
             row.NextTwist -= Dot(row.WeightedNext, row.Own);
@@ -25,12 +30,48 @@ namespace Guidewire.Core
             AddSquare(ref next, row.Below, -row.Inverse);
             AddScaled(ref nextRow.Own, -row.Inverse * row.NextTwist, row.Below);
             nextRow.Diagonal -= row.Inverse * row.NextTwist * row.NextTwist;
-            Forward(row, y, ref nextY, ref z, ref nextZ);
+            int negative = pivot > 0.0 ? 0 : 1;
+            if (second > 0)
+            {
+                negative += EliminateSecond(block, ref next, ref row, ref nextRow, ref rows[second + j],
+                    ref rows[second + j + 1]);
+            }
+            Forward(rows, j, second, y, ref nextY, ref z, ref nextZ);
+            return negative;
+        }
+
+        // After the first one.
+        private static int EliminateSecond(in RodBlock block, ref RodBlock next, ref TwistRow first,
+            ref TwistRow nextFirst, ref TwistRow row, ref TwistRow nextRow)
+        {
+            PassBlock(block, ref row, ref nextRow);
+            double pivot = row.Diagonal - Dot(row.WeightedOwn, row.Own);
+            first.Other -= Dot(first.WeightedOwn, row.Own);
+            first.NextOther -= Dot(row.WeightedNext, first.Own);
+            row.NextTwist -= Dot(row.WeightedNext, row.Own);
+            row.NextOther -= Dot(first.WeightedNext, row.Own);
+            nextRow.Diagonal -= Dot(row.WeightedNext, row.Next);
+            nextFirst.Other -= Dot(first.WeightedNext, row.Next);
+            double scale = first.Inverse * first.Other;
+            pivot -= scale * first.Other;
+            row.NextOther -= scale * first.NextTwist;
+            row.NextTwist -= scale * first.NextOther;
+            AddScaled(ref row.Below, -scale, first.Below);
+            AddScaled(ref nextRow.Own, -first.Inverse * first.NextOther, first.Below);
+            nextRow.Diagonal -= first.Inverse * first.NextOther * first.NextOther;
+            nextFirst.Other -= first.Inverse * first.NextTwist * first.NextOther;
+            row.Inverse = 1.0 / pivot;
+            AddSquare(ref next, row.Below, -row.Inverse);
+            AddScaled(ref nextFirst.Own, -row.Inverse * row.NextOther, row.Below);
+            AddScaled(ref nextRow.Own, -row.Inverse * row.NextTwist, row.Below);
+            nextFirst.Diagonal -= row.Inverse * row.NextOther * row.NextOther;
+            nextRow.Diagonal -= row.Inverse * row.NextTwist * row.NextTwist;
+            nextFirst.Other -= row.Inverse * row.NextOther * row.NextTwist;
             return pivot > 0.0 ? 0 : 1;
         }
 
-        /// <summary>Sends the columns of z_j and z_(j+1) through block j, which is eliminated.</summary>
-        public static void PassBlock(in RodBlock block, ref TwistRow row, ref TwistRow nextRow)
+        // Sends the columns of z_j and z_(j+1) through block j, which is eliminated.
+        private static void PassBlock(in RodBlock block, ref TwistRow row, ref TwistRow nextRow)
         {
             Add(ref row.Own, row.Turn);
             row.Below = default;
@@ -43,23 +84,48 @@ namespace Guidewire.Core
             row.WeightedNext = Weighted(block, row.Next);
         }
 
-        /// <summary>The right-hand side of z_j and of what comes after it, with a factorisation that is kept.</summary>
+        /// <summary>The right-hand sides of the angles and of what comes after them, with a factorisation that is
+        /// kept.</summary>
         /// <param name="y">Of block j, after its own <see cref="BlockElimination.Forward"/>.</param>
-        public static void Forward(in TwistRow row, in RodVector y, ref RodVector nextY, ref double z,
-            ref double nextZ)
+        public static void Forward(TwistRow[] rows, int j, int second, in RodVector y, ref RodVector nextY,
+            ref RodVector z, ref RodVector nextZ)
         {
-            z = row.Inverse * (z - Dot(row.WeightedOwn, y));
-            nextZ -= Dot(row.WeightedNext, y) + row.NextTwist * z;
-            AddScaled(ref nextY, -z, row.Below);
+            ref readonly TwistRow first = ref rows[j];
+            z.T3 = first.Inverse * (z.T3 - Dot(first.WeightedOwn, y));
+            double toFirst = Dot(first.WeightedNext, y) + first.NextTwist * z.T3;
+            AddScaled(ref nextY, -z.T3, first.Below);
+            if (second > 0)
+            {
+                ref readonly TwistRow row = ref rows[second + j];
+                z.T2 = row.Inverse * (z.T2 - Dot(row.WeightedOwn, y) - first.Other * z.T3);
+                toFirst += row.NextOther * z.T2;
+                nextZ.T2 -= Dot(row.WeightedNext, y) + first.NextOther * z.T3 + row.NextTwist * z.T2;
+                AddScaled(ref nextY, -z.T2, row.Below);
+            }
+            nextZ.T3 -= toFirst;
         }
 
-        /// <summary>Solves for z_j, and takes its part and that of z_(j+1) out of block j, before that block's own
-        /// <see cref="BlockElimination.Backward"/>.</summary>
-        public static void Backward(in TwistRow row, ref RodVector y, in RodVector nextY, ref double z, double nextZ)
+        /// <summary>Solves for the angles, and takes their part and that of the next element's out of block j, before
+        /// that block's own <see cref="BlockElimination.Backward"/>.</summary>
+        public static void Backward(TwistRow[] rows, int j, int second, ref RodVector y, in RodVector nextY,
+            ref RodVector z, in RodVector nextZ)
         {
-            z -= row.Inverse * (Dot(row.Below, nextY) + row.NextTwist * nextZ);
-            AddScaled(ref y, -z, row.Own);
-            AddScaled(ref y, -nextZ, row.Next);
+            ref readonly TwistRow first = ref rows[j];
+            double sum = Dot(first.Below, nextY) + first.NextTwist * nextZ.T3;
+            if (second == 0)
+            {
+                z.T3 -= first.Inverse * sum;
+                AddScaled(ref y, -z.T3, first.Own);
+                AddScaled(ref y, -nextZ.T3, first.Next);
+                return;
+            }
+            ref readonly TwistRow row = ref rows[second + j];
+            z.T2 -= row.Inverse * (Dot(row.Below, nextY) + row.NextOther * nextZ.T3 + row.NextTwist * nextZ.T2);
+            z.T3 -= first.Inverse * (sum + first.NextOther * nextZ.T2 + first.Other * z.T2);
+            AddScaled(ref y, -z.T3, first.Own);
+            AddScaled(ref y, -z.T2, row.Own);
+            AddScaled(ref y, -nextZ.T3, first.Next);
+            AddScaled(ref y, -nextZ.T2, row.Next);
         }
 
         // D times a column.
@@ -72,8 +138,7 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>Takes the scalar product a . b.</summary>
-        public static double Dot(in RodVector a, in RodVector b)
+        private static double Dot(in RodVector a, in RodVector b)
         {
             return a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;
         }
@@ -85,8 +150,8 @@ namespace Guidewire.Core
             v.T3 += turn.Z;
         }
 
-        /// <summary>Adds: to += scale v.</summary>
-        public static void AddScaled(ref RodVector to, double scale, in RodVector v)
+        // to += scale v.
+        private static void AddScaled(ref RodVector to, double scale, in RodVector v)
         {
             to.X1 += scale * v.X1;
             to.X2 += scale * v.X2;
@@ -96,8 +161,8 @@ namespace Guidewire.Core
             to.T3 += scale * v.T3;
         }
 
-        /// <summary>Adds: block += scale b b^T.</summary>
-        public static void AddSquare(ref RodBlock block, in RodVector b, double scale)
+        // block += scale b b^T.
+        private static void AddSquare(ref RodBlock block, in RodVector b, double scale)
         {
             double x1 = scale * b.X1;
             double x2 = scale * b.X2;
