@@ -19,23 +19,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
         {
-            double twice = 0.0;
-            int last = _mass.ElementCount - _held;
-            for (int i = _first; i <= last; i++)
-            {
-                twice += _mass.Diagonal[i] * velocities[i].LengthSquared;
-                if (i < last)
-                {
-                    twice += 2.0 * _mass.Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1]);
-                }
-            }
-            for (int j = 0; j < _mass.ElementCount; j++)
-            {
-                Vector3d w = spins[j];
-                Vector3d i = _mass.Rotary[j];
-                twice += i.X * w.X * w.X + i.Y * w.Y * w.Y + i.Z * w.Z * w.Z;
-            }
-            return 0.5 * twice;
+            return _mass.KineticEnergy(velocities, spins, _first, _mass.ElementCount - _held);
         }
     }
 }

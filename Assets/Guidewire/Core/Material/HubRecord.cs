@@ -56,28 +56,24 @@ namespace Guidewire.Core
         internal void Take(RodTerms terms, RodShape shape, MaterialDrive drive, in Vector3d force, double torque,
             double ahead)
         {
-            Vector3d axis = terms.HubAxis(shape);
-            Insertion = drive.Insertion;
-            Turn = drive.Turn;
-            Force = Vector3d.Dot(force, axis);
-            Force += terms.SheathForce(shape);
-            Torque = torque;
-            TipDirection = shape.Q[shape.ElementCount - 1].Director3;
             terms.Bending.Measure(shape, _turns);
-            Twist = -ahead;
-            LargestCurvature = 0.0;
+            double twist = -ahead;
+            double largest = 0.0;
             for (int k = 0; k <= shape.ElementCount; k++)
             {
                 Vector3d turn = _turns[k];
-                Twist += turn.Z;
+                twist += turn.Z;
                 double bend = Math.Sqrt(turn.X * turn.X + turn.Y * turn.Y);
                 double fraction = terms.Supports.FractionOutside(k);
-                LargestCurvature = fraction <= CoaxialJoints.MinFraction ? LargestCurvature
-                    : Math.Max(LargestCurvature, bend / (fraction * _jointLength[k]));
+                largest = fraction <= CoaxialJoints.MinFraction ? largest
+                    : Math.Max(largest, bend / (fraction * _jointLength[k]));
             }
+            double along = Vector3d.Dot(force, terms.HubAxis(shape));
+            Take(drive, along + terms.SheathForce(shape), torque, shape.Q[shape.ElementCount - 1].Director3, twist,
+                largest);
         }
 
-        /// <summary>Takes the hub of a wire in a catheter.</summary>
+        /// <summary>Takes what is known of it otherwise.</summary>
         internal void Take(MaterialDrive drive, double force, double torque, in Vector3d tipDirection, double twist,
             double largestCurvature)
         {

@@ -68,21 +68,6 @@ namespace Guidewire.Core
         /// <summary>I = l (rho I1, rho I2, rho (I1 + I2)) about d1, d2 and d3, kg m^2, n.</summary>
         public Vector3d[] Rotary { get; }
 
-        /// <summary>Linear momentum, kg m/s, of these velocities.</summary>
-        public Vector3d Momentum(Vector3d[] velocities)
-        {
-            Vector3d sum = Vector3d.Zero;
-            for (int i = 0; i <= ElementCount; i++)
-            {
-                sum += Diagonal[i] * velocities[i];
-                if (i < ElementCount)
-                {
-                    sum += Coupling[i] * (velocities[i] + velocities[i + 1]);
-                }
-            }
-            return sum;
-        }
-
         /// <summary>Gives w x I w of element j over I: as I3 = I1 + I2, (w2 w3, -w1 w3, w1 w2 (I2 - I1)/I3).</summary>
         public Vector3d Precession(int j, in Vector3d w)
         {
@@ -93,14 +78,22 @@ namespace Guidewire.Core
         /// <summary>Kinetic energy, J, of these velocities and angular velocities.</summary>
         public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
         {
+            return KineticEnergy(velocities, spins, 0, ElementCount);
+        }
+
+        /// <summary>The same where only the nodes from one to another one count.</summary>
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins, int first, int last)
+        {
             double sum = 0.0;
             for (int i = 0; i <= ElementCount; i++)
             {
-                sum += 0.5 * Diagonal[i] * velocities[i].LengthSquared;
+                sum += i >= first && i <= last ? 0.5 * Diagonal[i] * velocities[i].LengthSquared : 0.0;
                 if (i < ElementCount)
                 {
                     Vector3d w = spins[i];
-                    sum += Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1])
+                    double both = i >= first && i < last
+                        ? Coupling[i] * Vector3d.Dot(velocities[i], velocities[i + 1]) : 0.0;
+                    sum += both
                         + 0.5 * (Rotary[i].X * w.X * w.X + Rotary[i].Y * w.Y * w.Y + Rotary[i].Z * w.Z * w.Z);
                 }
             }

@@ -68,17 +68,15 @@ namespace Guidewire.Core
                 Curvature[j] = (torque / rod.TwistStiffness[j]) * Vector3d.UnitZ;
                 Couple[j] = torque * axis;
             }
-            KineticEnergy = outside.KineticEnergy;
-            ElasticEnergy = outside.ElasticEnergy;
-            PotentialEnergy = outside.PotentialEnergy;
+            TakeEnergies(outside.KineticEnergy, outside.ElasticEnergy, outside.PotentialEnergy);
         }
 
         /// <summary>Takes kinetic, elastic and potential energy, J.</summary>
-        internal void TakeEnergies(in Vector3d energies)
+        internal void TakeEnergies(double kinetic, double elastic, double potential)
         {
-            KineticEnergy = energies.X;
-            ElasticEnergy = energies.Y;
-            PotentialEnergy = energies.Z;
+            KineticEnergy = kinetic;
+            ElasticEnergy = elastic;
+            PotentialEnergy = potential;
         }
 
         /// <summary>Takes the wire as it is.</summary>
@@ -96,9 +94,7 @@ namespace Guidewire.Core
                 Force[j] = Quaterniond.Rotate(shape.Q[j], terms.Stretch.Stress(shape, j, out Vector3d p));
                 Strain[j] = p - Vector3d.UnitZ;
             }
-            KineticEnergy = kineticEnergy;
-            ElasticEnergy = terms.ElasticEnergy(shape);
-            PotentialEnergy = terms.LoadPotential(shape);
+            TakeEnergies(kineticEnergy, terms.ElasticEnergy(shape), terms.LoadPotential(shape));
         }
     }
 }

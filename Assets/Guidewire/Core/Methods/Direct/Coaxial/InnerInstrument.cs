@@ -20,12 +20,18 @@ namespace Guidewire.Core
             _own = setup.Instruments[instrument];
             _hubs = hubs;
             _axis = setup.Axis;
-            _joints = _own.Rod.Joints(new RodSupports { Clamp = ClampRule.HalfElement });
+            _joints = _own.Rod.Joints(Supports);
             int n = _own.Rod.ElementCount;
             Shape = new RodShape(n);
             Velocities = new Vector3d[n + 1];
             Spins = new Vector3d[n];
         }
+
+        /// <summary>How each is held, as if it were alone.</summary>
+        public static RodSupports Supports { get; } = new RodSupports { Clamp = ClampRule.HalfElement };
+
+        /// <summary>Its joints, as if it were alone.</summary>
+        public Joint[] Joints => _joints;
 
         /// <summary>Its nodes and elements.</summary>
         public RodShape Shape { get; }

@@ -40,10 +40,11 @@ namespace Guidewire.Core
         {
             double force = Coaxial()!.WireForce;
             RodTerms terms = Dynamics.Terms;
-            var energies = new Vector3d(Dynamics.KineticEnergy,
+            StressRecord record = _stress.Take(Dynamics, Chain.Rod.Joints, force);
+            record.TakeEnergies(Dynamics.KineticEnergy,
                 terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
                 terms.LoadPotential(Dynamics.Shape));
-            return _stress.Take(Dynamics, Chain.Rod.Joints, energies, force);
+            return record;
         }
 
         /// <inheritdoc/>

@@ -19,18 +19,16 @@ namespace Guidewire.Core
         /// <param name="wire">Where it is.</param>
         public WireStress(CoaxialSetup setup, InnerInstrument wire)
         {
-            var supports = new RodSupports { Clamp = ClampRule.HalfElement, Proximal = ProximalEnd.Clamped };
             _wire = wire;
             _own = setup.Instruments[setup.Instruments.Length - 1];
-            _joints = _own.Rod.Joints(supports);
-            _lengths = _own.Rod.JointLengths(supports);
+            _joints = wire.Joints;
+            _lengths = _own.Rod.JointLengths(InnerInstrument.Supports);
             _record = new StressRecord(_lengths);
         }
 
         /// <summary>The record at the time that was set last; the next call writes it anew.</summary>
-        /// <param name="energies">Kinetic, elastic and potential energy of all instruments, J.</param>
         /// <param name="thrust">Of the wire's hub, N.</param>
-        public StressRecord Take(RodDynamics dynamics, CoaxialJoints joints, in Vector3d energies, double thrust)
+        public StressRecord Take(RodDynamics dynamics, CoaxialJoints joints, double thrust)
         {
             CoaxialBendTwist bending = dynamics.Terms.CoaxialBending!;
             int wire = joints.InnerCount;
@@ -54,7 +52,6 @@ namespace Guidewire.Core
                     TakeElement(dynamics, joints, k, at + 0.5 * _own.Rod.Length[k], j, thrust);
                 }
             }
-            _record.TakeEnergies(energies);
             return _record;
         }
 

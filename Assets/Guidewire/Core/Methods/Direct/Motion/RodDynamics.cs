@@ -129,9 +129,6 @@ namespace Guidewire.Core
         /// <summary>Whether the scheme estimates the errors of its steps.</summary>
         public bool HasErrorEstimate => _stepper.HasErrorEstimate;
 
-        /// <summary>Linear momentum, kg m/s.</summary>
-        public Vector3d Momentum => _terms.Mass.Momentum(Velocities);
-
         /// <summary>Elastic plus kinetic energy less the work of the loads, J.</summary>
         public double Energy => KineticEnergy + _terms.Potential(Shape);
 

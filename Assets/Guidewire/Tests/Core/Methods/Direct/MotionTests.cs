@@ -85,7 +85,7 @@ namespace Guidewire.Core.Tests
             Vector3d centre = Centre(shape);
             Assert.That(centre.Y - start.Y, Is.EqualTo(-fall).Within(1e-8));
             Assert.That(centre.X - start.X, Is.EqualTo(0.0).Within(1e-8));
-            Assert.That(motion.Momentum.Y, Is.EqualTo(-mass * 9.81 * motion.Time).Within(1e-8 * mass));
+            Assert.That(Rods.Momentum(motion).Y, Is.EqualTo(-mass * 9.81 * motion.Time).Within(1e-8 * mass));
         }
 
         [Test]

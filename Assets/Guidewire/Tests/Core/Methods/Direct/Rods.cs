@@ -81,6 +81,19 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        /// <summary>Linear momentum, kg m/s.</summary>
+        public static Vector3d Momentum(RodDynamics motion)
+        {
+            RodMass mass = motion.Terms.Mass;
+            Vector3d[] v = motion.Velocities;
+            Vector3d sum = mass.Diagonal[0] * v[0];
+            for (int i = 1; i <= mass.ElementCount; i++)
+            {
+                sum += mass.Diagonal[i] * v[i] + mass.Coupling[i - 1] * (v[i - 1] + v[i]);
+            }
+            return sum;
+        }
+
         /// <summary>What is prescribed of a wire in a scene, by default nothing.</summary>
         /// <param name="shape">Where its ends begin and how; null: at the origin, along z.</param>
         /// <param name="twistRate">Of the hub, rad/s.</param>
