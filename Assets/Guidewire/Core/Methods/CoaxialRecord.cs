@@ -255,7 +255,6 @@ namespace Guidewire.Core
 
         /// <summary>Counts a step that all drives have prepared.</summary>
         /// <param name="drives">The outermost one first, the wire's last.</param>
-        /// <param name="from">Insertion of each hub before it, m.</param>
         internal void TakeStep(MaterialDrive[] drives)
         {
             _displacement += drives[_instrument].Progress;

@@ -1,7 +1,8 @@
 namespace Guidewire.Core
 {
-    /// <summary>Eliminates the twist angles of an element, one or two, after its block (<see cref="BlockElimination"/>):
-    /// the columns of each go through that block as right-hand sides do, then it is a pivot of its own,
+    /// <summary>Eliminates the twist angles of an element, one or two, after its block (<see
+    /// cref="BlockElimination"/>): the columns of each go through that block as right-hand sides do, then it is a pivot
+    /// of its own,
     ///   u = L^-1 U_j, v = L^-1 V_j, d = Z_jj - u^T D^-1 u, c = Z_(j+1)j - v^T D^-1 u, Z_(j+1)(j+1) -= v^T D^-1 v,
     ///   K_(j+1) -= b b^T/d, Z_(j+1)(j+1) -= c^2/d, U_(j+1) -= c b/d,
     /// with U_j, V_j the columns of z_j and z_(j+1) in block j and b that of z_j in block j + 1. A second angle is one
