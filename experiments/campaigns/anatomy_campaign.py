@@ -8,11 +8,11 @@ the wire is that instrument. A start that the program refuses is skipped and doe
 
 from __future__ import annotations
 
+import argparse
 import itertools
 import json
 import shutil
 import sys
-import tempfile
 import time
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
@@ -26,8 +26,10 @@ import numpy as np
 from analysis.passages import SAMPLES, Wall, sample_wire
 from analysis.wall_search import MeshSearch
 from experiments.campaigns import material_pushes
-from experiments.campaigns.push_campaign import CODES, parser_of
+from experiments.campaigns.push_campaign import CODES
 from experiments.campaigns.push_claims import contradictions
+from experiments.campaigns.results import Record
+from experiments.campaigns.runs import close, fill, folder_of, parser_of
 from guidewire.logs.logs import read_log
 from guidewire.logs.surfaces import read_obj
 from guidewire.runs import building
@@ -43,13 +45,14 @@ _SAME = 1e-9  # of the radius
 _ELASTIC = 1e-5  # of the wire's length, by which its proximal node may be behind the hub
 _SAME_LENGTH = 1e-3  # mm
 _DEPTH_EVERY = 5  # entries of the log of which the depth is searched
+REFUSED = "refused"
 _REFUSED = 2  # exit code
 
 
 @dataclass(frozen=True)
 class Walk:
     """One run: `vessel`, the folder's name; `claims`, what it broke, one line each; `outcome` and `reason` of its end;
-    `distance`, the farthest of the tip along the centreline, mm."""
+    `distance`, the farthest of the tip along the centreline, mm; `instrument`, where the wire is one."""
 
     vessel: str
     seed: int
@@ -58,6 +61,7 @@ class Walk:
     reason: str = ""
     distance: float = 0.0
     seconds: float = 0.0
+    instrument: str = ""
 
 
 class Vessel:
@@ -259,15 +263,17 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, instrument: st
     seconds = time.monotonic() - start
     name = vessel.folder.name
     if answer.exit_code == _REFUSED:
-        walk = Walk(name, seed, [], "refused", str(answer.message))
+        walk = Walk(name, seed, [], REFUSED, str(answer.message), instrument=instrument or "")
     elif CODES.get(answer.outcome) != answer.exit_code:
-        walk = Walk(name, seed, [f"{answer.outcome}: {answer.message}"], str(answer.outcome), seconds=seconds)
+        walk = Walk(name, seed, [f"{answer.outcome}: {answer.message}"], str(answer.outcome), seconds=seconds,
+                    instrument=instrument or "")
     else:
         summary = json.loads((out / "summary.json").read_text())
         scene = json.loads((out / "parameters.json").read_text())
         claims = violations(vessel, scene | {"driveFile": str(path.with_suffix(".csv"))}, summary,
                        read_log(out, spheres="all").positions)
-        walk = Walk(name, seed, claims, answer.outcome, summary["reason"], summary["centreline"]["farthest"], seconds)
+        walk = Walk(name, seed, claims, answer.outcome, summary["reason"], summary["centreline"]["farthest"], seconds,
+                    instrument or "")
     shutil.rmtree(out, ignore_errors=True)
     if not walk.claims:
         path.unlink()
@@ -290,29 +296,21 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--instrument", action="append", help="in place of drawn wires; may be given several times")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
-    command = building.build(building.RUNNER, print)
-    broken = 0
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = given.keep or Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
+    command, lines = building.build(building.RUNNER, print), []
+    record = Record(given.record, "vessel", "instrument", "seed")
+    with folder_of(given) as folder:
         for place, instrument in itertools.product(given.folders, given.instrument or [None]):
-            vessel, outcomes = Vessel(place), Counter()
-            farthest, slowest, claimed = 0.0, 0.0, 0
-            runs = (walk for walk in campaign(command, vessel, itertools.count(given.first), folder, instrument))
-            for walk in runs:
-                outcomes[walk.outcome] += 1
-                farthest, slowest = max(farthest, walk.distance), max(slowest, walk.seconds)
-                claimed += bool(walk.claims)
-                if walk.claims or walk.outcome not in ("finished", "refused"):
-                    print(f"{walk.vessel} {walk.seed} {walk.outcome}: {'; '.join(walk.claims) or walk.reason}",
-                          flush=True)
-                if sum(outcomes.values()) - outcomes["refused"] >= given.runs or outcomes["refused"] > given.runs:
-                    break
-            broken += claimed
-            ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-            print(f"{place.name}{f', {instrument}' if instrument else ''}: {ends}; {claimed} break a claim; farthest "
-                  f"{farthest:.0f} mm, slowest {slowest:.1f} s", flush=True)
-    return 1 if broken else 0
+            vessel = Vessel(place)
+            lines += fill(record, given, lambda seeds: campaign(command, vessel, seeds, folder, instrument),
+                          skipped=REFUSED, vessel=place.resolve().name, instrument=instrument or "")
+    return close_walks("anatomy" + (" instruments" if given.instrument else ""),
+                       "anatomy_campaign FOLDER ..." + " --instrument NAME" * bool(given.instrument), lines, given)
+
+
+def close_walks(name: str, command: str, lines: list[dict[str, Any]], given: argparse.Namespace) -> int:
+    """As `close`, with the runs of each vessel, and how far a tip came, mm."""
+    return close(name, command, lines, given, vessels=dict(Counter(one["vessel"] for one in lines)),
+                 farthest=round(max((one["distance"] for one in lines), default=0.0)))
 
 
 if __name__ == "__main__":

@@ -11,9 +11,7 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-import tempfile
 import time
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
 from pathlib import Path
@@ -22,9 +20,11 @@ from typing import Any
 import numpy as np
 
 from experiments.campaigns import material_pushes
-from experiments.campaigns.anatomy_campaign import STEP, Vessel, Walk, drive
-from experiments.campaigns.push_campaign import CODES, parser_of
+from experiments.campaigns.anatomy_campaign import REFUSED, STEP, Vessel, Walk, close_walks, drive
+from experiments.campaigns.push_campaign import CODES
 from experiments.campaigns.push_claims import contradictions
+from experiments.campaigns.results import Record
+from experiments.campaigns.runs import fill, folder_of, parser_of
 from guidewire.logs.logs import PositionLog, read_log
 from guidewire.logs.paths import lengths_of, through_tips
 from guidewire.runs import building
@@ -137,7 +137,7 @@ def make(runner: Runner, vessel: Vessel, seed: int, folder: Path, is_soft: bool 
     answer = runner.run(Request(path.stem, path, out), RUN_LIMIT)
     seconds, name = time.monotonic() - start, vessel.folder.name
     if answer.exit_code == 2:
-        walk = Walk(name, seed, [], "refused", str(answer.message))
+        walk = Walk(name, seed, [], REFUSED, str(answer.message))
     elif CODES.get(answer.outcome) != answer.exit_code:
         walk = Walk(name, seed, [f"{answer.outcome}: {answer.message}"], str(answer.outcome), seconds=seconds)
     else:
@@ -167,26 +167,15 @@ def main(arguments: Sequence[str]) -> int:
     parser.add_argument("--soft", action="store_true", help="walls that give way")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
-    command = building.build(building.RUNNER, print)
-    broken = 0
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = given.keep or Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
+    command, lines = building.build(building.RUNNER, print), []
+    record = Record(given.record, "vessel", "seed")
+    with folder_of(given) as folder:
         for place in given.folders:
-            outcomes: Counter[str] = Counter()
-            claimed, farthest = 0, 0.0
-            for walk in campaign(command, Vessel(place), range(given.first, given.first + given.runs), folder,
-                                 given.soft):
-                outcomes[walk.outcome] += 1
-                farthest = max(farthest, walk.distance)
-                claimed += bool(walk.claims)
-                if walk.claims or walk.outcome != "finished":
-                    print(f"{walk.vessel} {walk.seed} {walk.outcome}: {'; '.join(walk.claims) or walk.reason}",
-                          flush=True)
-            broken += claimed
-            ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-            print(f"{place.name}: {ends}; {claimed} break a claim; farthest {farthest:.0f} mm", flush=True)
-    return 1 if broken else 0
+            vessel = Vessel(place)
+            lines += fill(record, given, lambda seeds: campaign(command, vessel, seeds, folder, given.soft),
+                          skipped=REFUSED, vessel=place.resolve().name)
+    return close_walks("coaxial" + (" soft" if given.soft else ""),
+                       "coaxial_campaign FOLDER ..." + (" --soft" if given.soft else ""), lines, given)
 
 
 if __name__ == "__main__":

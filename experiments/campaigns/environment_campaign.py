@@ -15,7 +15,6 @@ import sys
 from collections import Counter
 from collections.abc import Sequence
 from dataclasses import dataclass, field
-from operator import itemgetter
 from pathlib import Path
 from typing import Any
 
@@ -23,7 +22,7 @@ import numpy as np
 
 from experiments.campaigns import results
 from experiments.campaigns.environment_claims import Judge, add_bits
-from experiments.campaigns.push_campaign import parser_of
+from experiments.campaigns.runs import parser_of
 from guidewire.env import Environment, VectorEnvironment, all_tasks
 from guidewire.env.baselines import Chance
 from guidewire.env.recorded import digest_of
@@ -92,7 +91,8 @@ def grown(task: str | Task, resets: int) -> float:
 class Record(results.Record):
     """What was found, by task, seed and host."""
 
-    key = itemgetter("task", "seed", "host")
+    def __init__(self, file: Path) -> None:
+        super().__init__(file, "task", "seed", "host")
 
     def note(self, task: str, seed: int, host: str, **found: Any) -> None:
         """Take in a line."""
@@ -191,10 +191,10 @@ def main(arguments: Sequence[str]) -> int:
     parser = parser_of("environment_campaign", __doc__, 1000)
     parser.set_defaults(first=FIRST)
     parser.add_argument("tasks", nargs="*", metavar="TASK", help="of those that ship (default all)")
-    parser.add_argument("--record", type=Path, required=True, metavar="FILE", help="what was found, a line each")
-    parser.add_argument("--result", action="store_true", help="write a row of each task in results.json")
     parser.add_argument("--resets", type=int, default=0, help="how many (default 0)")
     given = parser.parse_args(arguments)
+    if not given.record:
+        parser.error("--record FILE is needed")
     record, tasks = Record(given.record), given.tasks or list(all_tasks())
     building.build(building.RUNNER, print)
     for first in range(given.first, given.first + given.runs, BLOCK):

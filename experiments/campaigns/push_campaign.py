@@ -9,32 +9,31 @@ that broke a claim the last time go first.
 
 from __future__ import annotations
 
-import argparse
-import itertools
 import json
 import shutil
 import sys
-import tempfile
 import time
-from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from analysis.wall_search import Walls, crosses_itself, triangles_of
-from experiments.campaigns import material_claims, material_pushes, push_claims, pushes, results
+from experiments.campaigns import material_claims, material_pushes, push_claims, pushes
+from experiments.campaigns.results import Record
+from experiments.campaigns.runs import close, fill, folder_of, parser_of
 from guidewire.logs.logs import read_log
 from guidewire.logs.surfaces import read_obj
 from guidewire.runs import building
 from guidewire.runs.runner import Request, Runner
-from tools.seeds import keep, red
+from tools.seeds import red
 
 RUN_LIMIT = 600.0  # s of wall time of one run
 MOST_BEYOND = 0.02  # of its hubForceLimit, by which the force of a hub may be above it where nothing says so
+TOUCH = 1e-3  # N of a wall, from which on it is touched
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
 OF_ENDS = ("points of the wire passed a wall", "the wire penetrated a wall", "the wire is ", material_claims.KINKED,
            "the drive fell short: ", "over which the wire spreads a load on the wall",
@@ -56,7 +55,8 @@ class Push:
     reason : its reason.
     is_reliable : whether its summary says that nothing speaks against its result.
     beyond : part of its hubForceLimit by which the force of a hub was above it, at most.
-    commit : of the program, in a record.
+    is_touching : whether a wall pressed on it in any step.
+    overtakings : how often one tip went beyond the next one around, or back.
     """
 
     seed: int
@@ -67,7 +67,8 @@ class Push:
     reason: str = ""
     is_reliable: bool = False
     beyond: float = 0.0
-    commit: str = ""
+    is_touching: bool = False
+    overtakings: int = 0
 
 
 def write(seed: int, method: str, folder: Path) -> tuple[str, Path]:
@@ -101,7 +102,7 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
         return Push(seed, kind, [f"{answer.outcome}: {answer.message}"], seconds, answer.outcome)
     summary = json.loads((out / "summary.json").read_text())
     log = read_log(out, spheres="all")
-    beyond = 0.0
+    beyond, overtakings = 0.0, 0
     if method == "pbd":
         claims = push_claims.violations(scene, summary, log.positions, walls)
     else:
@@ -113,6 +114,8 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
             with np.load(out / "positions.npz") as arrays:
                 forces, insertions = ([arrays[name + of] for name in ("hub", "catheter", "catheter2")
                                        if name + of in arrays] for of in ("Force", "Insertion"))
+                overtakings = sum(int((arrays[name][1:] * arrays[name][:-1] < 0.0).sum())
+                                  for name in ("catheterExtension", "catheter2Extension") if name in arrays)
             beyond = material_claims.beyond(scene, forces)
             claims += material_claims.order(scene, insertions)
         said = (*summary["warnings"], summary["reason"])
@@ -122,7 +125,8 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
     known = OF_ENDS if scene["vessel"]["shape"] == "mesh" else (*OF_ENDS, push_claims.RIM)
     claims += [f"warning: {warning}" for warning in summary["warnings"]
                if not any(words in warning for words in known)]
-    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["reliable"], beyond)
+    return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["reliable"], beyond,
+                summary["largestContactForce"] > TOUCH, overtakings)
 
 
 def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:
@@ -154,66 +158,23 @@ def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path, method:
                 yield push
 
 
-def parser_of(name: str, description: str, runs: int = 100) -> argparse.ArgumentParser:
-    """The arguments that campaigns share: how many runs, and the first seed."""
-    parser = argparse.ArgumentParser(prog=f"python3 -m experiments.campaigns.{name}",
-                                     description=description.split("\n", 1)[0])
-    parser.add_argument("--runs", type=int, default=runs, help=f"how many (default {runs})")
-    parser.add_argument("--first", type=int, default=0, help="the first seed (default 0)")
-    return parser
-
-
 def main(arguments: Sequence[str]) -> int:
     parser = parser_of("push_campaign", __doc__)
     parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
                         help="of the runs (default pbd)")
     parser.add_argument("--soft", action="store_true", help="walls that give way, with direct and sheath")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
-    parser.add_argument("--record", type=Path, metavar="FILE", help="what each seed came to, a line each; what stands "
-                        "there is not run again")
-    parser.add_argument("--result", action="store_true", help="write the row of experiments/campaigns/results.json")
     given = parser.parse_args(arguments)
     if given.soft and given.method not in ("direct", "sheath"):
         parser.error(f"--soft with {given.method}: only direct and sheath have soft walls")
-    name = given.method + (" soft" if given.soft else "")
-    record = results.Record(given.record)
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = given.keep or Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
-        _run(building.build(building.RUNNER, print), given, folder, record, red(f"push {name}"))
-    pushes_of_range = [Push(**one) for seed, one in sorted(record.found.items()) if seed >= given.first][:given.runs]
-    broken = [push.seed for push in pushes_of_range if push.claims]
-    keep(f"push {name}", [seed for seed, one in record.found.items() if one["claims"]])
-    outcomes = Counter(str(push.outcome) for push in pushes_of_range)
-    beyond = sum(push.beyond > MOST_BEYOND for push in pushes_of_range)
-    ends = ", ".join(f"{count} {outcome}" for outcome, count in sorted(outcomes.items()))
-    print(f"{len(pushes_of_range)} runs ({ends}; {sum(push.is_reliable for push in pushes_of_range)} reliable), "
-          f"{len(broken)} break a claim, {beyond} with a hub above its limit by more than {MOST_BEYOND:.0%}, slowest "
-          f"{max((push.seconds for push in pushes_of_range), default=0.0):.1f} s")
-    if given.result and pushes_of_range:
-        results.keep(f"push {name}", f"push_campaign --method {given.method}{' --soft' if given.soft else ''}",
-                     [asdict(push) for push in pushes_of_range], outcomes, broken, beyond=beyond,
-                     failures=results.kinds_of(push.reason for push in pushes_of_range if push.outcome != "finished"))
-    return 1 if broken else 0
-
-
-def _run(command: Sequence[str], given: argparse.Namespace, folder: Path, record: results.Record,
-         first: Iterable[int]) -> None:
-    """Run what the record lacks, what broke a claim the last time before all others, and print what is to be told."""
-    done = sum(seed >= given.first for seed in record.found)
-    if done >= given.runs:
-        return
-    again = [seed for seed in first if seed not in record.found]
-    following = (seed for seed in itertools.count(given.first) if seed not in record.found and seed not in again)
-    for push in campaign(command, itertools.chain(again, following), folder, given.method, given.soft):
-        record.add(asdict(push))
-        if push.claims:
-            print(f"{push.seed} {push.kind}: {'; '.join(push.claims)}", flush=True)
-        elif push.outcome != "finished":
-            print(f"{push.seed} {push.kind} {push.outcome}: {push.reason}", flush=True)
-        done += push.seed >= given.first
-        if done >= given.runs:
-            break
+    name = f"push {given.method}{' soft' if given.soft else ''}"
+    command, record = building.build(building.RUNNER, print), Record(given.record)
+    with folder_of(given) as folder:
+        lines = fill(record, given, lambda seeds: campaign(command, seeds, folder, given.method, given.soft), red(name))
+    return close(name, f"push_campaign --method {given.method}{' --soft' if given.soft else ''}", lines, given,
+                 beyond=sum(one["beyond"] > MOST_BEYOND for one in lines),
+                 touching=sum(one.get("is_touching", False) for one in lines),
+                 overtakings=sum(one.get("overtakings", 0) for one in lines))
 
 
 if __name__ == "__main__":

@@ -9,7 +9,6 @@ from __future__ import annotations
 import json
 import shutil
 import sys
-import tempfile
 from collections import Counter
 from collections.abc import Iterable, Iterator, Sequence
 from contextlib import closing
@@ -19,7 +18,8 @@ from pathlib import Path
 import numpy as np
 
 from experiments.campaigns import reliable_claims, reliable_runs
-from experiments.campaigns.push_campaign import parser_of
+from experiments.campaigns.results import Record
+from experiments.campaigns.runs import close, fill, folder_of, parser_of
 from guidewire.prepare import ROOT
 from guidewire.runs import building
 from guidewire.runs.runner import Request, Runner
@@ -34,14 +34,15 @@ class Judged:
     Attributes
     ----------
     seed, kind : which it was.
-    word : "reliable", "not reliable", or how it ended.
+    outcome : "reliable", "not reliable", or how it ended.
     claims : where `reliable` is wrong, one line each.
     """
 
     seed: int
     kind: str
-    word: str
+    outcome: str
     claims: list[str]
+    reason: str = ""
 
 
 def campaign(command: Sequence[str], seeds: Iterable[int], folder: Path) -> Iterator[Judged]:
@@ -79,21 +80,11 @@ def main(arguments: Sequence[str]) -> int:
     parser = parser_of("reliable_campaign", __doc__, runs=500)
     parser.add_argument("--keep", type=Path, help="folder for the files of runs that are judged wrongly")
     given = parser.parse_args(arguments)
-    words: Counter[tuple[str, str]] = Counter()
-    wrong = 0
-    with tempfile.TemporaryDirectory() as scratch:
-        folder = given.keep or Path(scratch)
-        folder.mkdir(parents=True, exist_ok=True)
-        seeds = range(given.first, given.first + given.runs)
-        for judged in campaign(building.build(building.RUNNER, print), seeds, folder):
-            words[judged.kind, judged.word] += 1
-            wrong += bool(judged.claims)
-            if judged.claims:
-                print(f"{judged.seed} {judged.kind}: {'; '.join(judged.claims)}", flush=True)
-    for (kind, word), count in sorted(words.items()):
-        print(f"{kind}: {count} {word}")
-    print(f"{given.runs} runs, {wrong} where reliable is wrong")
-    return 1 if wrong else 0
+    command = building.build(building.RUNNER, print)
+    with folder_of(given) as folder:
+        lines = fill(Record(given.record), given, lambda seeds: campaign(command, seeds, folder))
+    kinds = Counter(f"{one['kind']} {one['outcome']}" for one in lines)
+    return close("reliable", "reliable_campaign", lines, given, kinds=dict(sorted(kinds.items())))
 
 
 if __name__ == "__main__":

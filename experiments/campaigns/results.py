@@ -32,20 +32,19 @@ class Record:
     """A file of one JSON object a line, by which a campaign that was ended goes on: what each seed came to, and the
     commit of the program that ran it."""
 
-    key = itemgetter("seed")
-
-    def __init__(self, file: Path | None) -> None:
-        self._file = file
+    def __init__(self, file: Path | None, *keys: str) -> None:
+        self._file, self._key = file, itemgetter(*(keys or ("seed",)))
         lines = file.read_text(encoding="utf-8").splitlines() if file and file.is_file() else []
-        self.found: dict[Any, dict[str, Any]] = {self.key(one): one for one in map(json.loads, lines)}
+        self.found: dict[Any, dict[str, Any]] = {self._key(one): one for one in map(json.loads, lines)}
 
-    def add(self, found: Mapping[str, Any]) -> None:
-        """Take in what was found; it is in the file when this returns."""
+    def add(self, found: Mapping[str, Any]) -> dict[str, Any]:
+        """Take in what was found; it is in the file when this returns. Returns its line."""
         one = {**found, "commit": commit()}
-        self.found[self.key(one)] = one
+        self.found[self._key(one)] = one
         if self._file:
             with self._file.open("a", encoding="utf-8") as file:
                 file.write(json.dumps(one) + "\n")
+        return one
 
 
 @functools.cache
@@ -91,7 +90,7 @@ def tables() -> dict[Path, str]:
                             "other hosts | resets | faults |", "|---|---|---|---|---|---|---|---|"]}
     for row in json.loads(FILE.read_text(encoding="utf-8")).values():
         told = (f"{row['date']}, {row['commit']} | {row['seeds'][0]} to {row['seeds'][1]} | {row['runs']:,}", ", ".join(
-            f"{count} {end}" if end == "finished" or "task" in row else f"{count} *{end}*"
+            f"{count} *{end}*" if end in ("failed", "diverged") else f"{count} {end}"
             for end, count in row["ends"].items()))
         if "task" in row:
             resets = "; ".join(f"{int(count):,}: {grown:+.1f} MB" for count, grown in row["resets"].items())

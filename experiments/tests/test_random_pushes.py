@@ -47,6 +47,9 @@ def test_wires_with_a_material_pass_no_wall_and_say_what_is_true(runner_command,
     runs = list(campaign(runner_command, chosen, tmp_path, method))
     assert_true(method, [push for push in runs if push.claims])
     assert len(runs) > 0.5 * len(chosen)
+    assert len(runs) < 5 or sum(run.is_touching for run in runs) > 0.5 * len(runs)
+    if method in ("catheter", "catheters", "sheathed"):
+        assert sum(run.overtakings for run in runs) > 0.25 * len(runs)
 
 
 @pytest.mark.long("random pushes go through the same judge; BentTipFrictionTests has a hub that slips")

@@ -19,7 +19,7 @@ def test_reliable_is_what_the_logs_of_random_runs_say(runner_command, tmp_path):
     keep("reliable", [one.seed for one in judged if one.claims])
     assert {one.seed: one.claims for one in judged if one.claims} == {}
     assert {one.kind for one in judged} == set(reliable_runs.KINDS)
-    words = [one.word for one in judged]
+    words = [one.outcome for one in judged]
     assert words.count("reliable") > 0.3 * len(words) and words.count("not reliable") > 0.1 * len(words)
     assert "refused" not in words and "lost" not in words
 
