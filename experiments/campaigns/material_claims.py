@@ -168,6 +168,12 @@ def order(scene: dict[str, Any], insertions: list[np.ndarray]) -> list[str]:
     return [f"a hub is {-least} m ahead of that around it"] if least < -1e-9 else []
 
 
+def force_sums(forces: list[np.ndarray], total: np.ndarray) -> list[str]:
+    """What walls do on the nodes of each instrument, (k, n + 1, 3), N, against what they do in all, (k, 3)."""
+    off = np.abs(sum(own.sum(axis=1) for own in forces) - total).max(initial=0.0)
+    return [f"forces of walls on the instruments add up to {off} N less or more than all"] if off > 1e-9 else []
+
+
 def beyond(scene: dict[str, Any], forces: list[np.ndarray]) -> float:
     """By what part of its hubForceLimit the force of a hub is above it, at most; of the wire first, (k,) each, N."""
     limits = [one.get("hubForceLimit", 0.0) for one in (scene, *scene.get("catheters", []))]

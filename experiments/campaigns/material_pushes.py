@@ -11,7 +11,7 @@ import numpy as np
 from experiments.campaigns import pushes
 
 METHODS = ("direct", "sheath", "xpbd", "catheter", "catheters", "sheathed")
-_CATHETERS = {"catheter": 1, "catheters": 2, "sheathed": 2}    # by method
+CATHETERS = {"catheter": 1, "catheters": 2, "sheathed": 2}    # by method
 _SHEATHS = ("sheath", "sheathed")
 SOFT = 0.9  # of the radius, by which a soft wall gives way at most
 _LONG = 400.0  # mm of wire in a sheath
@@ -28,7 +28,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     kinds = [kind for kind in pushes.KINDS if method not in _SHEATHS or kind != "slope"]
     kind = kinds[seed % len(kinds)]
     radius = _between(random, 0.15, 0.6)
-    widths = radius * np.cumprod([_between(random, 1.25, 2.0) for _ in range(_CATHETERS.get(method, 0))])
+    widths = radius * np.cumprod([_between(random, 1.25, 2.0) for _ in range(CATHETERS.get(method, 0))])
     # What the vessel is drawn for: its narrow places let it through.
     ball = float(max([radius, *widths])) * _between(random, 1.02, 6.0)
     spacing = _between(random, 1.5, 8.0) * ball
@@ -78,7 +78,7 @@ def draw(seed: int, method: str, folder: Path) -> tuple[str, dict[str, Any]]:
     if random.uniform() < 0.5:
         for wall in (scene["vessel"], *scene.get("obstacles", [])):
             wall["frictionCoefficient"] = random.uniform(0.02, 0.4)
-    if method in _CATHETERS:
+    if method in CATHETERS:
         _in_catheters(np.random.default_rng([57, seed]), scene, widths, distance, folder / f"push-{seed}.hub")
     elif seed % 3 == 2 and method != "xpbd":
         _turn_back(np.random.default_rng([67, seed]), scene, folder / f"push-{seed}.csv")
@@ -181,10 +181,10 @@ def _in_catheters(random, scene: dict[str, Any], widths: np.ndarray, distance: f
     scene.pop("materialDamping", None)
     del scene["displacementPerStep"]
     scene["maxSimulationSteps"] = 120
-    ahead = min(random.uniform(0.3, 1.2) * distance, 120 * _between(random, 0.2, 2.0) * float(widths[-1]))
+    ahead = min(random.uniform(0.5, 1.3) * distance, 120 * _between(random, 0.5, 4.0) * float(widths[-1]))
     turn = scene["maxSimulationSteps"] * scene.pop("twistPerStep", 0.0)
     times = scene["maxSimulationSteps"] * scene["timeStep"] * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
-    drives = [[0.0, *(ahead * random.uniform(-0.1, 1.0, 4) * [0.3, 0.6, 0.8, 1.0])] for _ in range(1 + len(widths))]
+    drives = [[0.0, *(ahead * random.uniform([-0.1, 0.2, 0.4, -0.1], 1.0) * [0.4, 0.7, 1.0, 1.0])] for _ in range(1 + len(widths))]
     files = [stem.with_name(f"{stem.name}{k}.csv") for k in range(len(drives))]
     for file, drive in zip(files, drives):
         turns = [0.0, *random.uniform(-1.0, 1.0, 4) * (abs(turn) + np.pi)]

@@ -114,6 +114,8 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
             with np.load(out / "positions.npz") as arrays:
                 forces, insertions = ([arrays[name + of] for name in ("hub", "catheter", "catheter2")
                                        if name + of in arrays] for of in ("Force", "Insertion"))
+                claims += material_claims.force_sums(
+                    [arrays[name] for name in arrays if name.lower().endswith("contactforces")], arrays["contactTotal"])
                 overtakings = sum(int((arrays[name][1:] * arrays[name][:-1] < 0.0).sum())
                                   for name in ("catheterExtension", "catheter2Extension") if name in arrays)
             beyond = material_claims.beyond(scene, forces)

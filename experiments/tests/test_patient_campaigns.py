@@ -42,7 +42,7 @@ def test_a_mask_with_an_aneurysm_is_right_and_the_judge_sees_what_is_not(tmp_pat
     assert patient_campaign.judge(replace(patient, axes=""), vessel) == ["axes 'LPS'"]
 
 
-@pytest.mark.long("a wire in a catheter passes no wall in RandomCoaxialPushTests")
+@pytest.mark.long("wires in catheters pass no wall in test_random_pushes.py")
 def test_a_catheter_run_passes_no_wall_and_the_judge_sees_one_that_does(runner_command, tmp_path):
     vessel = Vessel(artery_folder.write(tmp_path / "artery", 2).parent)
     path = coaxial_campaign.draw(vessel, 1, tmp_path)

@@ -20,8 +20,8 @@ from tools.seeds import keep, seeds
 FRACTION = [1008 + 12 * rule + kind for rule in range(3) for kind in range(rule, 12, 6)]
 DAILY = 120
 # Of a wire with a material, by method: how many seeds a day in full, and those of the fraction.
-MATERIAL = {"direct": (60, (3, 5)), "sheath": (33, (3, 8)), "xpbd": (24, (3, 8)), "catheter": (12, (200,)),
-            "catheters": (12, (201,)), "sheathed": (11, (200,))}
+MATERIAL = {"direct": (60, (3, 5)), "sheath": (33, (3, 8)), "xpbd": (24, (3, 8)), "catheter": (12, (234,)),
+            "catheters": (12, (226,)), "sheathed": (11, (229,))}
 CASES = Path(__file__).with_name("wall_cases")
 
 BOX = np.array([[x, y, z] for x in (-1, 1) for y in (-1, 1) for z in (-1, 1)], float)    # its corners
@@ -47,9 +47,15 @@ def test_wires_with_a_material_pass_no_wall_and_say_what_is_true(runner_command,
     runs = list(campaign(runner_command, chosen, tmp_path, method))
     assert_true(method, [push for push in runs if push.claims])
     assert len(runs) > 0.5 * len(chosen)
-    assert len(runs) < 5 or sum(run.is_touching for run in runs) > 0.5 * len(runs)
-    if method in ("catheter", "catheters", "sheathed"):
+    if method in material_pushes.CATHETERS:
+        assert sum(run.is_touching for run in runs) > 0.25 * len(runs)
         assert sum(run.overtakings for run in runs) > 0.25 * len(runs)
+
+
+def test_catheters_that_buckle_at_the_exit_of_their_sheath_fail_before_they_are_outside(runner_command, tmp_path):
+    push, = campaign(runner_command, [224], tmp_path, "sheathed")
+    assert (push.outcome, push.claims) == ("failed", [])
+    assert "the wire buckles at the exit of its sheath and would come out" in push.reason
 
 
 @pytest.mark.long("random pushes go through the same judge; BentTipFrictionTests has a hub that slips")
@@ -74,7 +80,7 @@ def test_a_thin_tip_that_snaps_round_under_a_weak_hub_passes_no_wall_and_goes_to
     assert np.ptp(hub.turn + hub.twist) > 2.0 * np.pi  # of the tip: it snapped round
 
 
-@pytest.mark.long("a pair that buckles there ends so in RandomCoaxialPushTests")
+@pytest.mark.long("catheters that buckle there end so in the test above")
 def test_a_wire_that_buckles_at_the_exit_of_its_sheath_fails_before_it_is_outside(runner_command, tmp_path):
     done = subprocess.run([*runner_command, "-parameters", str(CASES / "jammed_at_the_exit.json"), "-out",
                            str(tmp_path / "run")], capture_output=True, text=True)
@@ -255,3 +261,6 @@ def test_the_outermost_instrument_of_several_is_looked_at_with_its_own_radius():
     assert material_claims.order(hubs, [rest, rest, rest]) == []
     assert material_claims.order(hubs, [rest, rest, np.array([0.0, 0.021])]) != []
     assert material_claims.order(hubs, [np.array([0.011, 0.0]), rest, rest]) != []
+    on_nodes = [np.ones((2, 3, 3)), np.zeros((2, 5, 3))]
+    assert material_claims.force_sums(on_nodes, np.full((2, 3), 3.0)) == []
+    assert material_claims.force_sums(on_nodes, np.full((2, 3), 3.0 + 1e-8)) != []

@@ -1,5 +1,4 @@
 using System;
-using System.Collections.Generic;
 using System.Globalization;
 using NUnit.Framework;
 
@@ -41,37 +40,6 @@ namespace Guidewire.Core.Tests
                 worst = Math.Max(worst, error(random));
             }
             Assert.That(worst, Is.LessThan(tolerance));
-        }
-
-        /// <summary>The first seed and the number of runs that an environment variable asks for as FIRST:COUNT; no run
-        /// where it is not set.</summary>
-        public static (int First, int Count) Asked(string variable)
-        {
-            string[] asked = (Environment.GetEnvironmentVariable(variable) ?? "0:0").Split(new[] { ':' });
-            return (int.Parse(asked[0], CultureInfo.InvariantCulture),
-                int.Parse(asked[1], CultureInfo.InvariantCulture));
-        }
-
-        /// <summary>The runs of these seeds; one that cannot start is a line instead.</summary>
-        public static IEnumerable<T> Runs<T>(int first, int count, Func<int, T> make, List<string> cannotStart)
-            where T : class
-        {
-            for (int seed = first; seed < first + count; seed++)
-            {
-                T? run = null;
-                try
-                {
-                    run = make(seed);
-                }
-                catch (ArgumentException error)
-                {
-                    cannotStart.Add("seed " + seed + ": " + error.Message);
-                }
-                if (run != null)
-                {
-                    yield return run;
-                }
-            }
         }
 
         public double Number(double from, double to)

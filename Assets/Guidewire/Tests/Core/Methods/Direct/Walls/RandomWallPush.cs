@@ -6,8 +6,8 @@ namespace Guidewire.Core.Tests
     /// vessels, and what came of that.</summary>
     internal sealed class RandomWallPush
     {
-        /// <summary>Names of the vessels, by seed modulo their number.</summary>
-        public static readonly string[] Vessels =
+        // By seed modulo their number.
+        private static readonly string[] Vessels =
         {
             "arch", "stenosis", "mesh arch", "mesh arch with a box", "bend with a capsule", "plane with a hull",
             "narrowing bend", "mesh tube with a box",
@@ -103,10 +103,9 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
-        /// <summary>A vessel of this number and what stands in it, wide enough for a radius, units.</summary>
-        internal static ContactShape[] Walls(RandomGeometry random, int vessel, double radius)
+        // A vessel of this number and what stands in it, wide enough for a radius, units.
+        private static ContactShape[] Walls(RandomGeometry random, int vessel, double radius)
         {
-            Arch.Softness = null;    // one for all runs: an earlier one may have been between soft walls
             switch (vessel)
             {
                 case 0:

@@ -26,6 +26,14 @@ namespace Guidewire.Core.Tests
             return new TubeShape(knots.ToArray(), knots.ConvertAll(_ => LumenRadius).ToArray(), true, true);
         }
 
+        /// <summary>Distance of a point from the axis of <see cref="Arch"/>, units.</summary>
+        public static double FromArchAxis(Vector3d x)
+        {
+            double y = x.Y - BendRadius;
+            double across = (x.Z > 0.0 ? Math.Sqrt(y * y + x.Z * x.Z) : Math.Abs(y)) - BendRadius;
+            return Math.Sqrt(across * across + x.X * x.X);
+        }
+
         /// <summary>The same as a mesh: rings of corners on the tube, a pair of them in the bend's plane, so that the
         /// wire lies where chords take nothing off around the tube.</summary>
         /// <param name="around">Vertices per ring.</param>
