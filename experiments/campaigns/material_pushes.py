@@ -184,7 +184,8 @@ def _in_catheters(random, scene: dict[str, Any], widths: np.ndarray, distance: f
     ahead = min(random.uniform(0.5, 1.3) * distance, 120 * _between(random, 0.5, 4.0) * float(widths[-1]))
     turn = scene["maxSimulationSteps"] * scene.pop("twistPerStep", 0.0)
     times = scene["maxSimulationSteps"] * scene["timeStep"] * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
-    drives = [[0.0, *(ahead * random.uniform([-0.1, 0.2, 0.4, -0.1], 1.0) * [0.4, 0.7, 1.0, 1.0])] for _ in range(1 + len(widths))]
+    drives = [[0.0, *(ahead * random.uniform([-0.1, 0.2, 0.4, -0.1], 1.0) * [0.4, 0.7, 1.0, 1.0])]
+              for _ in range(1 + len(widths))]
     files = [stem.with_name(f"{stem.name}{k}.csv") for k in range(len(drives))]
     for file, drive in zip(files, drives):
         turns = [0.0, *random.uniform(-1.0, 1.0, 4) * (abs(turn) + np.pi)]
