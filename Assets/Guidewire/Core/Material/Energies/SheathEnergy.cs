@@ -61,11 +61,6 @@ namespace Guidewire.Core
         {
         }
 
-        /// <inheritdoc/>
-        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
-        {
-        }
-
         // Joints beyond these are as they were, and outside.
         private void Cut(int changed)
         {

@@ -316,8 +316,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
+            base.AddBlocks(shape, blocks, gradient, from, to);
             double perSquare = 1.0 / (StageLength * StageLength);
             double perTurn = PerTurn;
             int end = Math.Min(to, Elements);

@@ -285,13 +285,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
-        {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
-        }
-
-        /// <inheritdoc/>
         public override void AddTwistRows(RodShape shape, TwistRow[] rows, int from, int to)
         {
             for (int i = 1; i <= _count; i++)

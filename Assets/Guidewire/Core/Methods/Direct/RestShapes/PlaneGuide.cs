@@ -60,8 +60,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
         {
-            var measured = default(GradientMeasures);
-            AddGradient(shape, gradient, from, to, ref measured);
+            base.AddBlocks(shape, blocks, gradient, from, to);
             for (int i = from; i < to; i++)
             {
                 ref RodBlock b = ref blocks[i];
