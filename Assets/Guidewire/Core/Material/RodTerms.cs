@@ -51,7 +51,10 @@ namespace Guidewire.Core
             };
             if (supports.Winds)
             {
-                _elastic = Joined(_elastic, new EnergyTerm[] { new SheathEnergy(supports.Coaxial!, Bending) });
+                _elastic = Joined(_elastic, new EnergyTerm[]
+                {
+                    new SheathEnergy(supports.Coaxial!, (BendTwistEnergy<RotationVectorLaw>)Bending),
+                });
             }
             _loads = Joined(new EnergyTerm[]
             {

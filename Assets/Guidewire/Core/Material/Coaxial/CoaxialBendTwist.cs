@@ -289,12 +289,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void SetJoint(int k, in Joint joint)
-        {
-            throw new NotSupportedException("joints of coaxial instruments follow from their hubs");
-        }
-
-        /// <inheritdoc/>
         public override void Couples(RodShape shape, Vector3d[] couples)
         {
             for (int k = 0; k < _joints.ElementCount; k++)
@@ -313,12 +307,6 @@ namespace Guidewire.Core
             Vector3d[] rates)
         {
             throw new NotSupportedException("coaxial instruments have no damping of their strains");
-        }
-
-        /// <inheritdoc/>
-        public override void TurnProximal(double turn)
-        {
-            throw new NotSupportedException(NoWinding);
         }
 
         /// <inheritdoc/>

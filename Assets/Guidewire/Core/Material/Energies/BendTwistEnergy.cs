@@ -52,8 +52,9 @@ namespace Guidewire.Core
             Wind(0.0);
         }
 
-        /// <inheritdoc/>
-        public override void TurnProximal(double turn)
+        /// <summary>Joint 0 is without torque where it is turned by this more than at rest, radians: what is beyond
+        /// its frame has turned so far.</summary>
+        public void TurnProximal(double turn)
         {
             _proximalTurn = turn;
             Vector3d rest = _joint[0].Rest;
@@ -99,8 +100,8 @@ namespace Guidewire.Core
             }
         }
 
-        /// <inheritdoc/>
-        public override void SetJoint(int k, in Joint joint)
+        /// <summary>Joint k is this one from now on.</summary>
+        public void SetJoint(int k, in Joint joint)
         {
             _joint[k] = joint;
             if (k == 0)

@@ -18,9 +18,6 @@ namespace Guidewire.Core
         /// <summary>A joint in a shape: its law, its turn and, of several instruments, their angles.</summary>
         public abstract void Evaluate(RodShape shape, int k, out CoaxialJointState s);
 
-        /// <summary>Joint k is this one from now on.</summary>
-        public abstract void SetJoint(int k, in Joint joint);
-
         /// <summary>Couple that the piece after each of the n+1 joints exerts on the piece before it, N m, along the
         /// world's axes; 0 where an end has no joint.</summary>
         public abstract void Couples(RodShape shape, Vector3d[] couples);
@@ -49,11 +46,7 @@ namespace Guidewire.Core
         public abstract void MeasureRates(RodShape shape, Vector3d[] spins, in Vector3d proximal, in Vector3d distal,
             Vector3d[] rates);
 
-        /// <summary>Joint 0 is without torque where it is turned by this more than at rest, radians: what is beyond its
-        /// frame has turned so far.</summary>
-        public abstract void TurnProximal(double turn);
-
-        /// <summary>Gives dE/dturn of <see cref="TurnProximal"/>, N m.</summary>
+        /// <summary>Gives the torque of the hub of a wire alone in a sheath, N m: dE/dturn.</summary>
         public abstract double TurnCouple(RodShape shape);
 
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>

@@ -12,11 +12,11 @@ namespace Guidewire.Core
         private static readonly double[] NoLead = { 0.0 };
 
         private readonly CoaxialRod _rod;
-        private readonly BendTwistTerm _bending;
+        private readonly BendTwistEnergy<RotationVectorLaw> _bending;
         private double _held;                   // J
 
         /// <summary>Of a wire alone, with joint 0 for all that is before it.</summary>
-        public SheathEnergy(CoaxialRod rod, BendTwistTerm bending)
+        public SheathEnergy(CoaxialRod rod, BendTwistEnergy<RotationVectorLaw> bending)
         {
             _rod = rod;
             _bending = bending;

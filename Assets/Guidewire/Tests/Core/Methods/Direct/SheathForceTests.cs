@@ -211,13 +211,14 @@ namespace Guidewire.Core.Tests
             spring.Position = place + on * spring.Axis;
             SheathEnergy sheath = Array.Find(terms.All, term => term is SheathEnergy) as SheathEnergy
                 ?? throw new InvalidOperationException("no sheath");
+            var bending = (BendTwistEnergy<RotationVectorLaw>)terms.Bending;
             double exit = run.Dynamics.Terms.Supports.Coaxial!.Joints.Sheathed;
             sheath.SetExit(exit - on);
-            terms.Bending.TurnProximal(ahead + turn);
+            bending.TurnProximal(ahead + turn);
             double energy = terms.Potential(run.Dynamics.Shape);
             spring.Position = place;
             sheath.SetExit(exit);
-            terms.Bending.TurnProximal(ahead);
+            bending.TurnProximal(ahead);
             return energy;
         }
 
