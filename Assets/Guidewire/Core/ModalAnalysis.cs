@@ -150,24 +150,17 @@ namespace Guidewire.Core
             var result = new RodVector[v.Length];
             for (int i = 0; i < _mass.Diagonal.Length; i++)
             {
-                AddX(ref result[i], _mass.Diagonal[i], v[i]);
+                result[i].AddX(_mass.Diagonal[i] * v[i].X);
                 if (i < _mass.Coupling.Length)
                 {
-                    AddX(ref result[i], _mass.Coupling[i], v[i + 1]);
-                    AddX(ref result[i + 1], _mass.Coupling[i], v[i]);
+                    result[i].AddX(_mass.Coupling[i] * v[i + 1].X);
+                    result[i + 1].AddX(_mass.Coupling[i] * v[i].X);
                     result[i].T1 = _mass.Rotary[i].X * v[i].T1;
                     result[i].T2 = _mass.Rotary[i].Y * v[i].T2;
                     result[i].T3 = _mass.Rotary[i].Z * v[i].T3;
                 }
             }
             return result;
-        }
-
-        private static void AddX(ref RodVector to, double factor, in RodVector v)
-        {
-            to.X1 += factor * v.X1;
-            to.X2 += factor * v.X2;
-            to.X3 += factor * v.X3;
         }
 
         private Vector3d[] Shift(RodVector[] mode)
@@ -177,9 +170,9 @@ namespace Guidewire.Core
             double turn = 0.0;
             for (int i = 0; i < shift.Length; i++)
             {
-                shift[i] = new Vector3d(mode[i].X1, mode[i].X2, mode[i].X3);
+                shift[i] = mode[i].X;
                 largest = Math.Max(largest, shift[i].Length);
-                turn = Math.Max(turn, new Vector3d(mode[i].T1, mode[i].T2, mode[i].T3).Length);
+                turn = Math.Max(turn, mode[i].T.Length);
             }
             bool isTwist = largest <= Still * _length * turn;
             return Array.ConvertAll(shift, s => isTwist ? Vector3d.Zero : s / largest);

@@ -220,7 +220,7 @@ namespace Guidewire.Core
                 Vector3d x = motion.Shift + Vector3d.Cross(motion.Turn, shape.X[i] - shape.X[0]);
                 Vector3d t = i == n ? Vector3d.Zero
                     : Quaterniond.Rotate(shape.Q[i].Conjugate, motion.Turn) + motion.Own * Vector3d.UnitZ;
-                rates[i] = new RodVector { X1 = x.X, X2 = x.Y, X3 = x.Z, T1 = t.X, T2 = t.Y, T3 = t.Z };
+                rates[i] = new RodVector(x, t);
             }
         }
 

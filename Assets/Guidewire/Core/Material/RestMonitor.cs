@@ -181,7 +181,7 @@ namespace Guidewire.Core
             {
                 Vector3d v = _velocities[i];
                 Vector3d w = i < n ? _spins[i] : Vector3d.Zero;
-                _motion[i] = new RodVector { X1 = v.X, X2 = v.Y, X3 = v.Z, T1 = w.X, T2 = w.Y, T3 = w.Z };
+                _motion[i] = new RodVector(v, w);
             }
         }
 
@@ -204,7 +204,7 @@ namespace Guidewire.Core
                     Vector3d w = _spins[i];
                     spin = new Vector3d(mass.Rotary[i].X * w.X, mass.Rotary[i].Y * w.Y, mass.Rotary[i].Z * w.Z);
                 }
-                _swing[i] = new RodVector { X1 = p.X, X2 = p.Y, X3 = p.Z, T1 = spin.X, T2 = spin.Y, T3 = spin.Z };
+                _swing[i] = new RodVector(p, spin);
             }
             _swing[last + 1] = default;
             _system.Project(_swing);

@@ -249,8 +249,7 @@ namespace Guidewire.Core
             {
                 term.AddGradient(shape, _endGradient, from, node + 1, ref measured);
             }
-            RodVector g = _endGradient[node];
-            return new Vector3d(g.X1, g.X2, g.X3);
+            return _endGradient[node].X;
         }
 
         /// <summary>Writes or restores the state of the terms between steps.</summary>

@@ -297,7 +297,7 @@ namespace Guidewire.Core
                 RodVector before = default;
                 RodVector after = default;
                 _law.AddGradient(s.Joint, s.Relative, ref before, ref after);
-                couples[k] = Quaterniond.Rotate(shape.Q[k], new Vector3d(after.T1, after.T2, after.T3));
+                couples[k] = Quaterniond.Rotate(shape.Q[k], after.T);
             }
             couples[_joints.ElementCount] = Vector3d.Zero;
         }
@@ -322,7 +322,7 @@ namespace Guidewire.Core
             RodVector onFrame = default;
             RodVector onElement = default;
             _law.AddGradient(s.Joint, s.Relative, ref onFrame, ref onElement);
-            return Quaterniond.Rotate(shape.ProximalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+            return Quaterniond.Rotate(shape.ProximalFrame, onFrame.T);
         }
 
         /// <inheritdoc/>

@@ -312,7 +312,7 @@ namespace Guidewire.Core
             {
                 bool isMissing = (k == 0 && !_hasProximal) || (k == n && !_hasDistal);
                 couples[k] = isMissing ? Vector3d.Zero : Quaterniond.Rotate(k == n ? shape.DistalFrame : shape.Q[k],
-                    new Vector3d(_onAfter[k].T1, _onAfter[k].T2, _onAfter[k].T3));
+                    _onAfter[k].T);
             }
         }
 
@@ -340,7 +340,7 @@ namespace Guidewire.Core
             {
                 _law.AddGradient(First, FirstRelative(shape), ref onFrame, ref onElement);
             }
-            return Quaterniond.Rotate(shape.ProximalFrame * _wound, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+            return Quaterniond.Rotate(shape.ProximalFrame * _wound, onFrame.T);
         }
 
         /// <inheritdoc/>
@@ -353,7 +353,7 @@ namespace Guidewire.Core
             {
                 _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref onElement, ref onFrame);
             }
-            return Quaterniond.Rotate(shape.DistalFrame, new Vector3d(onFrame.T1, onFrame.T2, onFrame.T3));
+            return Quaterniond.Rotate(shape.DistalFrame, onFrame.T);
         }
 
         // Joint 0 at rest, and its turn, both less the winding.

@@ -88,9 +88,7 @@ namespace Guidewire.Core
         {
             for (int i = from; i < to; i++)
             {
-                gradient[i].X1 -= Force[i].X;
-                gradient[i].X2 -= Force[i].Y;
-                gradient[i].X3 -= Force[i].Z;
+                gradient[i].AddX(-Force[i]);
             }
         }
     }

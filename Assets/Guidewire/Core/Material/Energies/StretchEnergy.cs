@@ -194,12 +194,8 @@ namespace Guidewire.Core
         private static void AddForce(ref RodVector node, ref RodVector next, in Vector3d force, in Vector3d n,
             in Vector3d p, double l)
         {
-            node.X1 -= force.X;
-            node.X2 -= force.Y;
-            node.X3 -= force.Z;
-            next.X1 += force.X;
-            next.X2 += force.Y;
-            next.X3 += force.Z;
+            node.AddX(-force);
+            next.AddX(force);
             node.T1 += l * (n.Y * p.Z - n.Z * p.Y);
             node.T2 += l * (n.Z * p.X - n.X * p.Z);
             node.T3 += l * (n.X * p.Y - n.Y * p.X);

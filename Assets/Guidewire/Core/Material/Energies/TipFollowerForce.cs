@@ -53,9 +53,7 @@ namespace Guidewire.Core
             if (from <= end && end < to && Force != Vector3d.Zero)
             {
                 Vector3d force = Along(shape);
-                gradient[end].X1 -= force.X;
-                gradient[end].X2 -= force.Y;
-                gradient[end].X3 -= force.Z;
+                gradient[end].AddX(-force);
             }
         }
 

@@ -50,9 +50,7 @@ namespace Guidewire.Core
             int last = shape.ElementCount - 1;
             if (from <= last && last < to)
             {
-                gradient[last].T1 -= Moment.X;
-                gradient[last].T2 -= Moment.Y;
-                gradient[last].T3 -= Moment.Z;
+                gradient[last].AddT(-Moment);
             }
         }
     }

@@ -320,14 +320,8 @@ namespace Guidewire.Core
             ProjectEnd(ref gradient[_count - 1]);
             for (int i = from; i < to; i++)
             {
-                ref RodVector v = ref y[i];
-                ref RodVector g = ref gradient[i];
-                v.X1 -= g.X1;
-                v.X2 -= g.X2;
-                v.X3 -= g.X3;
-                v.T1 -= g.T1;
-                v.T2 -= g.T2;
-                v.T3 -= g.T3;
+                y[i].AddX(-gradient[i].X);
+                y[i].AddT(-gradient[i].T);
             }
             gradient[0] = start;
             gradient[_count - 1] = end;
@@ -337,9 +331,7 @@ namespace Guidewire.Core
         {
             if (_holdsStart)
             {
-                v.X1 = 0.0;
-                v.X2 = 0.0;
-                v.X3 = 0.0;
+                v.X = Vector3d.Zero;
             }
         }
 
@@ -352,11 +344,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            Vector3d a = _slidingAxis;
-            double along = _distalEnd == DistalEnd.Sliding ? a.X * v.X1 + a.Y * v.X2 + a.Z * v.X3 : 0.0;
-            v.X1 = along * a.X;
-            v.X2 = along * a.Y;
-            v.X3 = along * a.Z;
+            v.X = _distalEnd == DistalEnd.Sliding ? Vector3d.Dot(_slidingAxis, v.X) * _slidingAxis : Vector3d.Zero;
         }
 
         private void AddShift(double shift, int from, int to)

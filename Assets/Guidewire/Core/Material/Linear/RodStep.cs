@@ -49,7 +49,7 @@ namespace Guidewire.Core
             ref Vector3d old, ref Vector3d x)
         {
             RodVector d = direction[j];
-            Vector3d turn = new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3);
+            Vector3d turn = scale * d.T;
             Vector3d nextOld = shape.X[j + 1];
             Quaterniond q = shape.Q[j];
             Quaterniond inverse = q.Conjugate;
@@ -68,7 +68,7 @@ namespace Guidewire.Core
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static Vector3d Move(in RodVector d, double scale)
         {
-            return new Vector3d(scale * d.X1, scale * d.X2, scale * d.X3);
+            return scale * d.X;
         }
 
         /// <summary>The same with positions on straight lines, on which gaps to walls are bounded
@@ -91,7 +91,7 @@ namespace Guidewire.Core
                     RodVector d = direction[j];
                     to.X[j] = shape.X[j] + Move(d, scale);
                     Quaterniond q = shape.Q[j]
-                        * RotationVector.Exp(new Vector3d(scale * d.T1, scale * d.T2, scale * d.T3));
+                        * RotationVector.Exp(scale * d.T);
                     to.Q[j] = (1.5 - 0.5 * q.LengthSquared) * q;
                 }
             }

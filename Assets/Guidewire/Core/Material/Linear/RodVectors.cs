@@ -11,8 +11,7 @@ namespace Guidewire.Core
             double sum = 0.0;
             for (int i = 0; i < Math.Min(count, a.Length); i++)
             {
-                sum += a[i].X1 * b[i].X1 + a[i].X2 * b[i].X2 + a[i].X3 * b[i].X3
-                    + a[i].T1 * b[i].T1 + a[i].T2 * b[i].T2 + a[i].T3 * b[i].T3;
+                sum += RodVector.Dot(a[i], b[i]);
             }
             return sum;
         }
@@ -43,12 +42,7 @@ namespace Guidewire.Core
         {
             for (int i = 0; i < to.Length; i++)
             {
-                to[i].X1 += scale * v[i].X1;
-                to[i].X2 += scale * v[i].X2;
-                to[i].X3 += scale * v[i].X3;
-                to[i].T1 += scale * v[i].T1;
-                to[i].T2 += scale * v[i].T2;
-                to[i].T3 += scale * v[i].T3;
+                to[i].AddScaled(scale, v[i]);
             }
         }
 

@@ -24,12 +24,12 @@ namespace Guidewire.Core
             ref TwistRow row = ref rows[j];
             ref TwistRow nextRow = ref rows[j + 1];
             PassBlock(block, ref row, ref nextRow);
-            double pivot = row.Diagonal - Dot(row.WeightedOwn, row.Own);
-            row.NextTwist -= Dot(row.WeightedNext, row.Own);
-            nextRow.Diagonal -= Dot(row.WeightedNext, row.Next);
+            double pivot = row.Diagonal - RodVector.Dot(row.WeightedOwn, row.Own);
+            row.NextTwist -= RodVector.Dot(row.WeightedNext, row.Own);
+            nextRow.Diagonal -= RodVector.Dot(row.WeightedNext, row.Next);
             row.Inverse = 1.0 / pivot;
             AddSquare(ref next, row.Below, -row.Inverse);
-            AddScaled(ref nextRow.Own, -row.Inverse * row.NextTwist, row.Below);
+            nextRow.Own.AddScaled(-row.Inverse * row.NextTwist, row.Below);
             nextRow.Diagonal -= row.Inverse * row.NextTwist * row.NextTwist;
             int negative = pivot > 0.0 ? 0 : 1;
             if (second > 0)
@@ -46,25 +46,25 @@ namespace Guidewire.Core
             ref TwistRow nextFirst, ref TwistRow row, ref TwistRow nextRow)
         {
             PassBlock(block, ref row, ref nextRow);
-            double pivot = row.Diagonal - Dot(row.WeightedOwn, row.Own);
-            first.Other -= Dot(first.WeightedOwn, row.Own);
-            first.NextOther -= Dot(row.WeightedNext, first.Own);
-            row.NextTwist -= Dot(row.WeightedNext, row.Own);
-            row.NextOther -= Dot(first.WeightedNext, row.Own);
-            nextRow.Diagonal -= Dot(row.WeightedNext, row.Next);
-            nextFirst.Other -= Dot(first.WeightedNext, row.Next);
+            double pivot = row.Diagonal - RodVector.Dot(row.WeightedOwn, row.Own);
+            first.Other -= RodVector.Dot(first.WeightedOwn, row.Own);
+            first.NextOther -= RodVector.Dot(row.WeightedNext, first.Own);
+            row.NextTwist -= RodVector.Dot(row.WeightedNext, row.Own);
+            row.NextOther -= RodVector.Dot(first.WeightedNext, row.Own);
+            nextRow.Diagonal -= RodVector.Dot(row.WeightedNext, row.Next);
+            nextFirst.Other -= RodVector.Dot(first.WeightedNext, row.Next);
             double scale = first.Inverse * first.Other;
             pivot -= scale * first.Other;
             row.NextOther -= scale * first.NextTwist;
             row.NextTwist -= scale * first.NextOther;
-            AddScaled(ref row.Below, -scale, first.Below);
-            AddScaled(ref nextRow.Own, -first.Inverse * first.NextOther, first.Below);
+            row.Below.AddScaled(-scale, first.Below);
+            nextRow.Own.AddScaled(-first.Inverse * first.NextOther, first.Below);
             nextRow.Diagonal -= first.Inverse * first.NextOther * first.NextOther;
             nextFirst.Other -= first.Inverse * first.NextTwist * first.NextOther;
             row.Inverse = 1.0 / pivot;
             AddSquare(ref next, row.Below, -row.Inverse);
-            AddScaled(ref nextFirst.Own, -row.Inverse * row.NextOther, row.Below);
-            AddScaled(ref nextRow.Own, -row.Inverse * row.NextTwist, row.Below);
+            nextFirst.Own.AddScaled(-row.Inverse * row.NextOther, row.Below);
+            nextRow.Own.AddScaled(-row.Inverse * row.NextTwist, row.Below);
             nextFirst.Diagonal -= row.Inverse * row.NextOther * row.NextOther;
             nextRow.Diagonal -= row.Inverse * row.NextTwist * row.NextTwist;
             nextFirst.Other -= row.Inverse * row.NextOther * row.NextTwist;
@@ -74,12 +74,12 @@ namespace Guidewire.Core
         // Sends the columns of z_j and z_(j+1) through block j, which is eliminated.
         private static void PassBlock(in RodBlock block, ref TwistRow row, ref TwistRow nextRow)
         {
-            Add(ref row.Own, row.Turn);
+            row.Own.AddT(row.Turn);
             row.Below = default;
-            Add(ref row.Below, row.NextTurn);
+            row.Below.AddT(row.NextTurn);
             BlockElimination.Forward(block, ref row.Own, ref row.Below);
             row.Next = default;
-            Add(ref row.Next, row.TurnOfNext);
+            row.Next.AddT(row.TurnOfNext);
             BlockElimination.Forward(block, ref row.Next, ref nextRow.Own);
             row.WeightedOwn = Weighted(block, row.Own);
             row.WeightedNext = Weighted(block, row.Next);
@@ -92,16 +92,16 @@ namespace Guidewire.Core
             ref RodVector z, ref RodVector nextZ)
         {
             ref readonly TwistRow first = ref rows[j];
-            z.T3 = first.Inverse * (z.T3 - Dot(first.WeightedOwn, y));
-            double toFirst = Dot(first.WeightedNext, y) + first.NextTwist * z.T3;
-            AddScaled(ref nextY, -z.T3, first.Below);
+            z.T3 = first.Inverse * (z.T3 - RodVector.Dot(first.WeightedOwn, y));
+            double toFirst = RodVector.Dot(first.WeightedNext, y) + first.NextTwist * z.T3;
+            nextY.AddScaled(-z.T3, first.Below);
             if (second > 0)
             {
                 ref readonly TwistRow row = ref rows[second + j];
-                z.T2 = row.Inverse * (z.T2 - Dot(row.WeightedOwn, y) - first.Other * z.T3);
+                z.T2 = row.Inverse * (z.T2 - RodVector.Dot(row.WeightedOwn, y) - first.Other * z.T3);
                 toFirst += row.NextOther * z.T2;
-                nextZ.T2 -= Dot(row.WeightedNext, y) + first.NextOther * z.T3 + row.NextTwist * z.T2;
-                AddScaled(ref nextY, -z.T2, row.Below);
+                nextZ.T2 -= RodVector.Dot(row.WeightedNext, y) + first.NextOther * z.T3 + row.NextTwist * z.T2;
+                nextY.AddScaled(-z.T2, row.Below);
             }
             nextZ.T3 -= toFirst;
         }
@@ -112,21 +112,22 @@ namespace Guidewire.Core
             ref RodVector z, in RodVector nextZ)
         {
             ref readonly TwistRow first = ref rows[j];
-            double sum = Dot(first.Below, nextY) + first.NextTwist * nextZ.T3;
+            double sum = RodVector.Dot(first.Below, nextY) + first.NextTwist * nextZ.T3;
             if (second == 0)
             {
                 z.T3 -= first.Inverse * sum;
-                AddScaled(ref y, -z.T3, first.Own);
-                AddScaled(ref y, -nextZ.T3, first.Next);
+                y.AddScaled(-z.T3, first.Own);
+                y.AddScaled(-nextZ.T3, first.Next);
                 return;
             }
             ref readonly TwistRow row = ref rows[second + j];
-            z.T2 -= row.Inverse * (Dot(row.Below, nextY) + row.NextOther * nextZ.T3 + row.NextTwist * nextZ.T2);
+            z.T2 -= row.Inverse
+                * (RodVector.Dot(row.Below, nextY) + row.NextOther * nextZ.T3 + row.NextTwist * nextZ.T2);
             z.T3 -= first.Inverse * (sum + first.NextOther * nextZ.T2 + first.Other * z.T2);
-            AddScaled(ref y, -z.T3, first.Own);
-            AddScaled(ref y, -z.T2, row.Own);
-            AddScaled(ref y, -nextZ.T3, first.Next);
-            AddScaled(ref y, -nextZ.T2, row.Next);
+            y.AddScaled(-z.T3, first.Own);
+            y.AddScaled(-z.T2, row.Own);
+            y.AddScaled(-nextZ.T3, first.Next);
+            y.AddScaled(-nextZ.T2, row.Next);
         }
 
         // D times a column.
@@ -137,29 +138,6 @@ namespace Guidewire.Core
                 X1 = v.X1 / block.A11, X2 = v.X2 / block.A22, X3 = v.X3 / block.A33,
                 T1 = v.T1 / block.C11, T2 = v.T2 / block.C22, T3 = v.T3 / block.C33,
             };
-        }
-
-        private static double Dot(in RodVector a, in RodVector b)
-        {
-            return a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;
-        }
-
-        private static void Add(ref RodVector v, in Vector3d turn)
-        {
-            v.T1 += turn.X;
-            v.T2 += turn.Y;
-            v.T3 += turn.Z;
-        }
-
-        // to += scale v.
-        private static void AddScaled(ref RodVector to, double scale, in RodVector v)
-        {
-            to.X1 += scale * v.X1;
-            to.X2 += scale * v.X2;
-            to.X3 += scale * v.X3;
-            to.T1 += scale * v.T1;
-            to.T2 += scale * v.T2;
-            to.T3 += scale * v.T3;
         }
 
         // block += scale b b^T.

@@ -217,7 +217,7 @@ namespace Guidewire.Core
             {
                 ref RodVector g = ref _loadGradient[i];
                 Velocities[i] = _remainingVelocity * Velocities[i]
-                    - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
+                    - (h * _inertia.InverseMass[i]) * g.X;
                 if (_inertia.InverseMass[i] > 0.0)
                 {
                     Shape.X[i] += h * Velocities[i];
@@ -249,7 +249,7 @@ namespace Guidewire.Core
             {
                 _walls.EndSubstep(Shape);
                 RodVector g = _loadGradient[0];
-                _supportForce += new Vector3d(g.X1, g.X2, g.X3) + (1.0 / (h * h)) * _stretch.FirstMultiplier(Shape);
+                _supportForce += g.X + (1.0 / (h * h)) * _stretch.FirstMultiplier(Shape);
             }
             double rate = 1.0 / h;
             for (int i = 0; i <= last; i++)

@@ -71,19 +71,10 @@ namespace Guidewire.Core
         {
             int j = contact.Element;
             Vector3d force = _perSquare * (contact.NormalImpulse * contact.Normal + contact.FrictionImpulse);
-            Add(ref gradient[j], 1.0 - contact.Position, force);
-            Add(ref gradient[j + 1], contact.Position, force);
+            gradient[j].AddX(-((1.0 - contact.Position) * force));
+            gradient[j + 1].AddX(-(contact.Position * force));
             Vector3d couple = _perSquare * contact.Couple(shape.Q[j]);
-            gradient[j].T1 -= couple.X;
-            gradient[j].T2 -= couple.Y;
-            gradient[j].T3 -= couple.Z;
-        }
-
-        private static void Add(ref RodVector gradient, double weight, in Vector3d force)
-        {
-            gradient.X1 -= weight * force.X;
-            gradient.X2 -= weight * force.Y;
-            gradient.X3 -= weight * force.Z;
+            gradient[j].AddT(-couple);
         }
     }
 }

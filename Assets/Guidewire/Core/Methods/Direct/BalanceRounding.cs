@@ -84,7 +84,7 @@ namespace Guidewire.Core
             {
                 RodVector f = forces[i];
                 double rounding = Of(Math.Max(i - 1, 0)) + ofEnd;
-                sum += new Vector3d(f.X1, f.X2, f.X3);
+                sum += f.X;
                 largest = Math.Max(largest, sum.Length - rounding);
                 double couple = Math.Abs(f.T1) + Math.Abs(f.T2) + Math.Abs(f.T3);
                 if (i < _rod.ElementCount)
@@ -106,9 +106,7 @@ namespace Guidewire.Core
         {
             for (int i = 1; IsLarge && !_holdsEnd && i <= _rod.ElementCount; i++)
             {
-                gradient[0].X1 += gradient[i].X1;
-                gradient[0].X2 += gradient[i].X2;
-                gradient[0].X3 += gradient[i].X3;
+                gradient[0].AddX(gradient[i].X);
             }
         }
 

@@ -71,7 +71,7 @@ namespace Guidewire.Core
                 double start = _time + k * h;
                 Drift(0.5 * h, start + 0.5 * h);
                 Kick(h, start + 0.5 * h);
-                reaction += new Vector3d(_gradient[0].X1, _gradient[0].X2, _gradient[0].X3);
+                reaction += _gradient[0].X;
                 Drift(0.5 * h, start + h);
             }
             _time += TimeStep;
@@ -193,7 +193,7 @@ namespace Guidewire.Core
             {
                 ref RodVector g = ref _gradient[i];
                 Velocities[i] = _remainingVelocity * Velocities[i]
-                    - (h * _inertia.InverseMass[i]) * new Vector3d(g.X1, g.X2, g.X3);
+                    - (h * _inertia.InverseMass[i]) * g.X;
                 if (i < n)
                 {
                     Vector3d w = Spins[i];

@@ -186,7 +186,7 @@ namespace Guidewire.Core
 
         private Vector3d MoveOf(RodVector[] direction, int i)
         {
-            return i == _held ? Vector3d.Zero : new Vector3d(direction[i].X1, direction[i].X2, direction[i].X3);
+            return i == _held ? Vector3d.Zero : direction[i].X;
         }
 
         private struct Contact

@@ -169,9 +169,7 @@ namespace Guidewire.Core
                     continue;
                 }
                 largest = Math.Max(largest, _gradient[i].LengthSquared);
-                gradient[i].X1 += _gradient[i].X;
-                gradient[i].X2 += _gradient[i].Y;
-                gradient[i].X3 += _gradient[i].Z;
+                gradient[i].AddX(_gradient[i]);
             }
             measured.IncludeForce(Math.Sqrt(largest));
         }

@@ -258,14 +258,12 @@ namespace Guidewire.Core
         {
             int j = contact.Element;
             Vector3d force = StiffnessAt(contact, z) * z;
-            Add(ref gradient[j], 1.0 - contact.Position, force);
-            Add(ref gradient[j + 1], contact.Position, force);
+            gradient[j].AddX((1.0 - contact.Position) * force);
+            gradient[j + 1].AddX(contact.Position * force);
             Vector3d couple = Quaterniond.Rotate(_frames[j].Conjugate,
                 _barrier.RadiusOf(j) * Vector3d.Cross(force, contact.Normal));
             couple = InverseTangent(-turn, couple);
-            gradient[j].T1 += couple.X;
-            gradient[j].T2 += couple.Y;
-            gradient[j].T3 += couple.Z;
+            gradient[j].AddT(couple);
         }
 
         private void AddBlocks(in FrictionContact contact, in Vector3d turn, in Symmetric3 h, ref RodBlock b,
@@ -308,13 +306,6 @@ namespace Guidewire.Core
             Vector3d across = Vector3d.Cross(turn, v);
             return v + 0.5 * across
                 + RotationVector.CotangentFactor(turn.LengthSquared) * Vector3d.Cross(turn, across);
-        }
-
-        private static void Add(ref RodVector gradient, double weight, in Vector3d force)
-        {
-            gradient.X1 += weight * force.X;
-            gradient.X2 += weight * force.Y;
-            gradient.X3 += weight * force.Z;
         }
     }
 }

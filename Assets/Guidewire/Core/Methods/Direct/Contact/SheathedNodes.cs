@@ -87,7 +87,7 @@ namespace Guidewire.Core
             for (int i = 0; i <= shape.ElementCount; i++)
             {
                 RodVector d = direction[i];
-                Vector3d move = step * new Vector3d(d.X1, d.X2, d.X3);
+                Vector3d move = step * d.X;
                 to[i] = from[i] + move;
                 if (isInside)
                 {

@@ -98,9 +98,7 @@ namespace Guidewire.Core
             if (from == 0)
             {
                 Vector3d force = Force(shape);
-                gradient[0].X1 -= force.X;
-                gradient[0].X2 -= force.Y;
-                gradient[0].X3 -= force.Z;
+                gradient[0].AddX(-force);
             }
         }
 

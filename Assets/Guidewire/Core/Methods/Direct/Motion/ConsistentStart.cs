@@ -65,7 +65,7 @@ namespace Guidewire.Core
             for (int i = 0; i <= n; i++)
             {
                 RodVector g = _gradient[i];
-                acceleration[i] = new Vector3d(-g.X1, -g.X2, -g.X3);
+                acceleration[i] = -g.X;
             }
             Vector3d first = acceleration[0];
             Vector3d last = acceleration[n];

@@ -299,17 +299,11 @@ namespace Guidewire.Core
                     Vector3d b = perSquare * (shape.X[i + 1] - FreePositions[i + 1]);
                     double coupling = _coupling[i];
                     force += coupling * b;
-                    gradient[i + 1].X1 += coupling * a.X;
-                    gradient[i + 1].X2 += coupling * a.Y;
-                    gradient[i + 1].X3 += coupling * a.Z;
+                    gradient[i + 1].AddX(coupling * a);
                     Vector3d couple = _couple[i];
-                    gradient[i].T1 += couple.X;
-                    gradient[i].T2 += couple.Y;
-                    gradient[i].T3 += couple.Z;
+                    gradient[i].AddT(couple);
                 }
-                gradient[i].X1 += force.X;
-                gradient[i].X2 += force.Y;
-                gradient[i].X3 += force.Z;
+                gradient[i].AddX(force);
             }
         }
 

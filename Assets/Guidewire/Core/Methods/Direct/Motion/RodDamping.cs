@@ -1,4 +1,3 @@
-using System.Runtime.CompilerServices;
 using System;
 
 namespace Guidewire.Core
@@ -275,14 +274,14 @@ namespace Guidewire.Core
             double scale = _ofMass * _perStage;
             int last = Math.Min(to, _mass.ElementCount);
             Vector3d moved = shape.X[from] - _history.Position[from];
-            Vector3d sum = ForceOf(gradient[from]);
+            Vector3d sum = gradient[from].X;
             for (int i = from; i < last; i++)
             {
                 Vector3d d = scale * moved;
                 moved = shape.X[i + 1] - _history.Position[i + 1];
                 sum = sum + _mass.Diagonal[i] * d + (scale * _mass.Coupling[i]) * moved;
-                SetForce(ref gradient[i], sum);
-                sum = ForceOf(gradient[i + 1]) + _mass.Coupling[i] * d;
+                gradient[i].X = sum;
+                sum = gradient[i + 1].X + _mass.Coupling[i] * d;
             }
             if (last < to && last <= _mass.ElementCount)
             {
@@ -290,22 +289,8 @@ namespace Guidewire.Core
             }
             if (last <= _mass.ElementCount)
             {
-                SetForce(ref gradient[last], sum);
+                gradient[last].X = sum;
             }
-        }
-
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector3d ForceOf(in RodVector of)
-        {
-            return new Vector3d(of.X1, of.X2, of.X3);
-        }
-
-        [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static void SetForce(ref RodVector to, in Vector3d force)
-        {
-            to.X1 = force.X;
-            to.X2 = force.Y;
-            to.X3 = force.Z;
         }
 
         /// <summary>Sets springs of b/h, at rest in y^.</summary>

@@ -71,8 +71,8 @@ namespace Guidewire.Core
                 AddEnds();
                 Take(new StageForces
                 {
-                    Proximal = ForceOf(_gradient[0]),
-                    Distal = ForceOf(_gradient[_motion.Shape.ElementCount]),
+                    Proximal = _gradient[0].X,
+                    Distal = _gradient[_motion.Shape.ElementCount].X,
                 });
             }
         }
@@ -125,7 +125,7 @@ namespace Guidewire.Core
             // Before the first step without inertia.
             AddAll(_hasStepped ? _moving : _terms.All);
             WallTerms? walls = _terms.Walls();
-            return (node == 0 && walls != null ? walls.SupportForce(shape) : Vector3d.Zero) + ForceOf(_gradient[node]);
+            return (node == 0 && walls != null ? walls.SupportForce(shape) : Vector3d.Zero) + _gradient[node].X;
         }
 
         /// <summary>Torque of the hub on the wire about its axis, N m; that on a wire in a sheath is the slope of the
@@ -188,17 +188,12 @@ namespace Guidewire.Core
             }
         }
 
-        private static Vector3d ForceOf(in RodVector g)
-        {
-            return new Vector3d(g.X1, g.X2, g.X3);
-        }
-
         private Vector3d SumOfLoads()
         {
             Vector3d sum = Vector3d.Zero;
             for (int i = 0; i <= _motion.Shape.ElementCount; i++)
             {
-                sum += ForceOf(_loads[i]);
+                sum += _loads[i].X;
             }
             return sum;
         }

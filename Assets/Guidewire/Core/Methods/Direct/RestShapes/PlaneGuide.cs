@@ -51,9 +51,7 @@ namespace Guidewire.Core
             for (int i = from; i < to; i++)
             {
                 double force = _alongX[i] * (Vector3d.Dot(_normal, shape.X[i]) - _offset);
-                gradient[i].X1 += force * _normal.X;
-                gradient[i].X2 += force * _normal.Y;
-                gradient[i].X3 += force * _normal.Z;
+                gradient[i].AddX(force * _normal);
             }
         }
 

@@ -105,7 +105,7 @@ namespace Guidewire.Core
             var forces = new Vector3d[shape.ElementCount + 1];
             for (int i = 0; i < forces.Length; i++)
             {
-                forces[i] = new Vector3d(gradient[i].X1, gradient[i].X2, gradient[i].X3);
+                forces[i] = gradient[i].X;
             }
             return forces;
         }

@@ -158,7 +158,7 @@ namespace Guidewire.Core
             for (int i = 0; i <= _rod.ElementCount; i++)
             {
                 RodVector g = _gradient[i];
-                record.Forces[i] = new Vector3d(-g.X1, -g.X2, -g.X3);
+                record.Forces[i] = -g.X;
                 total += record.Forces[i];
             }
             record.SetTotal(total);

@@ -93,10 +93,7 @@ namespace Guidewire.Core
                 {
                     Vector3d move = _predicted.X[j] - shape.X[j];
                     Vector3d turn = j < n ? RotationVector.Log(shape.Q[j].Conjugate * _predicted.Q[j]) : Vector3d.Zero;
-                    _direction[j] = new RodVector
-                    {
-                        X1 = move.X, X2 = move.Y, X3 = move.Z, T1 = turn.X, T2 = turn.Y, T3 = turn.Z,
-                    };
+                    _direction[j] = new RodVector(move, turn);
                 }
             }
         }
