@@ -104,15 +104,12 @@ def radii_of(scene: dict[str, Any]) -> np.ndarray:
     return 1e3 * np.array(radii)
 
 
-def chain_radii_of(scene: dict[str, Any]) -> list[np.ndarray]:
-    """Radii in units of the elements of the wire and of each catheter, the outermost last."""
-    return [radii_of(scene), *(np.full(one["elements"], 1e3 * one["wireRadius"])
-                               for one in reversed(scene.get("catheters", [])))]
-
-
-def core_radii_of(scene: dict[str, Any]) -> np.ndarray:
-    """Those that no wall may come nearer than: of soft walls a tenth of the radii."""
-    return radii_of(scene) * (1.0 - SOFT if "wallStiffness" in scene["vessel"] else 1.0)
+def core_radii_of(scene: dict[str, Any]) -> list[np.ndarray]:
+    """Those of the wire and of each catheter, the outermost last, that no wall may come nearer than: of soft walls a
+    tenth of the radii."""
+    core = 1.0 - SOFT if "wallStiffness" in scene["vessel"] else 1.0
+    return [core * radii_of(scene), *(np.full(one["elements"], core * 1e3 * one["wireRadius"])
+                                      for one in reversed(scene.get("catheters", [])))]
 
 
 def _height(plane: dict[str, Any]) -> float:

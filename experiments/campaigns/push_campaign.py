@@ -106,9 +106,10 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
     if method == "pbd":
         claims = push_claims.violations(scene, summary, log.positions, walls)
     else:
-        nodes, radii = log.positions, material_pushes.core_radii_of(scene)
+        nodes, cores = log.positions, material_pushes.core_radii_of(scene)
+        radii = cores[0]
         if log.catheters:
-            nodes, radii = material_claims.chain(nodes, log.catheters, material_pushes.chain_radii_of(scene))
+            nodes, radii = material_claims.chain(nodes, log.catheters, cores)
         claims = material_claims.violations(scene, summary, nodes, radii, walls)
         if scene.get("logHub"):
             with np.load(out / "positions.npz") as arrays:
@@ -164,11 +165,11 @@ def main(arguments: Sequence[str]) -> int:
     parser = parser_of("push_campaign", __doc__)
     parser.add_argument("--method", choices=("pbd", *material_pushes.METHODS), default="pbd",
                         help="of the runs (default pbd)")
-    parser.add_argument("--soft", action="store_true", help="walls that give way, with direct and sheath")
+    parser.add_argument("--soft", action="store_true", help="walls that give way, not with pbd and xpbd")
     parser.add_argument("--keep", type=Path, help="folder for the scenes of runs that break a claim")
     given = parser.parse_args(arguments)
-    if given.soft and given.method not in ("direct", "sheath"):
-        parser.error(f"--soft with {given.method}: only direct and sheath have soft walls")
+    if given.soft and given.method in ("pbd", "xpbd"):
+        parser.error(f"--soft with {given.method}, which has no soft walls")
     name = f"push {given.method}{' soft' if given.soft else ''}"
     command, record = building.build(building.RUNNER, print), Record(given.record)
     with folder_of(given) as folder:

@@ -52,6 +52,12 @@ def test_wires_with_a_material_pass_no_wall_and_say_what_is_true(runner_command,
         assert sum(run.overtakings for run in runs) > 0.25 * len(runs)
 
 
+@pytest.mark.long("pushes between rigid walls, and SoftCatheterTests")
+def test_catheters_pass_no_wall_that_gives_way(runner_command, tmp_path):
+    assert_true("catheters soft", [push for push in campaign(
+        runner_command, seeds("catheters soft", [], 8), tmp_path, "catheters", True) if push.claims])
+
+
 def test_catheters_that_buckle_at_the_exit_of_their_sheath_fail_before_they_are_outside(runner_command, tmp_path):
     push, = campaign(runner_command, [224], tmp_path, "sheathed")
     assert (push.outcome, push.claims) == ("failed", [])
