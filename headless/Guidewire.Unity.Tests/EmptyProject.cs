@@ -39,13 +39,6 @@ namespace Guidewire.Unity.Tests
             return folder;
         }
 
-        /// <summary>Writes an asset with a GUID.</summary>
-        public void Write(string path, string text, string guid)
-        {
-            File.WriteAllText(Path.Combine(Root, path), text);
-            File.WriteAllText(Path.Combine(Root, path + ".meta"), "fileFormatVersion: 2\nguid: " + guid + "\n");
-        }
-
         /// <summary>Removes it.</summary>
         public void Delete()
         {

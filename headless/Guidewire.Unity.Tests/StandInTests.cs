@@ -1,7 +1,6 @@
 using System.Reflection;
 using System.Text.RegularExpressions;
 using Guidewire.Io;
-using UnityEngine.Serialization;
 using UnityEngine.TestTools;
 
 namespace Guidewire.Unity.Tests
@@ -56,34 +55,12 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void SceneFile_HonoursFormerNames()
-        {
-            string root = Path.Combine(TestContext.CurrentContext.WorkDirectory, "former");
-            Directory.CreateDirectory(Path.Combine(root, "Assets"));
-            string guid = new string('a', 32);
-            File.WriteAllText(Path.Combine(root, "Assets", "Renamed.cs.meta"), "guid: " + guid + "\n");
-            File.WriteAllText(Path.Combine(root, "Assets", "A.unity"), "--- !u!1 &1\nGameObject:\n  m_Component:\n"
-                + "  - component: {fileID: 2}\n  - component: {fileID: 3}\n  m_Name: A\n--- !u!4 &2\nTransform:\n"
-                + "  m_LocalPosition: {x: 0, y: 0, z: 0}\n--- !u!114 &3\nMonoBehaviour:\n"
-                + "  m_Script: {fileID: 11500000, guid: " + guid + ", type: 3}\n  _older: 2.5\n");
-            List<GameObject> objects = SceneFile.Read(root, "Assets/A.unity", typeof(Renamed).Assembly);
-            Assert.That(objects[0].GetComponent<Renamed>().Newer, Is.EqualTo(2.5f));
-        }
-
-        [Test]
         public void LogsNameTheVersionOfTheSources()
         {
             string built = typeof(RunSummary).Assembly.GetCustomAttribute<AssemblyInformationalVersionAttribute>()!
                 .InformationalVersion;
             Assert.That(RunSummary.Version, Is.EqualTo(built));
             Assert.That(typeof(Guidewire.Core.Simulation).Assembly.GetName().Version!.ToString(3), Is.EqualTo(built));
-        }
-
-        internal sealed class Renamed : MonoBehaviour
-        {
-            [FormerlySerializedAs("_older"), SerializeField] private float _newer = 1f;
-
-            public float Newer => _newer;
         }
     }
 }

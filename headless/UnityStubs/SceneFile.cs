@@ -6,7 +6,6 @@ using System.Linq;
 using System.Reflection;
 using System.Text.RegularExpressions;
 using UnityEngine;
-using UnityEngine.Serialization;
 
 namespace UnityStubs
 {
@@ -16,7 +15,7 @@ namespace UnityStubs
     {
         private const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
         private static readonly string[] Texts = { ".json", ".txt", ".bytes", ".csv" };
-        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)( stripped)?$");
+        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)$");
         private static readonly Regex Entry = new Regex(@"^  ([^ :{}-][^:{}]*):(?: (.*))?$");
         private static readonly Regex FileId = new Regex(@"\{fileID: (-?\d+)");
         private static readonly Regex Guid = new Regex(@"guid: ([0-9a-f]{32})");
@@ -25,8 +24,6 @@ namespace UnityStubs
         {
             public int Class;
             public long Id;
-            public bool IsStripped;
-            public readonly List<string> Lines = new List<string>();
             public readonly Dictionary<string, string> Values = new Dictionary<string, string>();
             public readonly Dictionary<string, List<string>> Lists = new Dictionary<string, List<string>>();
         }
@@ -121,13 +118,8 @@ namespace UnityStubs
                     {
                         Class = int.Parse(header.Groups[1].Value, CultureInfo.InvariantCulture),
                         Id = long.Parse(header.Groups[2].Value, CultureInfo.InvariantCulture),
-                        IsStripped = header.Groups[3].Success,
                     });
                     continue;
-                }
-                if (documents.Count > 0)
-                {
-                    documents[documents.Count - 1].Lines.Add(line);
                 }
                 Match entry = Entry.Match(line);
                 if (entry.Success)
@@ -147,26 +139,7 @@ namespace UnityStubs
         private List<GameObject> Read(List<Document> documents)
         {
             var created = new List<GameObject>();
-            var instances = new Dictionary<Document, PrefabInstance>();
-            foreach (Document document in documents.Where(document => document.Class == 1001))
-            {
-                var instance = new PrefabInstance(string.Join("\n", document.Lines));
-                instances[document] = instance;
-                var source = new SceneFile(_root, _scripts);
-                created.AddRange(source.Read(Parse(PathOf(instance.Source))));
-                foreach (KeyValuePair<long, UnityEngine.Object> pair in source._objects)
-                {
-                    _objects[PrefabInstance.IdOf(pair.Key, document.Id)] = pair.Value;
-                }
-                foreach (Document stripped in documents.Where(other => other.IsStripped
-                    && other.Values["m_PrefabInstance"] == "{fileID: " + document.Id + "}"))
-                {
-                    string original = FileId.Match(stripped.Values["m_CorrespondingSourceObject"]).Groups[1].Value;
-                    _objects[stripped.Id] = source._objects[long.Parse(original, CultureInfo.InvariantCulture)];
-                }
-                instance.Apply(source._objects, (type, value) => Value(type, value, null), FieldOf);
-            }
-            foreach (Document document in documents.Where(document => document.Class == 1 && !document.IsStripped))
+            foreach (Document document in documents.Where(document => document.Class == 1))
             {
                 var gameObject = new GameObject(document.Values["m_Name"]);
                 _objects[document.Id] = gameObject;
@@ -178,21 +151,7 @@ namespace UnityStubs
                     _objects[id] = own.Class == 4 ? gameObject.transform : gameObject.Attach(TypeOf(own));
                 }
             }
-            foreach (Document document in documents.Where(document => document.Class == 114
-                && !_objects.ContainsKey(document.Id)))
-            {
-                string holder = FileId.Match(document.Values["m_GameObject"]).Groups[1].Value;
-                var added = (GameObject)_objects[long.Parse(holder, CultureInfo.InvariantCulture)];
-                _objects[document.Id] = added.Attach(TypeOf(document));
-            }
-            foreach (KeyValuePair<Document, PrefabInstance> pair in instances)
-            {
-                if (pair.Value.Parent != 0)
-                {
-                    pair.Value.Root.transform.SetParent((Transform)_objects[pair.Value.Parent], false);
-                }
-            }
-            foreach (Document document in documents.Where(document => !document.IsStripped))
+            foreach (Document document in documents)
             {
                 if (document.Class == 4)
                 {
@@ -246,9 +205,7 @@ namespace UnityStubs
             FieldInfo field = null;
             for (Type type = target.GetType(); type != null && field == null; type = type.BaseType)
             {
-                field = type.GetField(name, Fields) ?? type.GetFields(Fields).FirstOrDefault(renamed =>
-                    renamed.GetCustomAttributes<FormerlySerializedAsAttribute>()
-                        .Any(former => former.oldName == name));
+                field = type.GetField(name, Fields);
             }
             return field;
         }

@@ -30,3 +30,8 @@ def test_fields_arrive() -> None:
     copy = f"Assets/Scenes/{Path(scene.parameters).name}"
     assert documents[302].data["_parameterAsset"]["guid"] == stable_guid(copy)
     assert documents[103].data["_target"] == {axis: f"{value:g}" for axis, value in zip("xyz", scene.target)}
+
+
+def test_variants_of_users_find_the_prefabs_objects() -> None:
+    prefab = parse((ROOT / "Assets/Guidewire/Prefabs/WireInVessel.prefab").read_text(encoding="utf-8"))
+    assert [document.file_id for document in prefab] == [100, 101, 102, 103, 104, 105, 106]
