@@ -182,7 +182,8 @@ def test_another_wire_takes_the_place_of_a_withdrawn_one():
         state = session.exchange(0, "radifocus-angled-0.035", length=350.0, elements=60)
         assert state.time == before.time and len(state.positions) != len(before.positions)
         np.testing.assert_allclose(state.positions[-1], before.positions[-1], atol=1e-6)
-        np.testing.assert_array_equal(state.catheters[0].positions, before.catheters[0].positions)
+        # What is deep in the sheath comes in, and is found by other sums.
+        np.testing.assert_allclose(state.catheters[0].positions, before.catheters[0].positions, atol=1e-11)
         state = session.step(push=[40.0, 0.0], steps=30)
         assert state.outcome is None and state.positions[-1, 2] > 5.0
 

@@ -92,7 +92,7 @@ namespace Guidewire.Core
             for (int i = 1; i < _lead.Length; i++)
             {
                 _lead[i] = _terms.CoaxialBending!.Joints.LeadOf(i);
-                _hubTwist[i] = _terms.CoaxialBending.HubTwist[i];
+                _hubTwist[i] = _terms.CoaxialBending.HubTwist[i] - _terms.CoaxialBending.HubTwist[0];
             }
         }
 
@@ -191,7 +191,7 @@ namespace Guidewire.Core
             {
                 CoaxialBendTwist coaxial = _terms.CoaxialBending!;
                 double along = Math.Abs(coaxial.Joints.LeadOf(i) - _lead[i]);
-                double about = Math.Abs(coaxial.HubTwist[i] - _hubTwist[i]);
+                double about = Math.Abs(coaxial.HubTwist[i] - coaxial.HubTwist[0] - _hubTwist[i]);
                 Work += along > 0.0 ? Math.Abs(_terms.Release!.InnerForce(shape, _terms, i)) * along : 0.0;
                 Work += about > 0.0 ? Math.Abs(coaxial.InnerTorque(shape, i)) * about : 0.0;
                 move += along;

@@ -13,8 +13,8 @@ namespace Guidewire.Core
     ///
     /// No turn is missed, however far a step goes: elements turn by q := q exp(turn), which follows the double cover of
     /// the rotations, so that Re(q_a* q_b) = cos(a/2) is below 0 beyond half a turn and stays so when the joint has
-    /// unwound in the other direction. One check a step suffices. The joint between a sheathed wire and its hub counts
-    /// whole turns (<see cref="BendTwistTerm"/>) and has no such limit.</remarks>
+    /// unwound in the other direction. One check a step suffices. The joint between what is in a sheath and its hub
+    /// counts whole turns (<see cref="JointWinding"/>) and has no such limit.</remarks>
     internal sealed class JointMonitor
     {
         private const double Limit = 0.98 * Math.PI;
@@ -90,7 +90,7 @@ namespace Guidewire.Core
                     worst = k;
                 }
             }
-            double clamp = _supports.HasProximalJoint && !_supports.Winds
+            double clamp = _supports.HasProximalJoint && !_supports.Winds && _supports.SheathEnd == null
                 ? Cosine(shape.ProximalFrame, q[0]) : 1.0;
             if (clamp < least)
             {

@@ -180,11 +180,13 @@ namespace Guidewire.Core
             }
         }
 
-        // The next instrument inside the catheter at node k; 0 where there is none, or no catheter.
+        // The next instrument inside the catheter at node k; 0 where there is none, or no catheter, or in a sheath,
+        // which keeps both straight.
         private int InsideAt(int k, CoaxialJoints joints)
         {
             int carrier = joints.CarrierOf(k);
-            if (carrier > _instrument || (carrier < _instrument && k >= joints.ActiveCountOf(_instrument)))
+            if (joints.Stations[k] < joints.Sheathed || carrier > _instrument
+                || (carrier < _instrument && k >= joints.ActiveCountOf(_instrument)))
             {
                 return 0;
             }
@@ -283,7 +285,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the state of a moment.</summary>
-        /// <param name="own">Where the catheter is: its nodes and elements first.</param>
+        /// <param name="own">Where the catheter is: its own nodes and elements.</param>
         /// <param name="inside">Sum of the forces of the hubs of all instruments inside, without friction, N.</param>
         internal void Take(CoaxialJoints joints, RodTerms terms, RodShape shape, RodShape own, MaterialDrive drive,
             MaterialDrive wireDrive, double torque, double wireTorque, double inside)
@@ -308,10 +310,13 @@ namespace Guidewire.Core
                 : joints.InnerCount == 1 ? Overlap
                 : Math.Max(Overlap, Math.Min(joints.EndOf(2), joints.Stations[joints.OuterCount]));
             CoaxialBendTwist bending = terms.CoaxialBending!;
-            WireTwist = bending.InnermostTwist(shape);
+            WireTwist = CoaxialShape.InnermostTwist(shape, bending);
+            int wire = joints.InnerCount;
+            int reach = joints.ActiveCountOf(wire) < joints.TipOf(wire - 1) ? Math.Max(1, joints.ActiveCountOf(wire))
+                : joints.ElementCount;
             LargestCurvature = 0.0;
             OverlapAngle = 0.0;
-            double to = 0.0;
+            double to = joints.Stations[0];
             for (int k = 0; k < joints.ElementCount; k++)
             {
                 Vector3d turn = bending.TurnOf(shape, k);
@@ -323,8 +328,8 @@ namespace Guidewire.Core
                 double from = to;
                 to = k + 1 < joints.ElementCount ? 0.5 * (joints.Stations[k] + joints.Stations[k + 1]) : overlapEnd;
                 OverlapAngle += curvature * Math.Max(0.0, Math.Min(to, overlapEnd) - from);
-                // The carrier's own twist is the wire's too, but for the hub's frame.
-                WireTwist += turn.Z;
+                // The carrier's own twist is the wire's too, as far as it reaches.
+                WireTwist += k < reach ? turn.Z : 0.0;
             }
             FrictionForce = _friction.Force(inside, OverlapAngle,
                 _friction.Coefficient > 0.0 ? LargestEndForce(joints, shape) : 0.0);

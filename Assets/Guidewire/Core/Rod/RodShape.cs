@@ -68,13 +68,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Makes this a straight rod along d3 of <paramref name="frame"/>.</summary>
-        /// <param name="start">Position of node 0.</param>
+        /// <param name="start">Position from which stations are counted.</param>
         /// <param name="frame">Orientation of every element.</param>
-        /// <param name="stations">Distance of each of the n + 1 nodes from node 0.</param>
+        /// <param name="stations">Distance of each of the n + 1 nodes from it.</param>
         public void SetStraight(in Vector3d start, in Quaterniond frame, double[] stations)
         {
             Vector3d axis = frame.Director3;
-            X[0] = start;
+            X[0] = start + stations[0] * axis;
             for (int j = 0; j < ElementCount; j++)
             {
                 Q[j] = frame;

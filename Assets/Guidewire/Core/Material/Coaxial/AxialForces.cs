@@ -12,7 +12,8 @@ namespace Guidewire.Core
     ///   c = 1/sum 1/C_i - sum of c before it, C_i = sum of c_i from its hub to the element's end.
     /// So a force on one beyond all others stretches that one by C_i, and one without stiffness changes nothing. An
     /// element's rest length is then l + e - c sum N_i, with e of the outermost one; at a tip e has what the one that
-    /// goes on is longer than the chain is before it.
+    /// goes on is longer than the chain is before it. What is before the chain in a sheath is as one more element of
+    /// all of them.
     ///
     /// Directions of loads are those of the shape that <see cref="Take"/> had last.</remarks>
     internal sealed class AxialForces
@@ -25,6 +26,7 @@ namespace Guidewire.Core
         private readonly double[] _strain;      // largest of all instruments
         private readonly double[] _slide;       // of each instrument at the nodes, m
         private readonly double[] _compliance;  // of the chain, m/N
+        private readonly double[] _leadForce;   // of each before the chain, N
 
         /// <summary>Makes one of a chain without loads.</summary>
         public AxialForces(CoaxialJoints joints)
@@ -38,6 +40,7 @@ namespace Guidewire.Core
             _strain = new double[capacity];
             _slide = new double[joints.Count * (capacity + 1)];
             _compliance = new double[capacity];
+            _leadForce = new double[joints.Count];
         }
 
         // Elements.
@@ -51,6 +54,7 @@ namespace Guidewire.Core
             Array.Clear(_force, 0, N);
             Array.Clear(_strain, 0, N);
             Array.Clear(_slide, 0, _joints.Count * (N + 1));
+            Array.Clear(_leadForce, 0, _leadForce.Length);
         }
 
         /// <summary>There are no loads.</summary>
@@ -144,6 +148,39 @@ namespace Guidewire.Core
             return _force[element];
         }
 
+        /// <summary>Gives N of an instrument before the chain, N.</summary>
+        public double LeadForceOf(int instrument)
+        {
+            return _leadForce[instrument];
+        }
+
+        /// <summary>The sum of these, N.</summary>
+        public double LeadLoad
+        {
+            get
+            {
+                double sum = 0.0;
+                foreach (double force in _leadForce)
+                {
+                    sum += force;
+                }
+                return sum;
+            }
+        }
+
+        /// <summary>Rest length from the outermost hub to the chain, m.</summary>
+        public double LeadLength => _joints.Stations[0] + _joints.LeadStretchOf(0) * _leadForce[0]
+            - _joints.LeadAxial * LeadLoad;
+
+        /// <summary>Length of an instrument from a place before the chain up to it, m.</summary>
+        /// <param name="place">m from the outermost hub.</param>
+        /// <param name="thrust">Of the hubs on all that are there, N.</param>
+        public double LeadFrom(double place, int instrument, double thrust)
+        {
+            double all = _joints.AxialBetween(Math.Max(place, 0.0), _joints.Stations[0], instrument, out double own);
+            return _joints.Stations[0] - place + own * _leadForce[instrument] - all * (thrust + LeadLoad);
+        }
+
         /// <summary>Energy that the chain has from its loads alone, sum of 1/2 c (sum N)^2, J: of one whose nodes are
         /// where the loads have them it is no energy of the instruments.</summary>
         public double PreloadEnergy
@@ -176,7 +213,8 @@ namespace Guidewire.Core
                 Stretch(shape, i);
             }
             double largest = 0.0;
-            double before = 0.0;     // of the chain's node before the element
+            double lead = _slide[0];
+            double before = lead;     // of the chain's node before the element
             for (int j = 0; j < N; j++)
             {
                 double after = _slide[_joints.CarrierOf(j) * (N + 1) + j + 1];
@@ -186,7 +224,7 @@ namespace Guidewire.Core
             }
             for (int k = N; k >= 0; k--)
             {
-                double node = k == 0 ? 0.0 : _slide[_joints.CarrierOf(k - 1) * (N + 1) + k];
+                double node = k == 0 ? lead : _slide[_joints.CarrierOf(k - 1) * (N + 1) + k];
                 for (int i = 0; i < _joints.Count; i++)
                 {
                     _slide[i * (N + 1) + k] -= node;
@@ -202,6 +240,10 @@ namespace Guidewire.Core
             snapshot.Serialize(_force, N);
             snapshot.Serialize(_strain, N);
             snapshot.Serialize(_slide, _joints.Count * (N + 1));
+            if (_joints.First > 0)
+            {
+                snapshot.Serialize(_leadForce);
+            }
         }
 
         // Whether an instrument is in all of an element at a tip.
@@ -240,6 +282,7 @@ namespace Guidewire.Core
                 _slide[at + j + 1] = stretch;
                 force += Vector3d.Dot(axis, _load[instrument * N + j]);
             }
+            _leadForce[instrument] = force;
             _slide[at] = _joints.LeadStretchOf(instrument) * force;
             for (int j = 0; j < N; j++)
             {

@@ -12,8 +12,6 @@ namespace Guidewire.Core
     /// <see cref="CoaxialTwistRows"/>.</remarks>
     internal sealed class CoaxialBendTwist : BendTwistTerm
     {
-        private const string NoWinding = "joint 0 of coaxial instruments has no winding";
-
         private readonly CoaxialRod _rod;
         private readonly CoaxialJoints _joints;
         private readonly CoaxialTwistRows _rows;
@@ -21,6 +19,8 @@ namespace Guidewire.Core
         private readonly bool _hasSecond;      // three instruments
         private readonly double[] _startLead;  // m
         private readonly double[] _lead;
+        private readonly JointWinding _winding = new JointWinding();   // in a sheath
+        private double _rewound;               // change of the energy by the last change of w, J
         private RodBlock _clampBlock;          // what falls on the hub's frame, which does not move
         private RodVector _clampVector;
 
@@ -46,7 +46,8 @@ namespace Guidewire.Core
             return _startLead[instrument] - _joints.LeadOf(instrument);
         }
 
-        /// <summary>Angle from the outermost hub to each, radians, without limit; 0 of the first.</summary>
+        /// <summary>Angle from the frame before joint 0 to each hub, radians, without limit; 0 of the first one, but in
+        /// a sheath, where that frame is held.</summary>
         public double[] HubTwist { get; }
 
         /// <summary>Gives the torque of an inner hub on its instrument, N m: dE/dz of the hub.</summary>
@@ -57,19 +58,6 @@ namespace Guidewire.Core
                 : (1.0 - _joints[0].Second.Weight) * s.Second.Slope - s.Second.Couple;
         }
 
-        /// <summary>By how much the innermost instrument's own angle from its hub to the end of the elements around it
-        /// is more than theirs, rad.</summary>
-        public double InnermostTwist(RodShape shape)
-        {
-            int wire = _joints.InnerCount;
-            int first = (wire - 1) * shape.ElementCount;
-            int active = _joints.ActiveCountOf(wire);
-            int last = Math.Max(Math.Min(active, _joints.OuterCount) - 1, 0);
-            double twist = shape.Twist[first + last] - HubTwist[wire];
-            return active <= _joints.OuterCount ? twist
-                : twist + shape.Twist[first + active - 1] - AngleAt(shape, _joints.OuterCount - 1, wire, 1);
-        }
-
         /// <summary>Gives angles that are not unknown the values with which they would come in: those that twist
         /// nothing.</summary>
         public void SetIdleTwists(RodShape shape)
@@ -77,12 +65,12 @@ namespace Guidewire.Core
             for (int i = 1; i < _joints.Count; i++)
             {
                 int first = (i - 1) * shape.ElementCount;
-                for (int j = Math.Max(_joints.ActiveCountOf(i), 1); j < shape.ElementCount; j++)
+                for (int j = _joints.ActiveCountOf(i); j < shape.ElementCount; j++)
                 {
                     int frame = _joints.CarrierOf(j);
                     double rest = i == 2 || frame == 2 ? _joints[j].Second.RestTwist : _joints[j].First.RestTwist;
-                    shape.Twist[first + j] = frame < i ? AngleAt(shape, j - 1, i, frame) + rest
-                        - _law.Measure(Relative(shape, j)).Z : 0.0;
+                    double before = j == 0 ? HubTwist[i] : AngleAt(shape, j - 1, i, frame);
+                    shape.Twist[first + j] = frame < i ? before + rest - TurnOf(shape, j).Z : 0.0;
                 }
             }
         }
@@ -98,31 +86,6 @@ namespace Guidewire.Core
             return CoaxialShape.Angle(shape, shape.Twist, _joints, element, instrument, frame);
         }
 
-        /// <summary>Curvature at joint k about the axes of an instrument, and its own twist, rad/m; 0 in a
-        /// sheath.</summary>
-        public Vector3d CurvatureOf(RodShape shape, int k, int instrument)
-        {
-            double outside = _joints.FractionOutside(k);
-            int frame = _joints.CarrierOf(k);
-            double before = AngleAt(shape, k - 1, instrument, frame);
-            double after = AngleAt(shape, k, instrument, frame);
-            Vector3d turn = _law.Measure(Relative(shape, k));
-            double bend = outside > CoaxialJoints.MinFraction ? 1.0 / outside : 0.0;
-            double c = bend * Math.Cos(0.5 * (before + after));
-            double s = bend * Math.Sin(0.5 * (before + after));
-            return 1.0 / _joints.LengthOf(k) * new Vector3d(c * turn.X + s * turn.Y, c * turn.Y - s * turn.X,
-                turn.Z + after - before);
-        }
-
-        /// <summary>Gives the even twist of an inner instrument from its own hub to the middle of the outermost one's
-        /// first element, rad/m.</summary>
-        public Vector3d LeadTwist(RodShape shape, int instrument)
-        {
-            double length = _joints.LeadOf(instrument) + 0.5 * _joints.Stations[1];
-            double twist = _law.Measure(Relative(shape, 0)).Z + AngleAt(shape, 0, instrument, 0) - HubTwist[instrument];
-            return twist / length * Vector3d.UnitZ;
-        }
-
         /// <inheritdoc/>
         public override void SetTime(double time)
         {
@@ -131,10 +94,11 @@ namespace Guidewire.Core
             {
                 double sheathed = hubs.SheathedAt(time);
                 bool isOther = sheathed != _joints.Sheathed;
+                HubTwist[0] = hubs.Outer.AheadAt(time);
                 for (int i = 1; i < _lead.Length; i++)
                 {
                     _lead[i] = hubs.LeadAt(i, time);
-                    HubTwist[i] = hubs.TwistAt(i, time);
+                    HubTwist[i] = HubTwist[0] + hubs.TwistAt(i, time);
                     isOther |= _lead[i] != _joints.LeadOf(i);
                 }
                 if (isOther)
@@ -160,6 +124,41 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
+        public override void Remesh()
+        {
+            _winding.Set(0.0);
+        }
+
+        /// <summary>Joint 0 in a sheath is measured from where it is in this shape once it is far from its
+        /// winding.</summary>
+        public override void Anchor(RodShape shape)
+        {
+            _rewound = 0.0;
+            double turn = _rod.Sheath == null ? 0.0 : _law.Measure(Relative(shape, 0)).Z;
+            if (JointWinding.IsFar(turn))
+            {
+                double before = ValueAt(shape, 0);
+                _winding.Set(_winding.Turn + turn);
+                _rewound = ValueAt(shape, 0) - before;
+            }
+        }
+
+        /// <inheritdoc/>
+        public override double AnchoredValue(double before)
+        {
+            return before + _rewound;
+        }
+
+        /// <inheritdoc/>
+        public override void Serialize(Snapshot snapshot)
+        {
+            if (_rod.Sheath != null)
+            {
+                _winding.Serialize(snapshot);
+            }
+        }
+
+        /// <inheritdoc/>
         public override void DropGeometricStiffness(bool isOn)
         {
             _rows.DropsGeometricStiffness = isOn;
@@ -171,8 +170,7 @@ namespace Guidewire.Core
             double sum = _joints.HeldInLead;
             for (int k = 0; k < _joints.ElementCount; k++)
             {
-                Evaluate(shape, k, out CoaxialJointState s);
-                sum += _law.Value(s.Joint, s.Relative) + s.Held;
+                sum += ValueAt(shape, k);
             }
             if (_joints.HasLast)
             {
@@ -261,7 +259,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override bool RelaxTurns(RodShape shape)
         {
-            Quaterniond frame = shape.ProximalFrame;
+            Quaterniond frame = _winding.Wound(shape.ProximalFrame);
             for (int k = 0; k < _joints.ElementCount; k++)
             {
                 Evaluate(shape, k, out CoaxialJointState s);
@@ -285,7 +283,8 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override Vector3d TurnOf(RodShape shape, int k)
         {
-            return k < _joints.ElementCount ? _law.Measure(Relative(shape, k)) : Vector3d.Zero;
+            Vector3d turn = k < _joints.ElementCount ? _law.Measure(Relative(shape, k)) : Vector3d.Zero;
+            return k == 0 ? turn + _winding.Turn * Vector3d.UnitZ : turn;
         }
 
         /// <inheritdoc/>
@@ -310,9 +309,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double TurnCouple(RodShape shape)
+        public override double TurnCouple(RodShape shape, int instrument = 0)
         {
-            throw new NotSupportedException(NoWinding);
+            return instrument > 0 ? InnerTorque(shape, instrument)
+                : _joints[0].Twist * (HubTwist[0] + _joints[0].RestTwist - TurnOf(shape, 0).Z);
         }
 
         /// <inheritdoc/>
@@ -322,7 +322,7 @@ namespace Guidewire.Core
             RodVector onFrame = default;
             RodVector onElement = default;
             _law.AddGradient(s.Joint, s.Relative, ref onFrame, ref onElement);
-            return Quaterniond.Rotate(shape.ProximalFrame, onFrame.T);
+            return Quaterniond.Rotate(_winding.Wound(shape.ProximalFrame), onFrame.T);
         }
 
         /// <inheritdoc/>
@@ -336,11 +336,10 @@ namespace Guidewire.Core
         {
             s = default;
             int frame = _joints.CarrierOf(k);
-            if (frame == 0 && !_hasSecond)
+            if (k > 0 && frame == 0 && !_hasSecond)
             {
-                Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
-                s.Relative = a.Conjugate * shape.Q[k];
-                s.First.Before = k == 0 ? HubTwist[1] : shape.Twist[k - 1];
+                s.Relative = shape.Q[k - 1].Conjugate * shape.Q[k];
+                s.First.Before = shape.Twist[k - 1];
                 s.First.After = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
                 s.Set(_joints[k], _law, false);
                 return;
@@ -353,7 +352,14 @@ namespace Guidewire.Core
             {
                 SetAngles(shape, k, before, frame, frame == 2 ? 1 : 2, ref s.Second, s.FrameBefore);
             }
-            s.Set(_joints[k], _law, _hasSecond);
+            if (k > 0)
+            {
+                s.Set(_joints[k], _law, _hasSecond);
+                return;
+            }
+            CoaxialJoint first = _joints[0];
+            first.RestTwist += HubTwist[0] - _winding.Turn;
+            s.Set(first, _law, _hasSecond);
         }
 
         /// <summary>What the last half element holds, J, and its derivatives by both angles.</summary>
@@ -380,12 +386,18 @@ namespace Guidewire.Core
 
         private Quaterniond Relative(RodShape shape, int k)
         {
-            Quaterniond a = k == 0 ? shape.ProximalFrame : shape.Q[k - 1];
+            Quaterniond a = k == 0 ? _winding.Wound(shape.ProximalFrame) : shape.Q[k - 1];
             if (_joints.IsTip(k))
             {
                 a *= Turned(AngleAt(shape, k - 1, _joints.CarrierOf(k), _joints.CarrierOf(k - 1)));
             }
             return a.Conjugate * shape.Q[k];
+        }
+
+        private double ValueAt(RodShape shape, int k)
+        {
+            Evaluate(shape, k, out CoaxialJointState s);
+            return _law.Value(s.Joint, s.Relative) + s.Held;
         }
 
         private static Quaterniond Turned(double angle)
@@ -396,7 +408,7 @@ namespace Guidewire.Core
         private void SetAngles(RodShape shape, int k, int carrier, int frame, int instrument,
             ref CoaxialPartState part, double frameBefore)
         {
-            part.Before = k == 0 ? HubTwist[instrument]
+            part.Before = k == 0 ? HubTwist[instrument] - _winding.Turn
                 : (instrument > carrier ? shape.Twist[(instrument - 1) * shape.ElementCount + k - 1] : 0.0)
                     - frameBefore;
             part.After = instrument > frame && k < _joints.ActiveCountOf(instrument)

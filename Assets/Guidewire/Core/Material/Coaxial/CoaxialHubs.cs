@@ -56,6 +56,20 @@ namespace Guidewire.Core
             return _sheath == null ? 0.0 : Math.Max(0.0, -_sheath.Outside(Outer.PositionAt(time)));
         }
 
+        /// <summary>Turn of an element of the outermost instrument against its hub's frame at time 0, radians: all
+        /// turns of the joints before it.</summary>
+        public double TurnAt(RodShape outermost, int element)
+        {
+            double turn = Outer.TurnAt(0.0);
+            Quaterniond frame = Outer.FrameTurned(turn);
+            for (int j = 0; j < element; j++)
+            {
+                turn += RotationVector.Log(frame.Conjugate * outermost.Q[j]).Z;
+                frame = outermost.Q[j];
+            }
+            return turn;
+        }
+
         /// <summary>Gives the rotation of one relative to the outermost one, radians.</summary>
         public double TwistAt(int instrument, double time)
         {

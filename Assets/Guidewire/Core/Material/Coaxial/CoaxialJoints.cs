@@ -215,6 +215,20 @@ namespace Guidewire.Core
             return _stretch[instrument * ElementCount + element];
         }
 
+        /// <summary>The same of all before the chain and after the outermost hub, held together, m/N.</summary>
+        public double LeadAxial { get; private set; }
+
+        /// <summary>The same between two places there, m from that hub.</summary>
+        /// <param name="own">Of one instrument alone.</param>
+        public double AxialBetween(double from, double to, int instrument, out double own)
+        {
+            var none = default(CoaxialJoint);
+            _before.Clear();
+            _before.AddSide(ref none, to, from, 0, 0, Hubs);
+            own = _before.Stretch[instrument];
+            return _before.Axial;
+        }
+
         /// <summary>Gives the same of its length before the chain.</summary>
         public double LeadStretchOf(int instrument)
         {
@@ -263,6 +277,12 @@ namespace Guidewire.Core
         {
             InstrumentProfile profile = _instrument[instrument].Profile;
             return ref profile.Pieces[profile.PieceAt(_station[k] + Hubs.Leads[instrument])];
+        }
+
+        /// <summary>Whether an instrument is where the chain begins: its tip is not before that.</summary>
+        public bool IsAtStart(int instrument)
+        {
+            return Hubs.Ends[instrument] > _station[0];
         }
 
         /// <summary>What an instrument is made of where the chain begins; where a border is there, what is before
@@ -408,6 +428,8 @@ namespace Guidewire.Core
         // Of all instruments before the chain.
         private void SetLeads()
         {
+            LeadAxial = AxialBetween(0.0, _station[0], 0, out _);
+            _before.Clear();
             for (int i = 0; i < Count; i++)
             {
                 InstrumentProfile profile = _instrument[i].Profile;

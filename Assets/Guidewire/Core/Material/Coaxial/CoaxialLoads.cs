@@ -4,7 +4,8 @@ namespace Guidewire.Core
 {
     /// <summary>Loads on coaxial instruments: each acts on the material of the instrument that it is for, wherever that
     /// is along the chain, and that instrument bears its part along the axis (<see cref="AxialForces"/>).</summary>
-    /// <remarks>What is before the outermost hub has no weight and bears no load.</remarks>
+    /// <remarks>What is before the outermost hub, or in a sheath before the chain, has no weight and bears no
+    /// load.</remarks>
     internal sealed class CoaxialLoads
     {
         private readonly CoaxialJoints _joints;
@@ -89,7 +90,7 @@ namespace Guidewire.Core
             InstrumentProfile profile = _instrument[instrument].Profile;
             double[] station = _joints.Stations;
             double lead = _joints.LeadOf(instrument);
-            int piece = profile.PieceAt(lead);
+            int piece = profile.PieceAt(lead + station[0]);
             for (int j = 0; j < _joints.ElementCount && station[j] < _joints.EndOf(instrument); j++)
             {
                 double at = station[j];
@@ -113,11 +114,11 @@ namespace Guidewire.Core
 
         private void AddAt(Vector3d[]? force, int instrument, double station, in Vector3d load)
         {
-            if (station < 0.0 || load == Vector3d.Zero)
+            double[] stations = _joints.Stations;
+            if (station < stations[0] || load == Vector3d.Zero)
             {
                 return;
             }
-            double[] stations = _joints.Stations;
             int j = 0;
             while (j < _joints.ElementCount - 1 && station > stations[j + 1])
             {

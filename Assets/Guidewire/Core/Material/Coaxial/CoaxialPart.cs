@@ -36,6 +36,12 @@ namespace Guidewire.Core
             turned = rest - before;
         }
 
+        /// <summary>Gives its turn under a torque, N m, radians: at rest where it ends before the joint.</summary>
+        public readonly double TurnBy(double torque)
+        {
+            return Twist == 0.0 ? RestTwist : torque / Twist + RestTwist;
+        }
+
         /// <summary>C cos t + S sin t, J, which is its second derivative's negative, and minus its first.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly double Held(double t, out double slope)

@@ -18,7 +18,7 @@ namespace Guidewire.Core
         /// all.</param>
         /// <param name="leads">How far the hub of each is behind the outermost one's, m.</param>
         /// <param name="sheathed">Length in a sheath, m from the outer hub.</param>
-        /// <param name="first">Elements of the first that are left out, in the sheath; 0 of several.</param>
+        /// <param name="first">Elements of the first that are left out, in the sheath.</param>
         public CoaxialRod(CoaxialInstrument[] instruments, int[] beyond, double[] leads, double sheathed = 0.0,
             int first = 0)
         {
@@ -121,7 +121,7 @@ namespace Guidewire.Core
         /// <summary>Sets the elements' rest lengths and axial stiffness.</summary>
         public void SetLengths()
         {
-            double before = 0.0;
+            double before = Joints.LeadAxial;
             for (int j = 0; j < Joints.ElementCount; j++)
             {
                 double compliance = Axial.FindCompliance(j, ref before);

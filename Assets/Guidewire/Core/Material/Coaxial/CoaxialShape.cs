@@ -71,6 +71,50 @@ namespace Guidewire.Core
                 spin.Z + Angle(shape, twistRates, joints, element, instrument, carrier));
         }
 
+        /// <summary>By how much the innermost instrument's own angle from its hub to the end of the elements around it
+        /// is more than theirs, rad.</summary>
+        public static double InnermostTwist(RodShape shape, CoaxialBendTwist bending)
+        {
+            CoaxialJoints joints = bending.Joints;
+            int wire = joints.InnerCount;
+            int first = (wire - 1) * shape.ElementCount;
+            int active = joints.ActiveCountOf(wire);
+            int last = Math.Max(Math.Min(active, joints.OuterCount) - 1, 0);
+            double twist = shape.Twist[first + last] - bending.HubTwist[wire];
+            return active <= joints.OuterCount ? twist : twist + shape.Twist[first + active - 1]
+                - Angle(shape, shape.Twist, joints, joints.OuterCount - 1, wire, 1);
+        }
+
+        /// <summary>Curvature at joint k about the axes of an instrument inside, and its own twist, rad/m; 0 in a
+        /// sheath.</summary>
+        public static Vector3d CurvatureOf(RodShape shape, CoaxialBendTwist bending, int k, int instrument)
+        {
+            CoaxialJoints joints = bending.Joints;
+            double outside = joints.FractionOutside(k);
+            int frame = joints.CarrierOf(k);
+            double before = bending.AngleAt(shape, k - 1, instrument, frame);
+            double after = bending.AngleAt(shape, k, instrument, frame);
+            Vector3d turn = bending.TurnOf(shape, k);
+            double bend = outside > CoaxialJoints.MinFraction ? 1.0 / outside : 0.0;
+            double c = bend * Math.Cos(0.5 * (before + after));
+            double s = bend * Math.Sin(0.5 * (before + after));
+            Vector3d curvature = 1.0 / joints.LengthOf(k) * new Vector3d(c * turn.X + s * turn.Y,
+                c * turn.Y - s * turn.X, turn.Z + after - before);
+            return k > 0 ? curvature
+                : new Vector3d(curvature.X, curvature.Y, LeadTwist(shape, bending, instrument).Z);
+        }
+
+        /// <summary>Gives the even twist of an instrument inside from its own hub to the middle of the chain's first
+        /// element, rad/m.</summary>
+        public static Vector3d LeadTwist(RodShape shape, CoaxialBendTwist bending, int instrument)
+        {
+            CoaxialJoints joints = bending.Joints;
+            double length = joints.LeadOf(instrument) + 0.5 * (joints.Stations[0] + joints.Stations[1]);
+            double twist = bending.TurnOf(shape, 0).Z + bending.AngleAt(shape, 0, instrument, 0)
+                - bending.HubTwist[instrument];
+            return twist / length * Vector3d.UnitZ;
+        }
+
         /// <summary>The largest turn in a direction of the first element beyond a tip against the frame before it of
         /// the instrument that goes on, radians: |theta_b - R^T theta_a - e3 dz|; 0 where none is beyond.</summary>
         /// <param name="rod">The instruments, or null for one alone.</param>

@@ -51,7 +51,7 @@ namespace Guidewire.Core
         public double InnerForce(RodShape shape, RodTerms terms, int instrument = 1)
         {
             SetSpeeds(instrument, 0.0);
-            return RateOf(shape, 0, _joints.ElementCount)
+            return OfLead(shape, terms, out double compliance) + RateOf(shape, 0, _joints.ElementCount, compliance)
                 + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
         }
 
@@ -71,7 +71,7 @@ namespace Guidewire.Core
                 element++;
             }
             SetSpeeds(0, -1.0);
-            return RateOf(shape, element, Math.Min(element + 2, n));
+            return RateOf(shape, element, Math.Min(element + 2, n), 0.0);
         }
 
         /// <summary>That force where the step began, N.</summary>
@@ -115,17 +115,35 @@ namespace Guidewire.Core
             }
         }
 
+        // Of what is before the chain and after the outermost hub, on which the hub's spring pulls.
+        private double OfLead(RodShape shape, RodTerms terms, out double compliance)
+        {
+            compliance = 0.0;
+            if (_joints.First == 0)
+            {
+                return 0.0;
+            }
+            var none = default(CoaxialJoint);
+            _before.Clear();
+            _before.AddSideRate(ref none, _joints.Stations[0], 0.0, 0, 0, _joints.Hubs, _speeds, 0.0, 0.0);
+            compliance = _before.Axial;
+            double push = Vector3d.Dot(terms.Contact!.SupportForce(shape), terms.HubAxis(shape))
+                + _rod.Axial.LeadLoad;
+            return -0.5 * compliance * push * push;
+        }
+
         // Of the joints at the first end of some elements, and of these.
-        private double RateOf(RodShape shape, int from, int to)
+        // compliance: derivative of that of the chain before the first of them.
+        private double RateOf(RodShape shape, int from, int to, double compliance)
         {
             _angles?.SetIdleTwists(shape);
             double sum = 0.0;
-            double compliance = 0.0;   // derivative of that of the chain before an element
             for (int i = 0; i < _joints.Count; i++)
             {
                 ref readonly CrossSection atHub = ref _joints.PieceAtHub(i);
-                _own[i] = -_speeds.Instruments[i] / atHub.StretchStiffness;
-                sum -= _speeds.Instruments[i] * CoaxialPieces.Straightened(atHub);
+                double speed = _joints.IsAtStart(i) ? _speeds.Instruments[i] : 0.0;
+                _own[i] = -speed / atHub.StretchStiffness;
+                sum -= speed * CoaxialPieces.Straightened(atHub);
             }
             for (int k = from; k < to; k++)
             {

@@ -6,15 +6,11 @@ namespace Guidewire.Core
     /// <summary>Bending and twist: one joint between successive elements, one at each clamped end against the clamp's
     /// frame (thesis, bend-twist constraint, as an energy; the law between angle and couple is the type
     /// argument).</summary>
-    /// <remarks>A joint's orientation tells its turn up to pi. Where joint 0 is the twist of a long wire in its sheath,
-    /// which winds up by many turns, it is measured from a turn w about d3, its winding: theta = w e3 + Log of what is
-    /// beyond it, and w is moved to theta before theta can be pi away from it. A tip that snaps round goes on in one
-    /// smooth energy.</remarks>
+    /// <remarks>Where joint 0 is the twist of a long wire in its sheath it winds up (<see cref="JointWinding"/>). A tip
+    /// that snaps round goes on in one smooth energy.</remarks>
     internal sealed class BendTwistEnergy<TLaw> : BendTwistTerm
         where TLaw : struct, IJointLaw
     {
-        private const double MaxWound = 1.0;  // radians of joint 0 from its winding
-
         private readonly Joint[] _joint;  // 0: proximal clamp; k: between elements k-1 and k; n: distal clamp
         private readonly bool _hasProximal;
         private readonly bool _hasDistal;
@@ -22,8 +18,7 @@ namespace Guidewire.Core
         private readonly TLaw _law;
         private double _proximalRest;   // turn of joint 0 at rest about d3, radians
         private double _proximalTurn;   // and what its frame is behind
-        private double _winding;        // w, radians
-        private Quaterniond _wound = Quaterniond.Identity;   // the rotation by w
+        private readonly JointWinding _winding = new JointWinding();
         private double _rewound;        // change of the energy by the last change of w, J: of its small bending
         private bool _dropsGeometricStiffness;
         private RodBlock _clampBlock;     // what falls on a clamp's frame, which does not move
@@ -49,7 +44,7 @@ namespace Guidewire.Core
         {
             _proximalRest = _joint[0].Rest.Z;
             _proximalTurn = 0.0;
-            Wind(0.0);
+            _winding.Set(0.0);
         }
 
         /// <summary>Joint 0 is without torque where it is turned by this more than at rest, radians: what is beyond
@@ -62,7 +57,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double TurnCouple(RodShape shape)
+        public override double TurnCouple(RodShape shape, int instrument = 0)
         {
             return _joint[0].Twist * (_joint[0].Rest.Z - TurnOf(shape, 0).Z);
         }
@@ -77,10 +72,10 @@ namespace Guidewire.Core
                 return;
             }
             double turn = _law.Measure(FirstRelative(shape)).Z;
-            if (Math.Abs(turn) > MaxWound)
+            if (JointWinding.IsFar(turn))
             {
                 double before = _law.Value(First, FirstRelative(shape));
-                Wind(_winding + turn);
+                _winding.Set(_winding.Turn + turn);
                 _rewound = _law.Value(First, FirstRelative(shape)) - before;
             }
         }
@@ -96,7 +91,7 @@ namespace Guidewire.Core
         {
             if (_winds)
             {
-                Wind(snapshot.Serialize(_winding));
+                _winding.Serialize(snapshot);
             }
         }
 
@@ -261,7 +256,7 @@ namespace Guidewire.Core
             {
                 return Vector3d.Zero;
             }
-            return k == 0 ? _law.Measure(FirstRelative(shape)) + _winding * Vector3d.UnitZ
+            return k == 0 ? _law.Measure(FirstRelative(shape)) + _winding.Turn * Vector3d.UnitZ
                 : _law.Measure(shape.Q[k - 1].Conjugate * (k == n ? shape.DistalFrame : shape.Q[k]));
         }
 
@@ -340,7 +335,7 @@ namespace Guidewire.Core
             {
                 _law.AddGradient(First, FirstRelative(shape), ref onFrame, ref onElement);
             }
-            return Quaterniond.Rotate(shape.ProximalFrame * _wound, onFrame.T);
+            return Quaterniond.Rotate(_winding.Wound(shape.ProximalFrame), onFrame.T);
         }
 
         /// <inheritdoc/>
@@ -362,20 +357,14 @@ namespace Guidewire.Core
             get
             {
                 Joint joint = _joint[0];
-                joint.Rest -= _winding * Vector3d.UnitZ;
+                joint.Rest -= _winding.Turn * Vector3d.UnitZ;
                 return joint;
             }
         }
 
         private Quaterniond FirstRelative(RodShape shape)
         {
-            return (shape.ProximalFrame * _wound).Conjugate * shape.Q[0];
-        }
-
-        private void Wind(double turn)
-        {
-            _winding = turn;
-            _wound = Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
+            return _winding.Wound(shape.ProximalFrame).Conjugate * shape.Q[0];
         }
 
         private static bool HasLanes => typeof(TLaw) == typeof(RotationVectorLaw);

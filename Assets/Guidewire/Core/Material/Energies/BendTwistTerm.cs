@@ -46,8 +46,9 @@ namespace Guidewire.Core
         public abstract void MeasureRates(RodShape shape, Vector3d[] spins, in Vector3d proximal, in Vector3d distal,
             Vector3d[] rates);
 
-        /// <summary>Gives the torque of the hub of a wire alone in a sheath, N m: dE/dturn.</summary>
-        public abstract double TurnCouple(RodShape shape);
+        /// <summary>Gives the torque of a hub on its instrument, N m: dE/dturn of that hub.</summary>
+        /// <param name="instrument">0 the outermost one.</param>
+        public abstract double TurnCouple(RodShape shape, int instrument = 0);
 
         /// <summary>Couple of the proximal clamp on the rod, N m, along the world's axes; 0 without a clamp.</summary>
         public abstract Vector3d ProximalCouple(RodShape shape);

@@ -36,8 +36,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes a moment, at the time that was set last.</summary>
-        /// <param name="inner">The instruments inside the outermost one.</param>
-        public CoaxialRecord Take(RodDynamics dynamics, CoaxialJoints joints, InnerInstrument[] inner)
+        /// <param name="instruments">The outermost one first.</param>
+        public CoaxialRecord Take(RodDynamics dynamics, CoaxialJoints joints, InnerInstrument[] instruments)
         {
             RodTerms terms = dynamics.Terms;
             RodShape shape = dynamics.Shape;
@@ -56,19 +56,19 @@ namespace Guidewire.Core
                 torque -= own;
                 if (i < wire)
                 {
-                    _records[i].TakeMotion(inner[i - 1].Velocities, inner[i - 1].Spins);
-                    _records[i].Take(joints, terms, shape, inner[i - 1].Shape, _drives[i], _drives[wire], own,
+                    _records[i].Take(joints, terms, shape, instruments[i].Shape, _drives[i], _drives[wire], own,
                         wireTorque, inside);
                 }
                 inside += _forces[i];
             }
             _forces[0] += terms.SheathForce(shape);
-            _records[0].TakeMotion(dynamics.Velocities, dynamics.Spins);
-            _records[0].Take(joints, terms, shape, shape, _drives[0], _drives[wire], torque, wireTorque, inside);
+            _records[0].Take(joints, terms, shape, instruments[0].Shape, _drives[0], _drives[wire], torque, wireTorque,
+                inside);
             double around = 0.0;
             double wireForce = _forces[wire] + _records[wire - 1].FrictionForce;
             for (int i = 0; i < wire; i++)
             {
+                _records[i].TakeMotion(instruments[i].Velocities, instruments[i].Spins);
                 _records[i].TakeForces(_forces[i], around, wireForce);
                 around = _records[i].FrictionForce;
             }

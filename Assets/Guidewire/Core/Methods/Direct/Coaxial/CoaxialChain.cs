@@ -5,8 +5,8 @@ namespace Guidewire.Core
     /// <summary>What is simulated of coaxial instruments: one <see cref="MonitoredRod"/>, with room for the elements of
     /// all of them. Nodes come and go in place.</summary>
     /// <remarks>Which nodes are there <see cref="CoaxialNodes"/> finds. The rod is as one that is made anew, too, where
-    /// a tip inside comes into another element. Of an instrument alone the part in its sheath is left out: it is
-    /// straight, massless, and evenly stretched and twisted. What comes in has the strain and the twist of
+    /// a tip inside comes into another element. What is deep in a sheath is left out: it is straight, without mass and
+    /// loads, and each instrument is evenly stretched and twisted. What comes in has the strain and the twists of
     /// that.</remarks>
     internal sealed class CoaxialChain
     {
@@ -15,8 +15,8 @@ namespace Guidewire.Core
         private readonly MaterialDrive[] _drives;
         private readonly CoaxialHubs _hubs;
         private readonly CoaxialNodes _nodes;
-        private readonly InnerInstrument _wire;
-        private readonly bool _isAlone;           // in a sheath
+        private readonly bool _hasWindow;         // in a sheath
+        private readonly double[] _torques;       // of each instrument on its part before the chain, N m
         private readonly int[] _active;           // elements with each angle, when nodes came or went last
         private readonly double[] _leads;         // between the hubs, at that time, m
         private readonly MaterialScene _scene;
@@ -24,7 +24,7 @@ namespace Guidewire.Core
         private readonly CoaxialJoints _oldJoints;     // of the elements that were
         private readonly RodMotion _oldMotion;
         private double _sheathed;                 // length in the sheath, at that time, m
-        private double _frameTurn;                // where the frame of an instrument alone is held, radians
+        private double _frameTurn;                // where the frame before the chain is held in a sheath, radians
 
         /// <summary>Lays the chain at the start of all instruments.</summary>
         /// <param name="drives">Of the hubs.</param>
@@ -37,14 +37,15 @@ namespace Guidewire.Core
             _drives = drives;
             var hubs = new CoaxialHubs(Array.ConvertAll(drives, drive => drive.Hub), setup.Axis, setup.Sheath);
             _hubs = hubs;
-            _wire = new InnerInstrument(setup, hubs, drives.Length - 1);
+            Wire = new InnerInstrument(setup, hubs, drives.Length - 1);
             _nodes = new CoaxialNodes(setup.Instruments, hubs);
-            _isAlone = drives.Length == 1;
+            _hasWindow = setup.Sheath != null;
+            _torques = new double[drives.Length];
             _active = new int[drives.Length];
             _leads = new double[drives.Length];
             _nodes.Find(0.0, 0.0);
-            int first = !_isAlone ? 0
-                : _nodes.FirstOf(setup.Wire.Shape, 0, setup.Sheath!, hubs.SheathedAt(0.0), 0.0);
+            int first = !_hasWindow ? 0
+                : _nodes.FirstOf(setup.Catheter.Shape, 0, setup.Sheath!, hubs.SheathedAt(0.0), 0.0);
             _hubs.SetLeads(_leads, 0.0);
             _sheathed = hubs.SheathedAt(0.0);
             Rod = setup.Rod(_nodes.Beyond, _leads, first, hubs, _sheathed);
@@ -54,16 +55,12 @@ namespace Guidewire.Core
             CoaxialShape.SetTwists(shape, joints, hubs);
             _scene = new MaterialScene(setup.Catheter, Rod, shape, drives[0], hubs.Inner, setup.Wire.Schedule.Loads);
             double turn = hubs.Outer.TurnAt(0.0);
-            if (_isAlone)
+            if (_hasWindow)
             {
-                setup.CopyStart(_scene, first);
-                turn = _frameTurn = setup.HasStart ? _wire.TurnAt(setup.Wire.Shape, first) : 0.0;
+                turn = _frameTurn = setup.HasStart ? hubs.TurnAt(setup.Catheter.Shape, first) : 0.0;
                 HoldFrame(shape);
             }
-            else if (setup.HasStart)
-            {
-                setup.CopyStart(_scene, hubs);
-            }
+            setup.CopyStart(_scene, first, hubs);
             RodTerms terms = setup.Terms(_scene);
             failure = _scene.Joints.FindTurnedAtRest();
             IsAtRest = parameters.Scene.InitialState == InitialState.Equilibrium && failure == null;
@@ -87,6 +84,9 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Whether all that is in a sheath comes in with the next step, and stays: to compare with.</summary>
+        public bool IsWhole { get; set; }
+
         /// <summary>Whether the start is a rest shape.</summary>
         public bool IsAtRest { get; }
 
@@ -94,7 +94,7 @@ namespace Guidewire.Core
         public CoaxialHubs Hubs => _hubs;
 
         /// <summary>The wire's own shape.</summary>
-        public InnerInstrument Wire => _wire;
+        public InnerInstrument Wire { get; }
 
         /// <summary>All instruments as one rod.</summary>
         public CoaxialRod Rod { get; }
@@ -109,6 +109,7 @@ namespace Guidewire.Core
         public void TakeTime()
         {
             Dynamics.Terms.SetTime(Whole.Schedule, Dynamics.Time);
+            CoaxialSetup.SetLead(_scene, Dynamics.Terms);
         }
 
         /// <summary>The same, with the directions of loads along the instruments.</summary>
@@ -117,7 +118,7 @@ namespace Guidewire.Core
             TakeTime();
             if (Dynamics.Terms.CoaxialLoads != null)
             {
-                Rod.TakeLoads(Dynamics.Shape);
+                CoaxialSetup.TakeLoads(_scene, Dynamics.Terms);
             }
         }
 
@@ -131,20 +132,20 @@ namespace Guidewire.Core
             _nodes.Find(Dynamics.Time, length);
             if (HasOthers())
             {
-                Remesh(this, 0);
+                Remesh(this, Rod.Joints.First);
             }
             return length;
         }
 
-        /// <summary>Begins a step of an instrument alone: elements that will reach the exit of its sheath come in,
-        /// others go. A second call changes nothing.</summary>
+        /// <summary>Begins a step in a sheath: elements that will reach its exit come in, others go. A second call
+        /// changes nothing.</summary>
         public void MoveWindow()
         {
-            if (_isAlone)
+            if (_hasWindow)
             {
                 double time = Dynamics.Time;
-                int first = _nodes.FirstOf(Dynamics.Shape, Rod.Joints.First, _setup.Sheath!, _hubs.SheathedAt(time),
-                    Math.Max(0.0, _drives[0].NextMove(time)));
+                int first = IsWhole ? 0 : _nodes.FirstOf(Dynamics.Shape, Rod.Joints.First, _setup.Sheath!,
+                    _hubs.SheathedAt(time), Math.Max(0.0, _drives[0].NextMove(time)));
                 if (first != Rod.Joints.First)
                 {
                     Remesh(this, first);
@@ -153,11 +154,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>Goes on from where another chain is, in which other instruments were: what lies along them lies
-        /// where they were.</summary>
+        /// where they were. All of that chain comes in.</summary>
         /// <param name="isOther">Which instruments are not those of that chain.</param>
         /// <param name="shift">How far the outermost hub is behind that of that chain, m.</param>
         public void ResumeFrom(CoaxialChain former, bool[] isOther, double shift)
         {
+            if (former.Rod.Joints.First > 0)
+            {
+                former.Remesh(former, 0);
+            }
             for (int i = 1; i < isOther.Length; i++)
             {
                 _nodes.Beyond[i] = isOther[i] ? 0 : former._nodes.Beyond[i];
@@ -173,7 +178,7 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what says which elements there are.</summary>
         public void SerializeNodes(Snapshot snapshot, ref int first)
         {
-            if (_isAlone)
+            if (_hasWindow)
             {
                 snapshot.Serialize(ref first);
                 snapshot.Serialize(ref _frameTurn);
@@ -240,10 +245,10 @@ namespace Guidewire.Core
             return new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount, Rod.Joints.Capacity);
         }
 
-        // An instrument alone winds up against its frame, which does not turn with the hub.
+        // In a sheath the chain winds up against its frame, which does not turn with the hub.
         private void HoldFrame(RodShape shape)
         {
-            if (_isAlone)
+            if (_hasWindow)
             {
                 _hubs.Outer.HoldFrame(_frameTurn);
                 shape.ProximalFrame = _hubs.Outer.FrameTurned(_frameTurn);
@@ -276,14 +281,21 @@ namespace Guidewire.Core
             RodTerms former = was.Terms;
             double time = was.Time;
             double turn = was.ProximalTurn;
+            double thrust = 0.0;
             Vector3d held = default;
-            if (_isAlone)
+            if (_hasWindow)
             {
-                _wire.TakeForces(former, was.Shape);
+                SupportSpring spring = former.Walls()!.Spring;
+                thrust = Vector3d.Dot(spring.Force(was.Shape), _setup.Axis);
+                held = spring.HeldPosition(was.Shape);
                 turn += former.Bending.TurnOf(was.Shape, 0).Z;
-                held = former.Walls()!.Spring.HeldPosition(was.Shape);
+                for (int i = 0; i < _torques.Length; i++)
+                {
+                    _torques[i] = -former.Bending.TurnCouple(was.Shape, i);
+                }
             }
             CoaxialJoints joints = from.Rod.Joints;
+            bool movesWindow = from == this && first != joints.First;
             RodMotion motion = was.Motion;
             if (from == this)
             {
@@ -296,14 +308,19 @@ namespace Guidewire.Core
             Rod.Remesh(_nodes.Beyond, _leads, _sheathed, first);
             _change.Begin(joints, isOther, shift);
             _change.Take(motion, Dynamics.Motion);
-            if (_isAlone)
+            if (_hasWindow)
             {
-                _frameTurn = _change.Enter(motion.Shape, Rod.Rod, Dynamics.Motion, _setup.Axis, turn, _wire.Thrust,
-                    _wire.Torque);
+                // With the lengths that loads give them.
+                Dynamics.Terms.CoaxialLoads?.Place(Dynamics.Terms.Loads.Force);
+                Rod.TakeLoads(Dynamics.Shape);
+                _frameTurn = _change.Enter(motion.Shape, Rod.Rod, Dynamics.Motion, _setup.Axis, turn, thrust,
+                    _torques);
                 turn = _frameTurn;
+                Rod.Axial.Remesh();
+                Rod.SetLengths();
             }
-            Begin(time, turn, former.Walls(), _isAlone ? _change.Entered : (int?)null);
-            if (_isAlone)
+            Begin(time, turn, former.Walls(), movesWindow ? _change.Entered : (int?)null);
+            if (_hasWindow)
             {
                 // An element that leaves may have another force than the springs that take its place.
                 Whole.Contacts!.DriveShortfall -= _drives[0].AxialProgress(held,

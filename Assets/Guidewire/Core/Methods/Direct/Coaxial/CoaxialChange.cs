@@ -123,8 +123,8 @@ namespace Guidewire.Core
                 for (int j = 0; j < Joints.ActiveCountOf(i); j++)
                 {
                     int element = Math.Min(Element[j], Old.ActiveCountOf(i) - 1);
-                    motion.TwistRates[(i - 1) * n + j] = CoaxialShape.Angle(old, was.TwistRates, Old, element, i,
-                        Joints.CarrierOf(j));
+                    motion.TwistRates[(i - 1) * n + j] = element < 0 ? 0.0
+                        : CoaxialShape.Angle(old, was.TwistRates, Old, element, i, Joints.CarrierOf(j));
                 }
             }
             for (int j = 0; j < n; j++)
@@ -137,14 +137,14 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Places the elements that come in within a sheath: on its axis, with the strain and the twist of the
-        /// part of the instrument before them.</summary>
+        /// <summary>Places the elements that come in within a sheath: on its axis, with the strain and the twists of
+        /// the part of the instruments before them.</summary>
         /// <param name="turn">Of the former first element, radians.</param>
-        /// <param name="thrust">Of the hub along the axis, N.</param>
-        /// <param name="torque">Of the instrument on its part in the sheath, N m.</param>
+        /// <param name="thrust">Of the hubs along the axis, N.</param>
+        /// <param name="torques">Of each instrument on its part in the sheath, N m.</param>
         /// <returns>The turn of the first element now.</returns>
         public double Enter(RodShape old, MaterialRod rod, RodMotion motion, in Vector3d axis, double turn,
-            double thrust, double torque)
+            double thrust, double[] torques)
         {
             RodShape shape = motion.Shape;
             for (int j = 1; j <= -Entered; j++)
@@ -153,13 +153,19 @@ namespace Guidewire.Core
             }
             for (int j = Entered - 1; j >= 0; j--)
             {
-                double joint = torque / Joints[j + 1].Twist + Joints[j + 1].RestTwist;
+                double joint = torques[0] / Joints[j + 1].Twist + Joints[j + 1].RestTwist;
                 double length = rod.Length[j] * (1.0 - thrust / rod.StretchStiffness[j]);
                 shape.X[j] = shape.X[j + 1] - length * axis;
                 shape.Q[j] = shape.Q[j + 1] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, -joint);
                 motion.Velocities[j] = Vector3d.Dot(motion.Velocities[j + 1], axis) * axis;
                 motion.Spins[j] = new Vector3d(0.0, 0.0, motion.Spins[j + 1].Z);
                 turn -= joint;
+                for (int i = 1; i < Joints.Count; i++)
+                {
+                    int at = (i - 1) * shape.ElementCount + j;
+                    shape.Twist[at] = shape.Twist[at + 1] + joint
+                        - (i == 1 ? Joints[j + 1].First : Joints[j + 1].Second).TurnBy(torques[i]);
+                }
             }
             return turn;
         }

@@ -33,8 +33,8 @@ namespace Guidewire.Core
         /// <summary>What was found last, of each instrument.</summary>
         public int[] Beyond { get; }
 
-        /// <summary>The first element of an instrument alone in a sheath that is needed in a step: it is wholly in the
-        /// sheath until its end, by the hub's position and, where the instrument is stretched, by its own. So every
+        /// <summary>The first element of the outermost instrument in a sheath that is needed in a step: it is wholly in
+        /// the sheath until its end, by the hub's position and, where the instrument is stretched, by its own. So every
         /// joint that comes out, or goes in, does so within a step.</summary>
         /// <param name="shape">Where its elements are, from one on.</param>
         /// <param name="first">That element.</param>

@@ -121,12 +121,6 @@ namespace Guidewire.Core
         /// <summary>Whether the run starts where a start has the instruments.</summary>
         public bool HasStart => _starts.Length > 0;
 
-        /// <summary>Lays a chain, and what moves it, where the start has the instruments.</summary>
-        public void CopyStart(MaterialScene scene, CoaxialHubs hubs)
-        {
-            new StartedChain(this, hubs, scene.Supports.Coaxial!.Joints).Take(scene);
-        }
-
         /// <summary>What hubs with a hubForceLimit do; that of an instrument alone slips on its spring.</summary>
         public HubSlip[] Slips(MaterialDrive[] drives)
         {
@@ -159,9 +153,18 @@ namespace Guidewire.Core
             return records;
         }
 
-        /// <summary>Copies the start of an instrument alone, from an element on, into the scene of that part.</summary>
-        public void CopyStart(MaterialScene scene, int first)
+        /// <summary>Lays a chain, and what moves it, where the start has the instruments: of one alone that is its
+        /// shape from an element on.</summary>
+        public void CopyStart(MaterialScene scene, int first, CoaxialHubs hubs)
         {
+            if (Scenes.Length > 1)
+            {
+                if (HasStart)
+                {
+                    new StartedChain(this, hubs, scene.Supports.Coaxial!.Joints).Take(scene);
+                }
+                return;
+            }
             RodShape shape = scene.Shape;
             int n = shape.ElementCount;
             Array.Copy(Wire.Shape.X, first, shape.X, 0, n + 1);
@@ -197,11 +200,36 @@ namespace Guidewire.Core
             }
         }
 
-        // The hub's spring, in series with what is before the chain.
         private void Hold(MaterialScene scene, SupportSpring hub)
         {
-            CoaxialJoints joints = scene.Supports.Coaxial!.Joints;
-            hub.Hold(joints.First > 0 ? Catheter.Rod : scene.Rod, joints.LeadStretchOf(0), joints.Stations[0]);
+            CoaxialRod rod = scene.Supports.Coaxial!;
+            if (rod.Joints.First == 0)
+            {
+                hub.Hold(scene.Rod);
+                return;
+            }
+            double all = rod.Joints.AxialBetween(0.0, Catheter.Rod.Length[0], 0, out double own);
+            hub.Hold(Catheter.Rod, own / all);
+            hub.SetBefore(rod.Axial.LeadLength, rod.Joints.LeadAxial);
+        }
+
+        /// <summary>Takes the directions of the loads along the instruments.</summary>
+        /// <returns>The largest change of what an element is longer by, m.</returns>
+        public static double TakeLoads(MaterialScene scene, RodTerms terms)
+        {
+            double change = scene.Supports.Coaxial!.TakeLoads(scene.Shape);
+            SetLead(scene, terms);
+            return change;
+        }
+
+        /// <summary>Sets how long and how soft the part before the chain is where the hubs are.</summary>
+        public static void SetLead(MaterialScene scene, RodTerms terms)
+        {
+            CoaxialRod rod = scene.Supports.Coaxial!;
+            if (rod.Joints.First > 0)
+            {
+                terms.Walls()!.Spring.SetBefore(rod.Axial.LeadLength, rod.Joints.LeadAxial);
+            }
         }
 
         /// <summary>What the run may take.</summary>
@@ -219,12 +247,11 @@ namespace Guidewire.Core
         public string? FindRestShape(MaterialScene scene, RodTerms terms, SolverReport report)
         {
             MethodParameters method = _parameters.Method;
-            CoaxialRod rod = scene.Supports.Coaxial!;
             double change = double.PositiveInfinity;
             string? failure = null;
-            for (int k = 0; k < MaxSearches && failure == null && change > SameLength * rod.Rod.TotalLength; k++)
+            for (int k = 0; k < MaxSearches && failure == null && change > SameLength * scene.Rod.TotalLength; k++)
             {
-                change = k == 0 ? change : rod.TakeLoads(scene.Shape);
+                change = k == 0 ? change : TakeLoads(scene, terms);
                 failure = new RestShape(scene, terms, Math.Min(method.SolverTolerance, 1e-9),
                     RestShape.IterationFactor * method.MaxNewtonIterations, report).Find(scene.Shape);
             }

@@ -2,8 +2,8 @@ using System;
 
 namespace Guidewire.Core
 {
-    /// <summary>Shape of an instrument for logs: its own nodes and elements, on the shared centreline inside the others
-    /// and on the axis before the outermost hub, or within the sheath where it is alone.</summary>
+    /// <summary>Shape of an instrument for logs: its own nodes and elements, on the shared centreline, and on the axis
+    /// before the chain. There it is evenly stretched and twisted.</summary>
     internal sealed class InnerInstrument
     {
         private readonly int _instrument;
@@ -42,10 +42,10 @@ namespace Guidewire.Core
         /// <summary>Spins of its elements, rad/s.</summary>
         public Vector3d[] Spins { get; }
 
-        /// <summary>Force of the hub of one in a sheath along the axis, N.</summary>
+        /// <summary>Force of the hubs along the axis on what is before the chain, N.</summary>
         public double Thrust { get; private set; }
 
-        /// <summary>Its torque on its part in the sheath about the axis, N m, positive where it is ahead of the
+        /// <summary>Its torque on its part before the chain about the axis, N m, positive where it is ahead of the
         /// hub.</summary>
         public double Torque { get; private set; }
 
@@ -68,16 +68,17 @@ namespace Guidewire.Core
         /// <summary>Takes both from what is simulated, at the time that was set last.</summary>
         public void TakeForces(RodTerms terms, RodShape shape)
         {
-            Thrust = Vector3d.Dot(terms.Walls()!.Spring.Force(shape), _axis);
-            Torque = -terms.Bending.TurnCouple(shape);
+            Thrust = terms.Walls() is WallTerms walls ? Vector3d.Dot(walls.Spring.Force(shape), _axis) : 0.0;
+            Torque = -terms.Bending.TurnCouple(shape, _instrument);
         }
 
         /// <summary>Takes it from all as one rod.</summary>
         public void Take(RodDynamics dynamics, CoaxialJoints joints)
         {
+            TakeForces(dynamics.Terms, dynamics.Shape);
             if (_instrument == 0)
             {
-                TakeAlone(dynamics, joints.First);
+                TakeOutermost(dynamics, joints);
                 return;
             }
             RodShape shape = dynamics.Shape;
@@ -85,16 +86,19 @@ namespace Guidewire.Core
             double lead = _hubs.LeadAt(_instrument, dynamics.Time);
             int n = shape.ElementCount;
             int j = 0;
+            int before = 0;
             AxialForces axial = dynamics.Terms.Supports.Coaxial!.Axial;
+            double slide = chain[0] > 0.0 ? axial.SlideAt(_instrument, 0, 0.0) : 0.0;
             for (int i = 0; i < Shape.X.Length; i++)
             {
                 double at = _own.Stations[i] - lead;
                 j = CoaxialShape.ElementAt(joints, at, j);
-                // Before the hub and beyond the last node by what is too short for an element.
+                // Before the chain and beyond the last node by what is too short for an element.
                 double fraction = (at - chain[j]) / (chain[j + 1] - chain[j]);
-                bool isBefore = at <= 0.0;
+                bool isBefore = at <= chain[0];
                 Vector3d direction = isBefore ? _axis : shape.Q[j].Director3;
-                Shape.X[i] = isBefore ? shape.X[0] + at * _axis
+                Shape.X[i] = isBefore
+                    ? shape.X[0] + (slide - (chain[0] > 0.0 ? axial.LeadFrom(at, _instrument, Thrust) : -at)) * _axis
                     : fraction > 1.0 ? shape.X[n] + (at - chain[n]) * direction
                     : Vector3d.Lerp(shape.X[j], shape.X[j + 1], fraction)
                         + axial.SlideAt(_instrument, j, fraction) * direction;
@@ -104,47 +108,46 @@ namespace Guidewire.Core
                     + (isInside ? _hubs.SlideOf(_instrument, joints.CarrierOf(j)) : 0.0) * direction;
                 if (i < Shape.Q.Length)
                 {
-                    TakeElement(dynamics, joints, i, at + 0.5 * _own.Rod.Length[i], j);
+                    at += 0.5 * _own.Rod.Length[i];
+                    before += at <= chain[0] ? 1 : 0;
+                    TakeElement(dynamics, joints, i, at, j);
                 }
             }
-        }
-
-        /// <summary>Turn of an element in a sheath against the hub's frame at the start, radians: all turns of the
-        /// joints before it.</summary>
-        public double TurnAt(RodShape shape, int element)
-        {
-            double turn = _hubs.Outer.TurnAt(0.0);
-            Quaterniond frame = _hubs.Outer.FrameTurned(turn);
-            for (int j = 0; j < element; j++)
-            {
-                turn += RotationVector.Log(frame.Conjugate * shape.Q[j]).Z;
-                frame = shape.Q[j];
-            }
-            return turn;
+            TakeStraight(dynamics.Time, before);
         }
 
         // From the first element that is simulated on; before it evenly stretched and twisted.
-        private void TakeAlone(RodDynamics dynamics, int first)
+        private void TakeOutermost(RodDynamics dynamics, CoaxialJoints joints)
         {
             RodShape shape = dynamics.Shape;
-            int n = shape.ElementCount;
+            int first = joints.First;
+            int n = joints.OuterCount;
             Array.Copy(shape.X, 0, Shape.X, first, n + 1);
             Array.Copy(shape.Q, 0, Shape.Q, first, n);
             Array.Copy(dynamics.Velocities, 0, Velocities, first, n + 1);
             Array.Copy(dynamics.Spins, 0, Spins, first, n);
-            TakeForces(dynamics.Terms, shape);
+            AxialForces axial = dynamics.Terms.Supports.Coaxial!.Axial;
             for (int j = first - 1; j >= 0; j--)
             {
-                double length = _own.Rod.Length[j] * (1.0 - Thrust / _own.Rod.StretchStiffness[j]);
+                // All that are there have what is no load together.
+                double part = joints.AxialBetween(_own.Stations[j], _own.Stations[j + 1], 0, out double own) / own;
+                double strain = part * (Thrust + axial.LeadLoad) / _own.Rod.StretchStiffness[j];
+                double length = _own.Rod.Length[j] * (1.0 - strain) + own * axial.LeadForceOf(0);
                 Shape.X[j] = Shape.X[j + 1] - length * _axis;
                 Velocities[j] = Vector3d.Dot(Velocities[first], _axis) * _axis;
                 Spins[j] = new Vector3d(0.0, 0.0, Spins[first].Z);
             }
+            TakeStraight(dynamics.Time, first);
+        }
+
+        // Frames of so many elements from the hub on.
+        private void TakeStraight(double time, int count)
+        {
             // Most joints are alike: sines are dear beside the rest.
-            Quaterniond frame = _hubs.Outer.FrameTurned(_hubs.Outer.TurnAt(dynamics.Time));
+            Quaterniond frame = _hubs.Outer.FrameTurned(_hubs.Outer.TurnAt(time) + _hubs.TwistAt(_instrument, time));
             Quaterniond turned = Quaterniond.Identity;
             double before = 0.0;
-            for (int j = 0; j < first; j++)
+            for (int j = 0; j < count; j++)
             {
                 double turn = Torque / _joints[j].Twist + _joints[j].Rest.Z;
                 turned = turn == before ? turned : Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
@@ -156,19 +159,13 @@ namespace Guidewire.Core
 
         private void TakeElement(RodDynamics dynamics, CoaxialJoints joints, int element, double at, int j)
         {
-            RodShape shape = dynamics.Shape;
-            if (at <= 0.0)
+            if (at <= joints.Stations[0])
             {
-                // Between the hubs it twists evenly, on to the middle of the outermost instrument's first element.
-                CoaxialBendTwist bending = dynamics.Terms.CoaxialBending!;
-                double turn = bending.HubTwist[_instrument]
-                    + (joints.LeadOf(_instrument) + at) * bending.LeadTwist(shape, _instrument).Z;
-                Shape.Q[element] = shape.ProximalFrame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
-                Spins[element] = Vector3d.Zero;
+                Spins[element] = at <= 0.0 ? Vector3d.Zero : new Vector3d(0.0, 0.0, dynamics.Spins[0].Z);
                 return;
             }
             j = CoaxialShape.ElementAt(joints, at, j);
-            Shape.Q[element] = CoaxialShape.FrameOf(shape, joints, j, _instrument);
+            Shape.Q[element] = CoaxialShape.FrameOf(dynamics.Shape, joints, j, _instrument);
             Spins[element] = dynamics.Spins[j];
         }
     }

@@ -36,7 +36,7 @@ namespace Guidewire.Core
                 shape.X[k] = _setup.Scenes[carrier].Shape.X[own];
                 scene.Velocities[k] = _setup.Scenes[carrier].Velocities[own];
             }
-            shape.ProximalFrame = _hubs.Outer.FrameTurned(_hubs.Outer.TurnAt(0.0));
+            shape.ProximalFrame = _hubs.Outer.FrameTurned(_hubs.Outer.FrameTurnAt(0.0));
             int j = 0;
             for (int i = 0; i < _joints.Count; i++)
             {
@@ -120,7 +120,7 @@ namespace Guidewire.Core
                 {
                     break;
                 }
-                Quaterniond turn = (middle <= 0.0 ? shape.ProximalFrame : shape.Q[at]).Conjugate * own.Q[e];
+                Quaterniond turn = OutermostAt(shape, middle, at).Conjugate * own.Q[e];
                 double before = angle;
                 angle = Nearest(2.0 * Math.Atan2(turn.Z, turn.W), before - Carried(shape, carrier, next));
                 for (; next < at && next < _joints.ActiveCountOf(instrument); next++)
@@ -130,7 +130,7 @@ namespace Guidewire.Core
                     shape.Twist[(instrument - 1) * n + next] = place < 0.0 || !(part > 0.0) ? angle
                         : before + part * (angle - before);
                 }
-                if (middle > 0.0 && next == at)
+                if (middle > _joints.Stations[0] && next == at)
                 {
                     shape.Twist[(instrument - 1) * n + next++] = angle;
                 }
@@ -140,6 +140,21 @@ namespace Guidewire.Core
             {
                 shape.Twist[(instrument - 1) * n + next] = angle;
             }
+        }
+
+        // The outermost frame at a place, in element 'at' of the chain or before it.
+        private Quaterniond OutermostAt(RodShape shape, double place, int at)
+        {
+            if (place <= 0.0)
+            {
+                return _hubs.Outer.FrameTurned(_hubs.Outer.TurnAt(0.0));
+            }
+            int own = 0;
+            while (own < _joints.First && _setup.Instruments[0].Stations[own + 1] < place)
+            {
+                own++;
+            }
+            return own < _joints.First ? _setup.Catheter.Shape.Q[own] : shape.Q[at];
         }
 
         // By which angle the frame changes where another instrument becomes the outermost one before an element.

@@ -8,7 +8,7 @@ namespace Guidewire.Core
     {
         private readonly SolverReport _report;
         private readonly CatheterRecords _records;
-        private readonly InnerInstrument[] _inner;     // the wire last
+        private readonly InnerInstrument[] _each;      // the outermost one first, the wire last
         private readonly HubRecord _hub;
         private readonly WireStress _stress;
 
@@ -20,10 +20,10 @@ namespace Guidewire.Core
         {
             _report = report;
             _records = new CatheterRecords(setup, drives);
-            _inner = new InnerInstrument[drives.Length - 1];
-            for (int i = 0; i < _inner.Length; i++)
+            _each = new InnerInstrument[drives.Length];
+            for (int i = 0; i < _each.Length; i++)
             {
-                _inner[i] = i == _inner.Length - 1 ? Wire : new InnerInstrument(setup, Hubs, i + 1);
+                _each[i] = i == _each.Length - 1 ? Wire : new InnerInstrument(setup, Hubs, i);
             }
             _hub = new HubRecord(setup.Wire.Rod.JointLengths(setup.Wire.Supports));
             _stress = new WireStress(setup, Wire);
@@ -51,7 +51,7 @@ namespace Guidewire.Core
         public override CoaxialRecord? Coaxial()
         {
             Chain.TakeTime();
-            return _records.Take(Dynamics, Chain.Rod.Joints, _inner);
+            return _records.Take(Dynamics, Chain.Rod.Joints, _each);
         }
 
         /// <inheritdoc/>
@@ -174,10 +174,7 @@ namespace Guidewire.Core
             base.TakeShapes();
             for (int i = 0; i < _records.All.Length; i++)
             {
-                if (i < _inner.Length - 1)
-                {
-                    _inner[i].Take(Dynamics, Chain.Rod.Joints);
-                }
+                _each[i].Take(Dynamics, Chain.Rod.Joints);
                 if (Contacts != null)
                 {
                     TakeWalls(i, _records.All[i].ContactForces, _records.All[i].WallDisplacements);

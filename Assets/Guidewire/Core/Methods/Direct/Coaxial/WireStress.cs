@@ -39,7 +39,8 @@ namespace Guidewire.Core
             {
                 double at = _own.Stations[k] - lead;
                 j = CoaxialShape.ElementAt(joints, at, j);
-                Vector3d curvature = k == n ? Vector3d.Zero : at < 0.0 ? bending.LeadTwist(dynamics.Shape, wire)
+                Vector3d curvature = k == n ? Vector3d.Zero
+                    : at < joints.Stations[0] ? CoaxialShape.LeadTwist(dynamics.Shape, bending, wire)
                     : Curvature(dynamics.Shape, bending, j, at);
                 curvature = at < joints.Sheathed ? curvature.Z * Vector3d.UnitZ : curvature;
                 Joint joint = _joints[k];
@@ -59,13 +60,13 @@ namespace Guidewire.Core
         private static Vector3d Curvature(RodShape shape, CoaxialBendTwist bending, int j, double at)
         {
             CoaxialJoints joints = bending.Joints;
-            Vector3d before = bending.CurvatureOf(shape, j, joints.InnerCount);
+            Vector3d before = CoaxialShape.CurvatureOf(shape, bending, j, joints.InnerCount);
             if (j + 1 >= joints.ElementCount)
             {
                 return before;
             }
             double fraction = (at - joints.Stations[j]) / (joints.Stations[j + 1] - joints.Stations[j]);
-            return Vector3d.Lerp(before, bending.CurvatureOf(shape, j + 1, joints.InnerCount), fraction);
+            return Vector3d.Lerp(before, CoaxialShape.CurvatureOf(shape, bending, j + 1, joints.InnerCount), fraction);
         }
 
         private void TakeElement(RodDynamics dynamics, CoaxialJoints joints, int element, double at, int j,
@@ -73,7 +74,7 @@ namespace Guidewire.Core
         {
             MaterialRod rod = _own.Rod;
             Vector3d strain = new Vector3d(0.0, 0.0, -thrust / rod.StretchStiffness[element]);
-            if (at >= 0.0)
+            if (at >= joints.Stations[0])
             {
                 RodShape shape = dynamics.Shape;
                 j = CoaxialShape.ElementAt(joints, at, j);

@@ -21,15 +21,22 @@ namespace Guidewire.Core
         public SupportSpring(MaterialRod rod, double limit)
         {
             _limit = limit > 0.0 ? limit : double.PositiveInfinity;
-            Hold(rod, 0.0, 0.0);
+            Hold(rod);
         }
 
-        /// <summary>Holds a rod, in series with a length of wire along an axis.</summary>
-        /// <param name="compliance">m/N.</param>
-        /// <param name="length">From the hub to node 0, at rest, m.</param>
-        public void Hold(MaterialRod rod, double compliance, double length)
+        /// <summary>Holds a rod.</summary>
+        /// <param name="all">EA of all at the hub over that of the rod.</param>
+        public void Hold(MaterialRod rod, double all = 1.0)
         {
-            _stiffness = OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
+            _stiffness = all * OverAxialSpring * rod.StretchStiffness[0] / rod.Length[0];
+            SetBefore(0.0, 0.0);
+        }
+
+        /// <summary>Sets what is between the hub and node 0 along the axis.</summary>
+        /// <param name="length">At rest, m.</param>
+        /// <param name="compliance">m/N.</param>
+        public void SetBefore(double length, double compliance)
+        {
             _axial = compliance > 0.0 ? 1.0 / (1.0 / _stiffness + compliance) : _stiffness;
             _before = length;
         }
