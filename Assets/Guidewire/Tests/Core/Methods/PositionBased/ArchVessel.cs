@@ -48,7 +48,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Its wall, for one who changes it.</summary>
-        public static MeshShape Read()
+        private static MeshShape Read()
         {
             return new MeshShape(MeshFile.Read(
                 Path.Combine(Root(), "params", "meshes", "arch.obj"), 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
