@@ -97,11 +97,20 @@ def soften(scene: dict[str, Any], seed: int) -> None:
 
 
 def radii_of(scene: dict[str, Any]) -> np.ndarray:
-    """Radius in units of each element, shape (n,). Sections of a draw are at the tip, with elements of their own."""
-    radii = [scene["wireRadius"]] * scene["numberRodElements"]
-    for section in scene["wireSections"]:
-        radii += [section.get("wireRadius", scene["wireRadius"])] * section["numberRodElements"]
-    return 1e3 * np.array(radii)
+    """Radius in units of each element, shape (n,): the largest along it. Sections with elements of their own are at the
+    tip."""
+    length, sections = scene["guidewireLength"], scene["wireSections"]
+    own = [section for section in sections if section.get("numberRodElements")]
+    parts = [(0.0, min((section["from"] for section in own), default=length), scene["numberRodElements"]),
+             *((section["from"], section["to"], section["numberRodElements"]) for section in own)]
+    ends = np.concatenate([np.linspace(a, b, n, endpoint=False) for a, b, n in parts] + [[length]])
+    wide = [section for section in sections if section.get("wireRadius")]
+    cuts = np.unique([*ends, *(section[end] for section in wide for end in ("from", "to"))])
+    middles = 0.5 * (cuts[:-1] + cuts[1:])
+    pieces = np.full(len(middles), scene["wireRadius"])
+    for section in reversed(wide):
+        pieces[(section["from"] <= middles) & (middles < section["to"])] = section["wireRadius"]
+    return 1e3 * np.maximum.reduceat(pieces, np.searchsorted(cuts, ends[:-1]))
 
 
 def core_radii_of(scene: dict[str, Any]) -> list[np.ndarray]:

@@ -209,7 +209,7 @@ def assert_rest_shape(summary: dict, parameters: dict) -> None:
     length = parameters["guidewireLength"] * metres
     mass = parameters["density"] * math.pi * (parameters["wireRadius"]**2 - parameters["innerRadius"]**2) * length
     loads = [mass * np.array(parameters["gravity"]), length * np.array(parameters["distributedForce"]),
-             *(np.array(load["force"], float) for load in parameters["pointLoads"] or ())]
+             *(_vector(load["force"]) for load in parameters["pointLoads"] or ())]
     if parameters["tipForceReleaseTime"] >= 0.0:
         loads.append(np.array(parameters["tipForce"]))
     if parameters["drive"] == "force":
@@ -219,6 +219,11 @@ def assert_rest_shape(summary: dict, parameters: dict) -> None:
     free_axis = parameters["distalEnd"] == "sliding"
     if not free_axis:
         assert np.linalg.norm(sum(loads + supports)) <= 1e-5 * scale, "a rest shape out of balance"
+
+
+def _vector(given: list | dict) -> np.ndarray:
+    """A vector of a parameter file, which may be an object of x, y and z."""
+    return np.array([given[axis] for axis in "xyz"] if isinstance(given, dict) else given, float)
 
 
 def bend_force(parameters: dict) -> float:

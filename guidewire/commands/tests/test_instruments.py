@@ -110,7 +110,10 @@ def test_every_instrument_runs_through_the_vessel_without_a_passage(live, tmp_pa
     answer = live.run(Request(name, ROOT / "params" / "sheath.json", tmp_path / "run",
                               {"instrument": name, "maxSimulationSteps": steps}))
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
-    assert (answer.exit_code, summary["outcome"], summary["reliable"], summary["passages"]) == (0, "finished", True, 0)
+    assert (answer.exit_code, summary["outcome"], summary["passages"]) == (0, "finished", 0)
+    # The two stiffest fold their soft tip at the fork.
+    assert all("would have kinked" in warning for warning in summary["warnings"])
+    assert summary["reliable"] == (not summary["warnings"])
     # 20 mm/s for 0.05 s a step: the hub has been where the drive wanted it, and the tip has moved on in the vessel.
     assert summary["hub"]["insertion"] == pytest.approx(1e-3 * steps, abs=1e-4)
     assert summary["hub"]["lengthInBody"] > 0.9e-3 * steps
