@@ -305,10 +305,10 @@ namespace Guidewire.Core
             WireTorque = wireTorque;
             Extension = joints.ExtensionOf(_instrument + 1, _instrument);
             Overlap = Math.Min(0.0, Extension)
-                + (_instrument == 0 ? joints.Stations[joints.OuterCount] : joints.EndOf(1) + joints.LeadOf(1));
-            double overlapEnd = _instrument > 0 ? Math.Min(joints.EndOf(1), joints.EndOf(2))
+                + (_instrument == 0 ? joints.Stations[joints.OuterCount] : joints.Hubs.Ends[1] + joints.LeadOf(1));
+            double overlapEnd = _instrument > 0 ? Math.Min(joints.Hubs.Ends[1], joints.Hubs.Ends[2])
                 : joints.InnerCount == 1 ? Overlap
-                : Math.Max(Overlap, Math.Min(joints.EndOf(2), joints.Stations[joints.OuterCount]));
+                : Math.Max(Overlap, Math.Min(joints.Hubs.Ends[2], joints.Stations[joints.OuterCount]));
             CoaxialBendTwist bending = terms.CoaxialBending!;
             WireTwist = CoaxialShape.InnermostTwist(shape, bending);
             int wire = joints.InnerCount;

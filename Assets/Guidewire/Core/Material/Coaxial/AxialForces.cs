@@ -250,7 +250,7 @@ namespace Guidewire.Core
         private bool GoesOn(int instrument, int element)
         {
             return instrument == _joints.CarrierOf(element)
-                || _joints.EndOf(instrument) >= _joints.Stations[element + 1];
+                || _joints.Hubs.Ends[instrument] >= _joints.Stations[element + 1];
         }
 
         // C_i to an element's end, m/N.
@@ -275,7 +275,7 @@ namespace Guidewire.Core
                 double levered = Vector3d.Dot(axis, _levered[instrument * N + j]);
                 _force[j] += force + levered;
                 double length = _joints.Stations[j + 1] - _joints.Stations[j];
-                double part = Math.Min(1.0, (_joints.EndOf(instrument) - _joints.Stations[j]) / length);
+                double part = Math.Min(1.0, (_joints.Hubs.Ends[instrument] - _joints.Stations[j]) / length);
                 double mean = part > 0.0 ? force + levered / part : 0.0;
                 double stretch = _joints.StretchOf(instrument, j) * mean;
                 _strain[j] = Math.Max(_strain[j], part > 0.0 ? Math.Abs(stretch) / (part * length) : 0.0);

@@ -191,12 +191,6 @@ namespace Guidewire.Core
             return station[station.Length - 1 - fromTip] - Hubs.Leads[instrument];
         }
 
-        /// <summary>Where the tip of an instrument is, m along the chain.</summary>
-        public double EndOf(int instrument)
-        {
-            return Hubs.Ends[instrument];
-        }
-
         /// <summary>Gives the distance of an instrument's tip beyond that of another, m; negative inside.</summary>
         public double ExtensionOf(int instrument, int outer)
         {

@@ -76,7 +76,7 @@ namespace Guidewire.Core
                 {
                     AddAt(force, i, load.At - lead, _factor[i] * load.Force);
                 }
-                AddAt(force, i, _joints.EndOf(i), _tip[i]);
+                AddAt(force, i, _joints.Hubs.Ends[i], _tip[i]);
                 if (_gravity != Vector3d.Zero || _perLength[i] != Vector3d.Zero)
                 {
                     AddPerLength(force, i);
@@ -91,12 +91,12 @@ namespace Guidewire.Core
             double[] station = _joints.Stations;
             double lead = _joints.LeadOf(instrument);
             int piece = profile.PieceAt(lead + station[0]);
-            for (int j = 0; j < _joints.ElementCount && station[j] < _joints.EndOf(instrument); j++)
+            for (int j = 0; j < _joints.ElementCount && station[j] < _joints.Hubs.Ends[instrument]; j++)
             {
                 double at = station[j];
                 // A tip may be beyond the last node by what is too short for an element.
-                double end = j == _joints.ElementCount - 1 ? _joints.EndOf(instrument)
-                    : Math.Min(station[j + 1], _joints.EndOf(instrument));
+                double end = j == _joints.ElementCount - 1 ? _joints.Hubs.Ends[instrument]
+                    : Math.Min(station[j + 1], _joints.Hubs.Ends[instrument]);
                 while (at < end)
                 {
                     bool isLast = piece == profile.Pieces.Length - 1;
