@@ -12,6 +12,7 @@ namespace Guidewire.Core
 
         private readonly bool _hasMaterial;
         private readonly bool _hasSheath;
+        private readonly Vector3d? _exit;    // of the sheath, as given
         private readonly CoaxialRecord[] _catheters;
         private readonly double[][] _lengths;    // of the elements of the wire and of each catheter, units
         private readonly TimeStepper _stepper;
@@ -28,6 +29,7 @@ namespace Guidewire.Core
         {
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
             _hasSheath = parameters.Scene.Sheath != null;
+            _exit = parameters.Scene.Sheath?.Exit;
             _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
             _lengths = LengthsOf(parameters);
             State = start.State;
@@ -37,12 +39,9 @@ namespace Guidewire.Core
                 parameters.Drive.Steering == null ? parameters.Method.MaxSimulationSteps : int.MaxValue);
             _clock = new StepClock(parameters.Method.TimeStep);
             _warnings.Begin(State);
-            _start = new RodStart((Vector3d[])State.Positions.Clone(), (Quaterniond[])State.Orientations.Clone(),
-                (Vector3d[])State.Velocities.Clone(), (Vector3d[])State.AngularVelocities.Clone())
-            {
-                ProximalFrame = proximalFrame,
-                DistalFrame = distalFrame,
-            };
+            // That of a run that goes on stays as it is: each time it was built from, its bits would change.
+            _start = parameters.Scene.Start is RodStart known && known.IsReached ? known
+                : RodStart.At(State, proximalFrame, distalFrame, _stepper.SheathExit);
         }
 
         /// <summary>The wire as it is now.</summary>
@@ -261,12 +260,8 @@ namespace Guidewire.Core
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);
-            var start = new RodStart(State.Positions, State.Orientations, State.Velocities, State.AngularVelocities)
-            {
-                ProximalFrame = _start.ProximalFrame,
-                DistalFrame = _start.DistalFrame,
-            };
-            return Rebuild(parameters, start, snapshot.ToRead());
+            return Rebuild(parameters, RodStart.At(State, _start.ProximalFrame, _start.DistalFrame,
+                parameters.Scene.Sheath?.Exit == _exit ? _stepper.SheathExit : null), snapshot.ToRead());
         }
 
         /// <summary>Why another instrument cannot take the place of one now, in one phrase, or null.</summary>
@@ -284,7 +279,7 @@ namespace Guidewire.Core
             var snapshot = new Snapshot();
             int elements = State.ElementCount;
             snapshot.Serialize(ref elements);
-            SerializeStart(snapshot, _start);
+            SerializeStart(snapshot, _start, _hasSheath);
             Serialize(snapshot);
             snapshot.Serialize(PredictionError);
             Contacts?.Serialize(snapshot);    // of the last step, as the error before: shown, not used
@@ -317,7 +312,7 @@ namespace Guidewire.Core
                 }
                 var start = new RodStart(new Vector3d[n + 1], new Quaterniond[n], new Vector3d[n + 1],
                     new Vector3d[n]);
-                SerializeStart(snapshot, start);
+                SerializeStart(snapshot, start, parameters.Scene.Sheath != null);
                 Simulation simulation = Rebuild(parameters, start, snapshot);
                 simulation._stepper.PredictionError = snapshot.Serialize(0.0);
                 simulation.Contacts?.Serialize(snapshot);
@@ -429,7 +424,7 @@ namespace Guidewire.Core
 
         private bool HasResult => Outcome != Outcome.Running && (StepCount > 0 || Outcome == Outcome.Converged);
 
-        private static void SerializeStart(Snapshot snapshot, RodStart start)
+        private static void SerializeStart(Snapshot snapshot, RodStart start, bool hasSheath)
         {
             snapshot.Serialize(start.Positions);
             snapshot.Serialize(start.Orientations);
@@ -437,6 +432,10 @@ namespace Guidewire.Core
             snapshot.Serialize(start.AngularVelocities);
             start.ProximalFrame = snapshot.Serialize(start.ProximalFrame ?? Quaterniond.Identity);
             start.DistalFrame = snapshot.Serialize(start.DistalFrame ?? Quaterniond.Identity);
+            if (hasSheath)
+            {
+                start.SheathExit = snapshot.Serialize(start.SheathExit ?? Vector3d.Zero);
+            }
         }
 
         private void Serialize(Snapshot snapshot)

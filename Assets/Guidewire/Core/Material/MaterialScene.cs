@@ -86,6 +86,9 @@ namespace Guidewire.Core
         /// <summary>Whether a run had come there, by an open rim, too.</summary>
         public bool IsReached => _scene.IsReached;
 
+        /// <summary>Where the sheath of that run ends, m; null: where the scene says.</summary>
+        public Vector3d? SheathExit => _scene.SheathExit;
+
         /// <summary>Velocities at the start, m/s.</summary>
         public Vector3d[] Velocities { get; set; }
 

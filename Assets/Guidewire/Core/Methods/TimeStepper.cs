@@ -61,6 +61,9 @@ namespace Guidewire.Core
             return null;
         }
 
+        /// <summary>Where the sheath ends, m; null without one.</summary>
+        public virtual Vector3d? SheathExit => null;
+
         /// <summary>Whether the wire's tip is in its sheath, or in a catheter whose own tip is within a wall and whose
         /// axis the wire's does not follow.</summary>
         public bool IsTipCovered(ContactShape wall)

@@ -52,6 +52,9 @@ namespace Guidewire.Core
         /// <summary>Whether a run had come there (<see cref="RodStart.IsReached"/>).</summary>
         public bool IsReached { get; private set; }
 
+        /// <summary>Where the sheath of that run ends, m (<see cref="RodStart.SheathExit"/>).</summary>
+        public Vector3d? SheathExit { get; private set; }
+
         /// <summary>Velocities of the n + 1 spheres at the start.</summary>
         public Vector3d[] Velocities { get; }
 
@@ -110,6 +113,7 @@ namespace Guidewire.Core
             {
                 Take(scene.Start);
                 IsReached = scene.Start.IsReached;
+                SheathExit = scene.Start.SheathExit;
             }
         }
 

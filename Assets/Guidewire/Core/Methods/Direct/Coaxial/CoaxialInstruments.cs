@@ -52,6 +52,9 @@ namespace Guidewire.Core
         /// </summary>
         public override ContactRecord? Contacts => _contacts;
 
+        /// <inheritdoc/>
+        public override Vector3d? SheathExit => Setup.Sheath?.Exit;
+
         /// <summary>What they are built from.</summary>
         protected CoaxialSetup Setup { get; }
 

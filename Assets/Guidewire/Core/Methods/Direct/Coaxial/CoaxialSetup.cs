@@ -46,7 +46,7 @@ namespace Guidewire.Core
             _drag = parameters.Material.MassDamping;
             if (parameters.Scene.Sheath != null)
             {
-                Sheath = new SheathEnd(Wire.Metres * SheathExit.Find(parameters.Scene.Sheath, Wire), Axis);
+                Sheath = new SheathEnd(SheathExit.Find(parameters.Scene.Sheath, Wire), Axis);
             }
             if (start?.Hub != null)
             {

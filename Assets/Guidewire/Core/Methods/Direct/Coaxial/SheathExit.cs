@@ -8,9 +8,14 @@ namespace Guidewire.Core
     {
         private const double Rounding = 1e-6;   // of the wire's length, and of a direction
 
-        /// <summary>The exit, units.</summary>
+        /// <summary>The exit, m.</summary>
         /// <exception cref="ArgumentException">One from which the wire cannot be fed into the vessel.</exception>
         public static Vector3d Find(Sheath sheath, MaterialScene whole)
+        {
+            return whole.SheathExit ?? whole.Metres * FindInUnits(sheath, whole);
+        }
+
+        private static Vector3d FindInUnits(Sheath sheath, MaterialScene whole)
         {
             double units = 1.0 / whole.Metres;
             Vector3d axis = whole.Schedule.Hub.Frame.Director3;
@@ -60,7 +65,8 @@ namespace Guidewire.Core
             Vector3d exit;
             try
             {
-                exit = Find(parameters.Scene.Sheath!, whole);
+                exit = whole.SheathExit is Vector3d known ? units * known
+                    : FindInUnits(parameters.Scene.Sheath!, whole);
             }
             catch (ArgumentException error)
             {
