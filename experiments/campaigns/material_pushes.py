@@ -188,6 +188,8 @@ def _in_catheters(random, scene: dict[str, Any], widths: np.ndarray, distance: f
     del scene["displacementPerStep"]
     scene["maxSimulationSteps"] = 120
     ahead = min(random.uniform(0.5, 1.3) * distance, 120 * _between(random, 0.5, 4.0) * float(widths[-1]))
+    if "sheath" in scene:    # no hub may come to its exit
+        ahead = min(ahead, 0.95 * (scene["sheath"]["exit"][2] - scene["guidewireOffset"]))
     turn = scene["maxSimulationSteps"] * scene.pop("twistPerStep", 0.0)
     times = scene["maxSimulationSteps"] * scene["timeStep"] * np.array([0.0, 0.25, 0.5, 0.75, 1.0])
     drives = [[0.0, *(ahead * random.uniform([-0.1, 0.2, 0.4, -0.1], 1.0) * [0.4, 0.7, 1.0, 1.0])]

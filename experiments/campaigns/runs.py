@@ -66,7 +66,7 @@ def fill(record: Record, given: argparse.Namespace, play: Callable[[Iterable[int
         own[one["seed"]] = record.add(one)
         ends[one["outcome"] == skipped] += one["seed"] >= given.first
         if one["claims"] or one["reason"] and one["outcome"] not in (*FINE, skipped):
-            print(*group.values(), one["seed"], one.get("kind", ""), one["outcome"] + ":",
+            print(*group.values(), one["seed"], one.get("kind", ""), f"{one['outcome']}:",
                   "; ".join(one["claims"]) or one["reason"], flush=True)
     return [one for seed, one in sorted(own.items()) if seed >= given.first and one["outcome"] != skipped][:given.runs]
 

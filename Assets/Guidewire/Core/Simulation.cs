@@ -41,7 +41,7 @@ namespace Guidewire.Core
             _warnings.Begin(State);
             // That of a run that goes on stays as it is: each time it was built from, its bits would change.
             _start = parameters.Scene.Start is RodStart known && known.IsReached ? known
-                : RodStart.At(State, proximalFrame, distalFrame, _stepper.SheathExit);
+                : State.ToStart(proximalFrame, distalFrame, _stepper.ExitOfSheath);
         }
 
         /// <summary>The wire as it is now.</summary>
@@ -260,8 +260,8 @@ namespace Guidewire.Core
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);
-            return Rebuild(parameters, RodStart.At(State, _start.ProximalFrame, _start.DistalFrame,
-                parameters.Scene.Sheath?.Exit == _exit ? _stepper.SheathExit : null), snapshot.ToRead());
+            return Rebuild(parameters, State.ToStart(_start.ProximalFrame, _start.DistalFrame,
+                parameters.Scene.Sheath?.Exit == _exit ? _stepper.ExitOfSheath : null), snapshot.ToRead());
         }
 
         /// <summary>Why another instrument cannot take the place of one now, in one phrase, or null.</summary>
@@ -434,7 +434,7 @@ namespace Guidewire.Core
             start.DistalFrame = snapshot.Serialize(start.DistalFrame ?? Quaterniond.Identity);
             if (hasSheath)
             {
-                start.SheathExit = snapshot.Serialize(start.SheathExit ?? Vector3d.Zero);
+                start.ExitOfSheath = snapshot.Serialize(start.ExitOfSheath ?? Vector3d.Zero);
             }
         }
 

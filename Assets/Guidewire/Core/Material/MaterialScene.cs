@@ -87,7 +87,7 @@ namespace Guidewire.Core
         public bool IsReached => _scene.IsReached;
 
         /// <summary>Where the sheath of that run ends, m; null: where the scene says.</summary>
-        public Vector3d? SheathExit => _scene.SheathExit;
+        public Vector3d? ExitOfSheath => _scene.ExitOfSheath;
 
         /// <summary>Velocities at the start, m/s.</summary>
         public Vector3d[] Velocities { get; set; }

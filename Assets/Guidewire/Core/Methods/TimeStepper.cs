@@ -62,7 +62,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Where the sheath ends, m; null without one.</summary>
-        public virtual Vector3d? SheathExit => null;
+        public virtual Vector3d? ExitOfSheath => null;
 
         /// <summary>Whether the wire's tip is in its sheath, or in a catheter whose own tip is within a wall and whose
         /// axis the wire's does not follow.</summary>

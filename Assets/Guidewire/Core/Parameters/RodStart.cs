@@ -33,19 +33,6 @@ namespace Guidewire.Core
             AngularVelocities = angularVelocities ?? new Vector3d[n];
         }
 
-        /// <summary>Where a run is: copies.</summary>
-        internal static RodStart At(RodState state, Quaterniond? proximalFrame, Quaterniond? distalFrame,
-            Vector3d? sheathExit)
-        {
-            return new RodStart((Vector3d[])state.Positions.Clone(), (Quaterniond[])state.Orientations.Clone(),
-                (Vector3d[])state.Velocities.Clone(), (Vector3d[])state.AngularVelocities.Clone())
-            {
-                ProximalFrame = proximalFrame,
-                DistalFrame = distalFrame,
-                SheathExit = sheathExit,
-            };
-        }
-
         /// <summary>n + 1 sphere positions in units.</summary>
         public Vector3d[] Positions { get; }
 
@@ -61,7 +48,7 @@ namespace Guidewire.Core
         internal bool IsReached { get; set; }
 
         /// <summary>Where the sheath of that run ends, m, to the bit; null: where the scene says.</summary>
-        internal Vector3d? SheathExit { get; set; }
+        internal Vector3d? ExitOfSheath { get; set; }
 
         /// <summary>The n orientations.</summary>
         public Quaterniond[] Orientations { get; }

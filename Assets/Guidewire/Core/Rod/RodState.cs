@@ -131,6 +131,18 @@ namespace Guidewire.Core
             Rest();
         }
 
+        /// <summary>A start from where the wire is: copies.</summary>
+        internal RodStart ToStart(Quaterniond? proximalFrame, Quaterniond? distalFrame, Vector3d? sheathExit)
+        {
+            return new RodStart((Vector3d[])Positions.Clone(), (Quaterniond[])Orientations.Clone(),
+                (Vector3d[])Velocities.Clone(), (Vector3d[])AngularVelocities.Clone())
+            {
+                ProximalFrame = proximalFrame,
+                DistalFrame = distalFrame,
+                ExitOfSheath = sheathExit,
+            };
+        }
+
         /// <summary>Writes all that a moment of the wire is into a snapshot, or takes it over from one.</summary>
         internal void Serialize(Snapshot snapshot)
         {

@@ -52,8 +52,8 @@ namespace Guidewire.Core
         /// <summary>Whether a run had come there (<see cref="RodStart.IsReached"/>).</summary>
         public bool IsReached { get; private set; }
 
-        /// <summary>Where the sheath of that run ends, m (<see cref="RodStart.SheathExit"/>).</summary>
-        public Vector3d? SheathExit { get; private set; }
+        /// <summary>Where the sheath of that run ends, m (<see cref="RodStart.ExitOfSheath"/>).</summary>
+        public Vector3d? ExitOfSheath { get; private set; }
 
         /// <summary>Velocities of the n + 1 spheres at the start.</summary>
         public Vector3d[] Velocities { get; }
@@ -113,7 +113,7 @@ namespace Guidewire.Core
             {
                 Take(scene.Start);
                 IsReached = scene.Start.IsReached;
-                SheathExit = scene.Start.SheathExit;
+                ExitOfSheath = scene.Start.ExitOfSheath;
             }
         }
 

@@ -53,7 +53,7 @@ namespace Guidewire.Core
         public override ContactRecord? Contacts => _contacts;
 
         /// <inheritdoc/>
-        public override Vector3d? SheathExit => Setup.Sheath?.Exit;
+        public override Vector3d? ExitOfSheath => Setup.Sheath?.Exit;
 
         /// <summary>What they are built from.</summary>
         protected CoaxialSetup Setup { get; }

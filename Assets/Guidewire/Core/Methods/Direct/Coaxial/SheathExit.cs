@@ -12,7 +12,7 @@ namespace Guidewire.Core
         /// <exception cref="ArgumentException">One from which the wire cannot be fed into the vessel.</exception>
         public static Vector3d Find(Sheath sheath, MaterialScene whole)
         {
-            return whole.SheathExit ?? whole.Metres * FindInUnits(sheath, whole);
+            return whole.ExitOfSheath ?? whole.Metres * FindInUnits(sheath, whole);
         }
 
         private static Vector3d FindInUnits(Sheath sheath, MaterialScene whole)
@@ -65,7 +65,7 @@ namespace Guidewire.Core
             Vector3d exit;
             try
             {
-                exit = whole.SheathExit is Vector3d known ? units * known
+                exit = whole.ExitOfSheath is Vector3d known ? units * known
                     : FindInUnits(parameters.Scene.Sheath!, whole);
             }
             catch (ArgumentException error)
