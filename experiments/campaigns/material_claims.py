@@ -175,9 +175,10 @@ def force_sums(forces: list[np.ndarray], total: np.ndarray) -> list[str]:
 
 
 def beyond(scene: dict[str, Any], forces: list[np.ndarray]) -> float:
-    """By what part of its hubForceLimit the force of a hub is above it, at most; of the wire first, (k,) each, N."""
+    """By what part of its hubForceLimit the force of a hub is above it in a step, at most; of the wire first, (k,) each,
+    N. The first is that of the start, where nothing has slipped."""
     limits = [one.get("hubForceLimit", 0.0) for one in (scene, *scene.get("catheters", []))]
-    return max((float(np.abs(force).max(initial=0.0)) / limit - 1.0
+    return max((float(np.abs(force[1:]).max(initial=0.0)) / limit - 1.0
                 for force, limit in zip(forces, limits) if limit > 0.0), default=0.0)
 
 

@@ -258,7 +258,7 @@ def test_the_outermost_instrument_of_several_is_looked_at_with_its_own_radius():
     assert nodes[1, :8, 2].tolist() == [0.0, 7.5, 15.0, 22.5, 30.0, 32.0, 33.0, 38.0] and nodes[1, -1, 2] == 43.0
     assert wide[1].tolist() == [3.0, 3.0, 3.0, 3.0, 2.0, 1.0, 1.0, 1.0]
     scene = {"hubForceLimit": 2.0, "catheters": [{}, {"hubForceLimit": 0.5}]}
-    forces = [np.array([1.0, -1.9]), np.array([9.0]), np.array([0.1, -0.6])]
+    forces = [np.array([9.0, 1.0, -1.9]), np.array([9.0, 9.0]), np.array([0.1, 0.1, -0.6])]
     assert material_claims.beyond(scene, forces) == pytest.approx(0.2)
     assert [material_claims._first_outside({"sheath": {"exit": [0.0, 0.0, at]}}, wire).tolist()
             for at in (12.0, 41.0)] == [[3, 2], [9, 8]]

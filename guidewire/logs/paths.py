@@ -32,9 +32,11 @@ def through_tips(nodes: np.ndarray, catheters: Sequence[np.ndarray], lengths: np
     of_pieces = np.arange(len(lengths))
     for tip in (catheter[-1] for catheter in catheters):
         away = np.linalg.norm(nodes - tip, axis=1)
-        detour = (away[:-1] + away[1:]) / lengths[of_pieces]
-        k = int(np.argmin(detour))
-        if detour[k] <= 1.0 + _STRETCH and away[[k, k + 1]].min() > 0.0:
+        by_tip = away[:-1] + away[1:]
+        # Of those that are long enough the one whose chord is nearly as long: a compressed one beside it is not.
+        excess = by_tip - np.linalg.norm(np.diff(nodes, axis=0), axis=1)
+        k = int(np.argmin(np.where(by_tip <= (1.0 + _STRETCH) * lengths[of_pieces], excess, np.inf)))
+        if by_tip[k] <= (1.0 + _STRETCH) * lengths[of_pieces[k]] and away[[k, k + 1]].min() > 0.0:
             nodes = np.insert(nodes, k + 1, tip, axis=0)
             of_pieces = np.insert(of_pieces, k, of_pieces[k])
     return nodes, of_pieces

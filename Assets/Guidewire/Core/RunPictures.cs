@@ -204,15 +204,15 @@ namespace Guidewire.Core
             {
                 Vector3d tip = centrelines[k][centrelines[k].Length - 1];
                 int crossing = -1;
-                double least = 1.0 + Stretch;
+                double least = double.PositiveInfinity;
                 for (int j = 0; j < elements.Count; j++)
                 {
                     double behind = (points[j] - tip).Length;
                     double beyond = (points[j + 1] - tip).Length;
-                    double detour = (behind + beyond) / _lengths[elements[j]];
-                    if (detour <= least)
+                    double excess = behind + beyond - (points[j + 1] - points[j]).Length;
+                    if (behind + beyond <= (1.0 + Stretch) * _lengths[elements[j]] && excess < least)
                     {
-                        least = detour;
+                        least = excess;
                         crossing = Math.Min(behind, beyond) > 0.0 ? j : -1;
                     }
                 }

@@ -34,6 +34,15 @@ def test_the_element_that_comes_out_is_bent_at_the_tip_and_no_other(ahead: float
     assert np.linalg.norm(arc(np.linspace(0.0, TIP + ahead, 20001)) - middle, axis=1).min() < 2e-3
 
 
+def test_a_compressed_element_beside_a_tip_is_not_taken_for_the_one_that_comes_out() -> None:
+    wire = arc(TIP + 0.3 - 5.0 * np.arange(12)[::-1])    # node 11 is 0.3 beyond the tip
+    wire = np.concatenate([wire, wire[-1:] + [4.4, 0.0, 0.0]])    # of 5.0
+    catheter = arc(np.linspace(0.0, TIP, 40))
+    points, of_pieces = through_tips(wire, [catheter], np.full(12, 5.0))
+    at, = np.flatnonzero((points == catheter[-1]).all(axis=1))
+    assert of_pieces[at - 1] == of_pieces[at] == 10
+
+
 def test_a_wire_inside_its_catheter_stays_as_it_is() -> None:
     catheter = arc(np.linspace(0.0, TIP, 40))
     for behind in (0.1, 3.0, 20.0):

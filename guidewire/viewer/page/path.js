@@ -15,11 +15,12 @@ export function throughTips(x, catheters, lengths) {
   for (const catheter of catheters) {
     const tip = [...catheter.slice(-3)];
     const away = points.map((point) => Math.hypot(...point.map((part, k) => part - tip[k])));
-    let [crossing, least] = [-1, 1 + STRETCH];
+    let [crossing, least] = [-1, Infinity];
     for (let j = 0; j + 1 < points.length; j++) {
-      const detour = (away[j] + away[j + 1]) / lengths[Math.floor(along[j])];
-      if (!(detour <= least)) continue;
-      least = detour;
+      const byTip = away[j] + away[j + 1];
+      const excess = byTip - Math.hypot(...points[j].map((part, k) => points[j + 1][k] - part));
+      if (!(byTip <= (1 + STRETCH) * lengths[Math.floor(along[j])] && excess < least)) continue;
+      least = excess;
       crossing = Math.min(away[j], away[j + 1]) > 0 ? j : -1;
     }
     const j = crossing < 0 ? points.length - 2 : crossing;
