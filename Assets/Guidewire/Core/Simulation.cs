@@ -11,8 +11,7 @@ namespace Guidewire.Core
         private const double Same = 1e-9;    // of an element's length
 
         private readonly bool _hasMaterial;
-        private readonly bool _hasSheath;
-        private readonly Vector3d? _exit;    // of the sheath, as given
+        private readonly Vector3d? _givenExit;    // of the sheath
         private readonly CoaxialRecord[] _catheters;
         private readonly double[][] _lengths;    // of the elements of the wire and of each catheter, units
         private readonly TimeStepper _stepper;
@@ -28,8 +27,7 @@ namespace Guidewire.Core
             in Quaterniond distalFrame)
         {
             _hasMaterial = MethodTable.Of(parameters.Method.Solver).TakesMaterial;
-            _hasSheath = parameters.Scene.Sheath != null;
-            _exit = parameters.Scene.Sheath?.Exit;
+            _givenExit = parameters.Scene.Sheath?.Exit;
             _catheters = new CoaxialRecord[parameters.Scene.Catheters.Count];
             _lengths = LengthsOf(parameters);
             State = start.State;
@@ -41,7 +39,8 @@ namespace Guidewire.Core
             _warnings.Begin(State);
             // That of a run that goes on stays as it is: each time it was built from, its bits would change.
             _start = parameters.Scene.Start is RodStart known && known.IsReached ? known
-                : State.ToStart(proximalFrame, distalFrame, _stepper.ExitOfSheath);
+                : State.ToStart(proximalFrame, distalFrame);
+            _start.ExitOfSheath = _stepper.ExitOfSheath;
         }
 
         /// <summary>The wire as it is now.</summary>
@@ -242,15 +241,13 @@ namespace Guidewire.Core
                     + (_hasMaterial ? "a material" : "a wire without material, pbd")
                     + ": a run cannot change its wire");
             }
-            if ((parameters.Scene.Sheath != null) != _hasSheath)
+            if ((parameters.Scene.Sheath != null) != (_start.ExitOfSheath != null))
             {
-                throw new ArgumentException("sheath: it cannot be added or removed, as a run cannot "
-                    + "change its wire");
+                throw new ArgumentException("sheath: it cannot be added or removed, as a run cannot change its wire");
             }
             if (parameters.Scene.Catheters.Count != _catheters.Length)
             {
-                throw new ArgumentException("catheters: their number cannot change "
-                    + "during a run");
+                throw new ArgumentException("catheters: their number cannot change during a run");
             }
             double[][] lengths = LengthsOf(parameters);
             bool[] isOther = lengths.Select((own, k) => !AreSame(own, _lengths[k])).ToArray();
@@ -260,8 +257,9 @@ namespace Guidewire.Core
             }
             var snapshot = new Snapshot();
             Serialize(snapshot);
-            return Rebuild(parameters, State.ToStart(_start.ProximalFrame, _start.DistalFrame,
-                parameters.Scene.Sheath?.Exit == _exit ? _stepper.ExitOfSheath : null), snapshot.ToRead());
+            RodStart start = State.ToStart(_start.ProximalFrame, _start.DistalFrame);
+            start.ExitOfSheath = parameters.Scene.Sheath?.Exit == _givenExit ? _start.ExitOfSheath : null;
+            return Rebuild(parameters, start, snapshot.ToRead());
         }
 
         /// <summary>Why another instrument cannot take the place of one now, in one phrase, or null.</summary>
@@ -279,7 +277,7 @@ namespace Guidewire.Core
             var snapshot = new Snapshot();
             int elements = State.ElementCount;
             snapshot.Serialize(ref elements);
-            SerializeStart(snapshot, _start, _hasSheath);
+            SerializeStart(snapshot, _start);
             Serialize(snapshot);
             snapshot.Serialize(PredictionError);
             Contacts?.Serialize(snapshot);    // of the last step, as the error before: shown, not used
@@ -311,8 +309,11 @@ namespace Guidewire.Core
                     throw new ArgumentException("the saved state is that of a wire of " + n + " elements");
                 }
                 var start = new RodStart(new Vector3d[n + 1], new Quaterniond[n], new Vector3d[n + 1],
-                    new Vector3d[n]);
-                SerializeStart(snapshot, start, parameters.Scene.Sheath != null);
+                    new Vector3d[n])
+                {
+                    ExitOfSheath = parameters.Scene.Sheath == null ? (Vector3d?)null : Vector3d.Zero,
+                };
+                SerializeStart(snapshot, start);
                 Simulation simulation = Rebuild(parameters, start, snapshot);
                 simulation._stepper.PredictionError = snapshot.Serialize(0.0);
                 simulation.Contacts?.Serialize(snapshot);
@@ -424,7 +425,7 @@ namespace Guidewire.Core
 
         private bool HasResult => Outcome != Outcome.Running && (StepCount > 0 || Outcome == Outcome.Converged);
 
-        private static void SerializeStart(Snapshot snapshot, RodStart start, bool hasSheath)
+        private static void SerializeStart(Snapshot snapshot, RodStart start)
         {
             snapshot.Serialize(start.Positions);
             snapshot.Serialize(start.Orientations);
@@ -432,9 +433,9 @@ namespace Guidewire.Core
             snapshot.Serialize(start.AngularVelocities);
             start.ProximalFrame = snapshot.Serialize(start.ProximalFrame ?? Quaterniond.Identity);
             start.DistalFrame = snapshot.Serialize(start.DistalFrame ?? Quaterniond.Identity);
-            if (hasSheath)
+            if (start.ExitOfSheath is Vector3d exit)
             {
-                start.ExitOfSheath = snapshot.Serialize(start.ExitOfSheath ?? Vector3d.Zero);
+                start.ExitOfSheath = snapshot.Serialize(exit);
             }
         }
 

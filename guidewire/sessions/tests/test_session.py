@@ -137,6 +137,18 @@ def test_damping_of_the_material_begins_in_the_midst_of_a_motion_that_mass_alone
     assert np.abs(found[0].positions - found[1].positions).max() < 2e-3 * np.abs(found[1].positions[:, 1]).max()
 
 
+@pytest.mark.parametrize("sheath", [{"exit": [0.0, 0.0, -15.0]}, {"exit": [0.0, 0.0, -2.0]}, {}])
+def test_an_exit_that_is_changed_is_that_of_a_state_saved_since(sheath):
+    with Session(ROOT / "params" / "sheath.json", hand=True) as session:
+        session.step(push=1.0, steps=5)
+        changed = session.change(sheath=sheath)
+        saved = session.save()
+        end = session.step(push=1.0, turn=0.1, steps=5)
+        assert end.hub.length_in_body == pytest.approx(changed.hub.length_in_body + 1e-3, abs=1e-6)
+        assert session.restore(saved).hub.length_in_body == changed.hub.length_in_body
+        assert_same_bits(session.step(push=1.0, turn=0.1, steps=5), end)
+
+
 def test_a_mesh_that_stays_has_the_friction_of_the_last_change_that_was_made():
     """Its triangles are examined once; a refused change leaves the wall of the run as it is."""
     with Session(ACCURATE, native=False) as session, Session(ACCURATE, native=False) as other:

@@ -131,15 +131,14 @@ namespace Guidewire.Core
             Rest();
         }
 
-        /// <summary>A start from where the wire is: copies.</summary>
-        internal RodStart ToStart(Quaterniond? proximalFrame, Quaterniond? distalFrame, Vector3d? sheathExit)
+        /// <summary>Makes a start from where the wire is, of copies.</summary>
+        internal RodStart ToStart(Quaterniond? proximalFrame, Quaterniond? distalFrame)
         {
             return new RodStart((Vector3d[])Positions.Clone(), (Quaterniond[])Orientations.Clone(),
                 (Vector3d[])Velocities.Clone(), (Vector3d[])AngularVelocities.Clone())
             {
                 ProximalFrame = proximalFrame,
                 DistalFrame = distalFrame,
-                ExitOfSheath = sheathExit,
             };
         }
 
