@@ -84,7 +84,7 @@ namespace Guidewire.Core
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
-                "an innerRadius less than the wireRadius everywhere"),
+                "every wireRadius larger than innerRadius"),
             new Rule("wireRadius", p => p.IsMaterial && !HasStiffness(p),
                 "a finite bending stiffness over guidewireLength^2 above 0 (see youngsModulus and "
                 + "metresPerUnit)"),
