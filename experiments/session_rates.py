@@ -1,17 +1,18 @@
 """Calls a second of sessions that step the accurate vessel scene by 140 ms a call, as those do who train navigation,
 and by 10 ms, as in a control loop: random pushes, pulls and rotations.
 
-    python3 guidewire.py python experiments/session_rates.py
+    python3 guidewire.py python experiments/session_rates.py [TASK ...]
 
-and then the same of an environment, with its observations, rewards and resets.
+and then the same of environments, with their observations, rewards and resets. With tasks named it measures them alone.
 """
 
 from __future__ import annotations
 
 import itertools
 import multiprocessing
+import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
@@ -20,8 +21,10 @@ import numpy as np
 
 from guidewire import Session
 from guidewire.anatomy.lumens import main_lumen
-from guidewire.env import Environment
-from guidewire.env.baselines import TurnAndRetry
+from guidewire.env import Environment, Observation, Picture, all_tasks
+from guidewire.env.baselines import baseline_of
+from guidewire.env.observation import DEFAULT
+from guidewire.env.task import find_task
 from guidewire.runs import building
 
 SCENE = Path(__file__).resolve().parent.parent / "params" / "insertion-accurate.json"
@@ -31,6 +34,7 @@ MOTION = 5.6  # s in, and as many out
 TURN = 0.5 / 0.14  # rad a second at most
 WARM_UP = 2
 ROUNDS = 5
+EPISODES = 9
 
 
 def tube() -> dict[str, Any]:
@@ -59,16 +63,16 @@ def rate(overrides: Mapping[str, Any], native: bool, step: float, seed: int = 0)
     return float(np.median(rates[WARM_UP:])), max(rates)
 
 
-def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
-    """Steps a second of the environment `artery` under turn and retry, and the median time of a reset to a start that
-    is loaded, ms."""
-    with Environment("artery", native=native) as environment:
-        policy = TurnAndRetry(environment)
-        starts = [{"target": target, "friction": 0.05, "tip_turn": 0.5, "insertion": 0.09} for target in (0, 1)]
+def environment_rate(task: str, native: bool, image: Picture | None = None) -> tuple[float, float]:
+    """Steps a second of the environment of a task under its baseline, and the time of a reset, ms: medians of episodes
+    that the task draws from the first seeds. With an `image` each step makes that too."""
+    parts = (*DEFAULT, "overlap") if find_task(task).hubs > 1 else DEFAULT
+    with Environment(task, native=native, observation=Observation(parts=parts, image=image)) as environment:
+        policy = baseline_of(environment)
         rates, resets = [], []
-        for episode in range(WARM_UP + 4 * ROUNDS):
+        for seed in range(1, 1 + EPISODES):
             before = time.perf_counter()
-            observation, _ = environment.reset(seed=seed + episode, options=starts[episode % 2])
+            observation, _ = environment.reset(seed=seed)
             began = time.perf_counter()
             policy.reset(observation)
             steps, ended = 0, False
@@ -77,28 +81,41 @@ def environment_rate(native: bool, seed: int = 0) -> tuple[float, float]:
                 steps, ended = steps + 1, terminated or truncated
             rates.append(steps / (time.perf_counter() - began))
             resets.append(1e3 * (began - before))
-    return float(np.median(rates[WARM_UP:])), float(np.median(resets[WARM_UP:]))
+    return float(np.median(rates)), float(np.median(resets))
 
 
-def main() -> None:
-    natives = (False, True) if building.native_library() else (False,)
+def sessions(natives: Sequence[bool]) -> None:
+    """Print the rates of sessions."""
     for name, overrides in (("a tube", {"vessel": tube()}), ("a mesh", {})):
         for native, step in itertools.product(natives, STEPS):
             one, best = rate(overrides, native, step)
             with multiprocessing.get_context("spawn").Pool(2) as pool:
-                sessions = [(overrides, native, step, seed) for seed in (1, 2)]
-                two = sum(calls for calls, _ in pool.starmap(rate, sessions))
+                both = [(overrides, native, step, seed) for seed in (1, 2)]
+                two = sum(calls for calls, _ in pool.starmap(rate, both))
             with ThreadPoolExecutor(2) as pool:
                 threads = sum(calls for calls, _ in pool.map(lambda seed: rate(overrides, native, step, seed), (1, 2)))
             print(f"{name}, {'native library' if native else 'runner'}: {one:.0f} calls of {1e3 * step:.0f} ms a second"
                   f" in one session (at best {best:.0f}), {two:.0f} in two processes ({two / one:.2f} times),"
                   f" {threads:.0f} in two threads ({threads / one:.2f} times)", flush=True)
-    for native in natives:
-        one, reset = environment_rate(native)
+
+
+def environments(tasks: Sequence[str], natives: Sequence[bool]) -> None:
+    """Print the rates of environments."""
+    for task, native in itertools.product(tasks, natives):
+        one, reset = environment_rate(task, native)
         with multiprocessing.get_context("spawn").Pool(2) as pool:
-            two = sum(steps for steps, _ in pool.starmap(environment_rate, [(native, 1), (native, 2)]))
-        print(f"environment artery, {'native library' if native else 'runner'}: {one:.0f} steps of 140 ms a second, "
-              f"{two:.0f} in two processes ({two / one:.2f} times), a loaded start in {reset:.1f} ms", flush=True)
+            two = sum(steps for steps, _ in pool.starmap(environment_rate, [(task, native)] * 2))
+        seen, _ = environment_rate(task, native, Picture(pixels=128))
+        print(f"environment {task}, {'native library' if native else 'runner'}: {one:.0f} steps of 140 ms a second, "
+              f"{two:.0f} in two processes ({two / one:.2f} times), {seen:.0f} with a picture of 128 x 128 each "
+              f"({seen / one:.2f} times), a reset in {reset:.1f} ms", flush=True)
+
+
+def main() -> None:
+    natives = (False, True) if building.native_library() else (False,)
+    if not sys.argv[1:]:
+        sessions(natives)
+    environments(sys.argv[1:] or list(all_tasks()), natives)
 
 
 if __name__ == "__main__":
