@@ -161,10 +161,16 @@ namespace Guidewire.Core
             Insertion += speed * _timeStep;
         }
 
+        /// <summary>Displacement that is asked of node 0 in the step that begins at this time, m.</summary>
+        public double AskedAt(double time)
+        {
+            return _direction == null ? 0.0 : SpeedAt(time) * _timeStep;
+        }
+
         /// <summary>Displacement of node 0 in the step that begins at this time, m.</summary>
         public double NextMove(double time)
         {
-            return _direction == null ? 0.0 : Limited(_override ?? SpeedAt(time) * _timeStep);
+            return _direction == null ? 0.0 : Limited(_override ?? AskedAt(time));
         }
 
         /// <summary>Lets the hub slip, after a step, along its axis.</summary>

@@ -17,14 +17,18 @@ namespace Guidewire.Core
         private const int AStep = 4;      // the same
 
         private readonly int _maxIterations;
+        private readonly int _times;
         private long _left;               // iterations
         private bool _isCounted;
 
         /// <summary>Begins with all of it.</summary>
         /// <param name="maxIterations">That one solution may take.</param>
-        public WorkLimit(int maxIterations)
+        /// <param name="limitedHubs">Hubs that may slip. For each displacement of one those of the instruments inside
+        /// it are found anew, so each further one doubles the work.</param>
+        public WorkLimit(int maxIterations, int limitedHubs = 0)
         {
             _maxIterations = maxIterations;
+            _times = 1 << Math.Max(0, limitedHubs - 1);
             _left = Max;
         }
 
@@ -35,15 +39,15 @@ namespace Guidewire.Core
         public bool IsScarce => _left < Max / 2;
 
         /// <summary>That nothing is left, in one phrase.</summary>
-        public static string Text => string.Format(CultureInfo.InvariantCulture,
+        public string Text => string.Format(CultureInfo.InvariantCulture,
             "steps that were halved took more Newton iterations than a run may ({0} times maxNewtonIterations at once, "
-            + "{1} times a step), as where a wire coils up or jams", AtOnce, AStep);
+            + "{1} times a step), as where a wire coils up or jams", AtOnce * _times, AStep * _times);
 
         /// <summary>Begins a step.</summary>
         public void BeginStep()
         {
             _isCounted = false;
-            _left = Math.Min(_left + (long)AStep * _maxIterations, Max);
+            _left = Math.Min(_left + (long)AStep * _times * _maxIterations, Max);
         }
 
         /// <summary>What the step takes from now on is counted.</summary>
@@ -64,6 +68,6 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _left);
         }
 
-        private long Max => (long)AtOnce * _maxIterations;
+        private long Max => (long)AtOnce * _times * _maxIterations;
     }
 }

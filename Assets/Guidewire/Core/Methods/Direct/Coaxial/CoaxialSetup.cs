@@ -25,8 +25,9 @@ namespace Guidewire.Core
         public CoaxialSetup(SimulationParameters parameters)
         {
             _parameters = parameters;
-            Work = new WorkLimit(parameters.Method.MaxNewtonIterations);
             IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
+            Work = new WorkLimit(parameters.Method.MaxNewtonIterations,
+                catheters.Select(one => one.Drive).Append(parameters.Drive).Count(drive => drive.HubForceLimit > 0.0));
             int count = catheters.Count + 1;
             Scenes = new MaterialScene[count];
             Instruments = new CoaxialInstrument[count];
@@ -129,7 +130,7 @@ namespace Guidewire.Core
             {
                 double limit = slips.Length == 1 ? 0.0 : i == slips.Length - 1 ? _parameters.Drive.HubForceLimit
                     : _parameters.Scene.Catheters[i].Drive.HubForceLimit;
-                slips[i] = new HubSlip(drives[i], limit, OfRadius * Scenes[i].Rod.Radius[0]);
+                slips[i] = new HubSlip(limit, OfRadius * Scenes[i].Rod.Radius[0]);
             }
             return slips;
         }

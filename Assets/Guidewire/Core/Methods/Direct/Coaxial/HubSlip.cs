@@ -5,41 +5,44 @@ namespace Guidewire.Core
     /// <summary>Limits the displacement of a hub in a step so that its force does not exceed its
     /// hubForceLimit.</summary>
     /// <remarks>The displacement is found by repeated steps: F(u) is the hub's force after a step with its displacement
-    /// u. Between one with too much force and one with no more than the limit the interval is halved, or cut where a
-    /// straight line has the limit, until the force is within 2 % below it. A hub that may not even rest gives
-    /// way, farther and farther; where that went from too much of one sense to too much of the other, the displacement
-    /// without force lies between. An instrument is stiff along its axis: what it may be displaced between both limits
-    /// is some micrometres. Where the force jumps from beyond the limit in one sense to beyond it in the other, it is
-    /// the least of those that were found.</remarks>
+    /// u, and grows with it. Between one with too much force and one with no more than the limit the interval is halved,
+    /// or cut where a straight line has the limit, until the force is within 2 % below it. A hub that may not even rest
+    /// gives way, farther and farther; where that went from too much of one sense to too much of the other, the
+    /// displacement without force lies between. An instrument is stiff along its axis: what it may be displaced between
+    /// both limits is some micrometres. So a hub that slips begins with the displacement that was found last, beside
+    /// that of what is around it. Where the force jumps from beyond the limit in one sense to beyond it in the other, it
+    /// is the least of those that were found.</remarks>
     internal sealed class HubSlip
     {
         private const double Close = 0.02;      // of the limit
         private const int MaxTrials = 24;
         private const double Exact = 1e-3;      // of the limit
+        private const double Near = 1.0 / 64.0; // of the shortest displacement, from what was found last
+        private const double Growth = 4.0;      // of that, from one trial to the next
+        private const double Same = 1e-6;       // of what was asked
 
-        private readonly MaterialDrive _drive;
         private readonly double _limit;         // N
         private readonly double _shortest;      // m, by which a hub that may not rest gives way at first
-        private double _allowed;                // m, displacement with no more than the limit
-        private double _allowedForce;           // N
-        private double _tooFar;                 // m
-        private double _tooMuch;                // N
-        private Trial _first;
+        private double _asked;                  // m
+        private double _away;                   // m, from what was found last; 0: it began with what was asked
         private Trial _thrust;                  // the last with too much of either sense
         private Trial _tension;
+        private Trial _allowed;                 // the last with no more than the limit
+        private Trial _beyond;                  // on the side of what was asked, with too much
         private Trial _least;                   // force of all that have too much
-        private bool _hasAllowed;
         private bool _isLast;
         private int _trials;
+        private Trial _found;                   // in the last step in which it slipped, and the hub did before
+        private double _foundAround;            // m, the displacement around it
+        private double _foundAsked;             // m
         private int _stepsBeyond;
-        private double _maxBeyond;             // N
+        private double _maxBeyond;              // N
 
         /// <summary>Seeks the displacement of a hub.</summary>
         /// <param name="limit">N; 0: it never slips.</param>
         /// <param name="shortest">m.</param>
-        public HubSlip(MaterialDrive drive, double limit, double shortest)
+        public HubSlip(double limit, double shortest)
         {
-            _drive = drive;
             _limit = limit > 0.0 ? limit : double.PositiveInfinity;
             _shortest = shortest;
         }
@@ -47,16 +50,22 @@ namespace Guidewire.Core
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
 
-        /// <summary>A step begins, as it is requested.</summary>
-        public void Begin()
+        /// <summary>A step begins.</summary>
+        /// <param name="asked">What the hub is to go, m.</param>
+        /// <param name="around">What the next hub around it goes, m; null: what it went last.</param>
+        public void Begin(double asked, double? around)
         {
+            _asked = asked;
             _trials = 0;
             _isLast = false;
-            _hasAllowed = false;
             _thrust = default;
             _tension = default;
+            _allowed = default;
+            _beyond = default;
             _least = default;
-            Displacement = null;
+            bool isLikeLast = _found.IsMade && Math.Abs(asked - _foundAsked) <= Same * Math.Abs(asked);
+            Displacement = isLikeLast ? _found.Moved + ((around ?? _foundAround) - _foundAround) : (double?)null;
+            _away = isLikeLast ? Near * _shortest : 0.0;
         }
 
         /// <summary>What the hub is to go in the next trial, m; null: what it is asked.</summary>
@@ -64,40 +73,47 @@ namespace Guidewire.Core
 
         /// <summary>Takes a trial.</summary>
         /// <param name="moved">What the hub went, m.</param>
+        /// <param name="around">What the next hub around it went, m; 0 if there is none.</param>
         /// <param name="force">On its instrument after it, N, a thrust positive; NaN where the step has no
         /// solution.</param>
         /// <param name="isOver">Whether no more work may go into the step: it ends with the best of the trials.</param>
         /// <returns>Whether another one is needed.</returns>
-        public bool NeedsAnother(double moved, double force, bool isOver)
+        public bool NeedsAnother(double moved, double around, double force, bool isOver)
         {
             bool isTooMuch = !(Math.Abs(force) <= _limit);
-            if (!IsLimited || (!isTooMuch && (_trials == 0 || Math.Abs(force) >= (1.0 - Close) * _limit)))
+            if (!IsLimited || _isLast || (!isTooMuch && (Displacement == null
+                || (Math.Abs(force) >= (1.0 - Close) * _limit && force * (_asked - moved) >= 0.0))))
             {
-                return false;
+                return End(moved, around, force);
             }
-            if (isTooMuch && (!_least.IsMade || Math.Abs(force) < Math.Abs(_least.Force)) && !double.IsNaN(force))
-            {
-                _least = new Trial(moved, force);
-            }
-            if (_trials++ >= MaxTrials || isOver || _isLast)
-            {
-                // Where the force jumps past the limit, as far as it is no more.
-                Displacement = _hasAllowed ? _allowed : _least.Moved;
-                bool isRepeated = isTooMuch && (_hasAllowed || _least.IsMade) && !_isLast && Displacement != moved;
-                _isLast = true;
-                return isRepeated;
-            }
+            var trial = new Trial(moved, force);
+            double sense = !double.IsNaN(force) ? Math.Sign(force) : Math.Sign(_asked == 0.0 ? -moved : moved);
             if (isTooMuch)
             {
-                Take(new Trial(moved, force));
+                TakeTooMuch(trial, sense);
             }
             else
             {
-                TakeAllowed(moved, force);
+                _beyond = _allowed.IsMade ? _beyond : _asked > moved ? _thrust : _tension;
+                _allowed = trial;
             }
-            Displacement = _hasAllowed ? Between() : _thrust.IsMade && _tension.IsMade ? BetweenSenses()
-                : Back(moved, force);
-            return Displacement != moved;
+            if (_trials++ >= MaxTrials || isOver)
+            {
+                // Where the force jumps past the limit, as far as it is no more.
+                _isLast = true;
+                Trial best = _allowed.IsMade ? _allowed : _least;
+                if (!best.IsMade || best.Moved == moved)
+                {
+                    return End(moved, around, force);
+                }
+                Displacement = best.Moved;
+                return true;
+            }
+            double? next = _allowed.IsMade ? _beyond.IsMade ? Between() : Away(moved, Math.Sign(_asked - moved))
+                : _thrust.IsMade && _tension.IsMade ? BetweenSenses()
+                : _away > 0.0 ? Away(moved, -sense) : Back(moved, around, sense);
+            Displacement = next;
+            return next != moved || End(moved, around, force);
         }
 
         /// <summary>A step has ended, with more than the limit where no trial had less.</summary>
@@ -119,66 +135,68 @@ namespace Guidewire.Core
                 : WarningTable.HubForce.With(name, _maxBeyond, _limit, _stepsBeyond);
         }
 
-        /// <summary>Writes or restores what the steps had beyond the limit.</summary>
+        /// <summary>Writes or restores what was found last, and what the steps had beyond the limit.</summary>
         public void Serialize(Snapshot snapshot)
         {
+            double moved = snapshot.Serialize(_found.IsMade ? _found.Moved : double.NaN);
+            _found = double.IsNaN(moved) ? default : new Trial(moved, 0.0);
+            snapshot.Serialize(ref _foundAround);
+            snapshot.Serialize(ref _foundAsked);
             snapshot.Serialize(ref _stepsBeyond);
             snapshot.Serialize(ref _maxBeyond);
         }
 
-        private void Take(in Trial trial)
+        private bool End(double moved, double around, double force)
         {
-            _first = _trials == 1 ? trial : _first;
-            _tooFar = trial.Moved;
-            _tooMuch = trial.Force;
-            if (trial.Force > 0.0)
-            {
-                _thrust = trial;
-            }
-            else if (trial.Force < 0.0)
-            {
-                _tension = trial;
-            }
+            _found = IsLimited && Displacement != null ? new Trial(moved, force) : default;
+            (_foundAround, _foundAsked) = (around, _asked);
+            return false;
         }
 
-        private void TakeAllowed(double moved, double force)
+        private void TakeTooMuch(in Trial trial, double sense)
         {
-            if (!_hasAllowed && _thrust.IsMade && _tension.IsMade && !double.IsNaN(_first.Force))
+            if (!double.IsNaN(trial.Force) && (!_least.IsMade || Math.Abs(trial.Force) < Math.Abs(_least.Force)))
             {
-                // What was asked lies on its side.
-                Trial beyond = _first.Force > 0.0 ? _thrust : _tension;
-                _tooFar = beyond.Moved;
-                _tooMuch = beyond.Force;
+                _least = trial;
             }
-            _hasAllowed = true;
-            _allowed = moved;
-            _allowedForce = force;
+            _beyond = _allowed.IsMade ? trial : default;
+            _thrust = sense > 0.0 ? trial : _thrust;
+            _tension = sense < 0.0 ? trial : _tension;
+        }
+
+        // From what was found last, farther and farther, but not past what was asked.
+        private double? Away(double moved, double sense)
+        {
+            double next = moved + sense * _away;
+            _away *= Growth;
+            return (_asked - moved) * sense > 0.0 && (_asked - next) * sense <= 0.0 ? (double?)null : next;
         }
 
         private double BetweenSenses()
         {
-            double fraction = _trials % 3 == 0 ? 0.5
+            double fraction = _trials % 3 == 0 || double.IsNaN(_tension.Force - _thrust.Force) ? 0.5
                 : Math.Min(0.95, Math.Max(0.05, _tension.Force / (_tension.Force - _thrust.Force)));
             return _tension.Moved + fraction * (_thrust.Moved - _tension.Moved);
         }
 
-        // Rest first, then farther and farther back.
-        private double Back(double moved, double force)
+        // Rest first, in the vessel and in what is around it, whichever is nearer; then farther and farther back.
+        private double Back(double moved, double around, double sense)
         {
-            double sense = !double.IsNaN(force) ? Math.Sign(force)
-                : Math.Sign(_drive.CommandedDisplacement == 0.0 ? -moved : moved);
-            return moved * sense > 0.0 ? 0.0 : moved == 0.0 ? -sense * _shortest : 2.0 * moved;
+            double near = sense * Math.Max(0.0, sense * around);
+            double far = sense * Math.Min(0.0, sense * around);
+            return (moved - near) * sense > 0.0 ? near : (moved - far) * sense > 0.0 ? far
+                : moved == far ? far - sense * _shortest : far + 2.0 * (moved - far);
         }
 
         private double Between()
         {
             double fraction = 0.5;
-            if (!double.IsNaN(_tooMuch) && _trials % 3 != 0)
+            if (!double.IsNaN(_beyond.Force) && _trials % 3 != 0)
             {
-                double target = Math.Sign(_tooMuch) * (1.0 - 0.5 * Close) * _limit;
-                fraction = Math.Min(0.95, Math.Max(0.05, (target - _allowedForce) / (_tooMuch - _allowedForce)));
+                double target = Math.Sign(_beyond.Force) * (1.0 - 0.5 * Close) * _limit;
+                fraction = Math.Min(0.95, Math.Max(0.05, (target - _allowed.Force) / (_beyond.Force - _allowed.Force)));
             }
-            return _allowed + fraction * (_tooFar - _allowed);
+            return _allowed.Moved + fraction * (_beyond.Moved - _allowed.Moved);
         }
 
         private readonly struct Trial

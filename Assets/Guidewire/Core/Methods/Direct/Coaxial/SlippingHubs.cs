@@ -38,7 +38,8 @@ namespace Guidewire.Core
             for (int i = _drives.Length - 1; i >= 0 && _areLimited; i--)
             {
                 double force = isDone && _slips[i].IsLimited ? _step.ForceOf(i) : double.NaN;
-                if (_slips[i].NeedsAnother(_drives[i].Moved, force, work.IsScarce))
+                double around = i > 0 ? _drives[i - 1].Moved : 0.0;
+                if (_slips[i].NeedsAnother(_drives[i].Moved, around, force, work.IsScarce))
                 {
                     _start.Restore();
                     work.Count();
@@ -59,8 +60,8 @@ namespace Guidewire.Core
         {
             for (int i = hub; i < _drives.Length && _areLimited; i++)
             {
-                _slips[i].Begin();
-                _drives[i].OverrideDisplacement(null);
+                _slips[i].Begin(_drives[i].AskedAt(_step.Dynamics.Time), i > 0 ? _slips[i - 1].Displacement : 0.0);
+                _drives[i].OverrideDisplacement(_slips[i].Displacement);
             }
         }
     }

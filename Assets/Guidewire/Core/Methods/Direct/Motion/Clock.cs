@@ -228,7 +228,7 @@ namespace Guidewire.Core
             if (_work.IsOver && _halvedFor != null && _tick < Whole)
             {
                 Failure = string.Format(CultureInfo.InvariantCulture, "{0}; halved to pieces of {1:G3} s; {2}",
-                    _halvedFor, LengthOf(_size), WorkLimit.Text);
+                    _halvedFor, LengthOf(_size), _work.Text);
             }
         }
     }

@@ -18,14 +18,14 @@ namespace Guidewire.Core.Tests
             double rest, [Values(3e2, 1e4, 1e5, 1e6)] double stiffness, [Values(1.0, -1.0)] double sense)
         {
             double Force(double u) => stiffness * (u - sense * rest);
-            var slip = new HubSlip(null!, Limit, Shortest);
-            slip.Begin();
+            var slip = new HubSlip(Limit, Shortest);
             double asked = sense * Asked;
+            slip.Begin(asked, 0.0);
             double moved = asked;
             int trials = 1;
-            while (slip.NeedsAnother(moved, Force(moved), false))
+            while (slip.NeedsAnother(moved, 0.0, Force(moved), false))
             {
-                moved = slip.Displacement!.Value;
+                moved = slip.Displacement ?? asked;
                 trials++;
             }
             slip.EndStep(Force(moved));
@@ -44,16 +44,16 @@ namespace Guidewire.Core.Tests
         [TestCase(0.07, -5.0)]
         public void HubWhoseForceJumpsPastItsLimit_HasTheLeastOfThem_AndIsSaidTo(double ahead, double behind)
         {
-            var slip = new HubSlip(null!, Limit, Shortest);
+            var slip = new HubSlip(Limit, Shortest);
             double least = Math.Min(Math.Abs(ahead), Math.Abs(behind));
             for (int step = 0; step < 2; step++)
             {
-                slip.Begin();
+                slip.Begin(Asked, 0.0);
                 double moved = Asked;
                 int trials = 0;
-                while (slip.NeedsAnother(moved, moved > 1e-4 ? ahead : behind, false))
+                while (slip.NeedsAnother(moved, 0.0, moved > 1e-4 ? ahead : behind, false))
                 {
-                    moved = slip.Displacement!.Value;
+                    moved = slip.Displacement ?? Asked;
                     Assert.That(trials++, Is.LessThanOrEqualTo(MaxTrials));
                 }
                 Assert.That(Math.Abs(moved > 1e-4 ? ahead : behind), Is.EqualTo(least));
@@ -62,6 +62,39 @@ namespace Guidewire.Core.Tests
             Assert.That(slip.FindExcess("the wire's hub")!.Value.Text, Does.Contain("the wire's hub had up to")
                 .And.Contain("hubForceLimit of 0.05 N"));
             Assert.That(slip.FindExcess("a hub")!.Value.Text, Does.Contain("in 2 of the steps"));
+        }
+
+        // What is around it goes another way in the second step, and in the third the hub may go what it is asked.
+        [Test]
+        public void HubThatSlipped_BeginsBesideWhatIsAroundIt_WhereItWasFound([Values(1e4, 1e6, 1e8)] double stiffness,
+            [Values(1.0, -1.0)] double sense)
+        {
+            var slip = new HubSlip(Limit, Shortest);
+            int[] trials = new int[3];
+            double moved = 0.0;
+            for (int step = 0; step < trials.Length; step++)
+            {
+                double around = step == 1 ? -1e-4 : 1e-4;
+                double rest = step == 2 ? sense * Asked : around;
+                double Force(double u) => Math.Max(-1.0, Math.Min(1.0, stiffness * (u - rest)));
+                var kept = new Snapshot();
+                slip.Serialize(kept);
+                slip = new HubSlip(Limit, Shortest);
+                slip.Serialize(kept.ToRead());
+                slip.Begin(sense * Asked, around);
+                do
+                {
+                    moved = slip.Displacement ?? sense * Asked;
+                    trials[step]++;
+                }
+                while (slip.NeedsAnother(moved, around, Force(moved), false));
+                Assert.That(Math.Abs(Force(moved)), Is.LessThanOrEqualTo(Limit));
+                Assert.That(moved, Is.EqualTo(step == 2 ? sense * Asked : rest + sense * Limit / stiffness)
+                    .Within(0.0201 * Limit / stiffness));
+            }
+            TestContext.WriteLine(string.Join(", ", trials));
+            Assert.That(trials[1], Is.LessThanOrEqualTo(2));
+            Assert.That(trials[2], Is.LessThan(MaxTrials / 2));
         }
     }
 }
