@@ -21,13 +21,16 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        [Test]
-        public void OneStep_MayTakeAllAtOnce()
+        [TestCase(0, 1)]
+        [TestCase(1, 1)]
+        [TestCase(2, 2)]
+        [TestCase(3, 4)]
+        public void OneStep_MayTakeAllAtOnce_MoreWithHubsThatMaySlip(int limitedHubs, int times)
         {
-            var work = new WorkLimit(Solution);
+            var work = new WorkLimit(Solution, limitedHubs);
             work.BeginStep();
             work.Count();
-            work.Take(AtOnce);
+            work.Take(times * AtOnce);
             Assert.That(work.IsScarce && !work.IsOver);
             work.Take(1);
             Assert.That(work.IsOver);
