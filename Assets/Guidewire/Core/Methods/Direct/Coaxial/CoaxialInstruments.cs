@@ -115,6 +115,10 @@ namespace Guidewire.Core
             {
                 Drives[i].SerializeStep(snapshot);
             }
+            foreach (HubSlip slip in Slips)
+            {
+                slip.SerializeStep(snapshot);
+            }
             SerializeRecords(snapshot);
             Chain.SerializeStep(snapshot);
             if (!snapshot.IsWritten)

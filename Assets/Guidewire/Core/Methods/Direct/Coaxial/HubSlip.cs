@@ -4,14 +4,14 @@ namespace Guidewire.Core
 {
     /// <summary>Limits the displacement of a hub in a step so that its force does not exceed its
     /// hubForceLimit.</summary>
-    /// <remarks>The displacement is found by repeated steps: F(u) is the hub's force after a step with its displacement
-    /// u, and grows with it. Between one with too much force and one with no more than the limit the interval is halved,
-    /// or cut where a straight line has the limit, until the force is within 2 % below it. A hub that may not even rest
-    /// gives way, farther and farther; where that went from too much of one sense to too much of the other, the
-    /// displacement without force lies between. An instrument is stiff along its axis: what it may be displaced between
-    /// both limits is some micrometres. So a hub that slips begins with the displacement that was found last, beside
-    /// that of what is around it. Where the force jumps from beyond the limit in one sense to beyond it in the other, it
-    /// is the least of those that were found.</remarks>
+    /// <remarks>The displacement is found by repeated steps: F(u) is the hub's force after a step with its
+    /// displacement u, and grows with it. Between one with too much force and one with no more than the limit the
+    /// interval is halved, or cut where a straight line has the limit, until the force is within 2 % below it. A
+    /// hub that may not even rest gives way, farther and farther; where that went from too much of one sense to too
+    /// much of the other, the displacement without force lies between. An instrument is stiff along its axis: what
+    /// it may be displaced between both limits is some micrometres. So a hub that slips begins with the
+    /// displacement that was found last, beside that of what is around it. Where the force jumps from beyond the
+    /// limit in one sense to beyond it in the other, it is the least of those that were found.</remarks>
     internal sealed class HubSlip
     {
         private const double Close = 0.02;      // of the limit
@@ -32,9 +32,8 @@ namespace Guidewire.Core
         private Trial _least;                   // force of all that have too much
         private bool _isLast;
         private int _trials;
-        private Trial _found;                   // in the last step in which it slipped, and the hub did before
-        private double _foundAround;            // m, the displacement around it
-        private double _foundAsked;             // m
+        private Found _last;                    // at the end of the step before
+        private Found _found;                   // in the last trial
         private int _stepsBeyond;
         private double _maxBeyond;              // N
 
@@ -50,7 +49,13 @@ namespace Guidewire.Core
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
 
-        /// <summary>A step begins.</summary>
+        /// <summary>A step begins, before the hub does.</summary>
+        public void BeginStep()
+        {
+            _found = _last;
+        }
+
+        /// <summary>The trials of a step begin, or those for another displacement of what is around it.</summary>
         /// <param name="asked">What the hub is to go, m.</param>
         /// <param name="around">What the next hub around it goes, m; null: what it went last.</param>
         public void Begin(double asked, double? around)
@@ -63,9 +68,9 @@ namespace Guidewire.Core
             _allowed = default;
             _beyond = default;
             _least = default;
-            bool isLikeLast = _found.IsMade && Math.Abs(asked - _foundAsked) <= Same * Math.Abs(asked);
-            Displacement = isLikeLast ? _found.Moved + ((around ?? _foundAround) - _foundAround) : (double?)null;
-            _away = isLikeLast ? Near * _shortest : 0.0;
+            bool isLike = _found.Slipped && Math.Abs(asked - _found.Asked) <= Same * Math.Abs(asked);
+            Displacement = isLike ? _found.Moved + ((around ?? _found.Around) - _found.Around) : (double?)null;
+            _away = isLike ? Near * _shortest : 0.0;
         }
 
         /// <summary>What the hub is to go in the next trial, m; null: what it is asked.</summary>
@@ -84,7 +89,7 @@ namespace Guidewire.Core
             if (!IsLimited || _isLast || (!isTooMuch && (Displacement == null
                 || (Math.Abs(force) >= (1.0 - Close) * _limit && force * (_asked - moved) >= 0.0))))
             {
-                return End(moved, around, force);
+                return End(moved, around);
             }
             var trial = new Trial(moved, force);
             double sense = !double.IsNaN(force) ? Math.Sign(force) : Math.Sign(_asked == 0.0 ? -moved : moved);
@@ -104,7 +109,7 @@ namespace Guidewire.Core
                 Trial best = _allowed.IsMade ? _allowed : _least;
                 if (!best.IsMade || best.Moved == moved)
                 {
-                    return End(moved, around, force);
+                    return End(moved, around);
                 }
                 Displacement = best.Moved;
                 return true;
@@ -113,13 +118,14 @@ namespace Guidewire.Core
                 : _thrust.IsMade && _tension.IsMade ? BetweenSenses()
                 : _away > 0.0 ? Away(moved, -sense) : Back(moved, around, sense);
             Displacement = next;
-            return next != moved || End(moved, around, force);
+            return next != moved || End(moved, around);
         }
 
         /// <summary>A step has ended, with more than the limit where no trial had less.</summary>
         /// <param name="force">N.</param>
         public void EndStep(double force)
         {
+            _last = _found;
             if (Math.Abs(force) > (1.0 + Exact) * _limit)
             {
                 _stepsBeyond++;
@@ -138,18 +144,29 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what was found last, and what the steps had beyond the limit.</summary>
         public void Serialize(Snapshot snapshot)
         {
-            double moved = snapshot.Serialize(_found.IsMade ? _found.Moved : double.NaN);
-            _found = double.IsNaN(moved) ? default : new Trial(moved, 0.0);
-            snapshot.Serialize(ref _foundAround);
-            snapshot.Serialize(ref _foundAsked);
+            SerializeStep(snapshot);
             snapshot.Serialize(ref _stepsBeyond);
             snapshot.Serialize(ref _maxBeyond);
         }
 
-        private bool End(double moved, double around, double force)
+        /// <summary>Writes or restores what was found in the step before, for a <see cref="StepStart"/>.</summary>
+        public void SerializeStep(Snapshot snapshot)
         {
-            _found = IsLimited && Displacement != null ? new Trial(moved, force) : default;
-            (_foundAround, _foundAsked) = (around, _asked);
+            snapshot.Serialize(ref _last.Slipped);
+            snapshot.Serialize(ref _last.Moved);
+            snapshot.Serialize(ref _last.Around);
+            snapshot.Serialize(ref _last.Asked);
+        }
+
+        private bool End(double moved, double around)
+        {
+            _found = new Found
+            {
+                Slipped = IsLimited && Displacement != null,
+                Moved = moved,
+                Around = around,
+                Asked = _asked,
+            };
             return false;
         }
 
@@ -197,6 +214,14 @@ namespace Guidewire.Core
                 fraction = Math.Min(0.95, Math.Max(0.05, (target - _allowed.Force) / (_beyond.Force - _allowed.Force)));
             }
             return _allowed.Moved + fraction * (_beyond.Moved - _allowed.Moved);
+        }
+
+        private struct Found
+        {
+            public bool Slipped;
+            public double Moved;    // m
+            public double Around;   // m, what the next hub around it went
+            public double Asked;    // m
         }
 
         private readonly struct Trial

@@ -27,6 +27,10 @@ namespace Guidewire.Core
         /// <summary>A step begins, whose start has been saved.</summary>
         public void BeginStep()
         {
+            foreach (HubSlip slip in _slips)
+            {
+                slip.BeginStep();
+            }
             BeginFrom(0);
         }
 

@@ -81,6 +81,7 @@ namespace Guidewire.Core.Tests
                 slip.Serialize(kept);
                 slip = new HubSlip(Limit, Shortest);
                 slip.Serialize(kept.ToRead());
+                slip.BeginStep();
                 slip.Begin(sense * Asked, around);
                 do
                 {
@@ -88,6 +89,7 @@ namespace Guidewire.Core.Tests
                     trials[step]++;
                 }
                 while (slip.NeedsAnother(moved, around, Force(moved), false));
+                slip.EndStep(Force(moved));
                 Assert.That(Math.Abs(Force(moved)), Is.LessThanOrEqualTo(Limit));
                 Assert.That(moved, Is.EqualTo(step == 2 ? sense * Asked : rest + sense * Limit / stiffness)
                     .Within(0.0201 * Limit / stiffness));
