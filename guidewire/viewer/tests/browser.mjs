@@ -30,8 +30,10 @@ const orders = {
   click: (page, text) => page.getByRole("button", { name: text, exact: true }).click(),
   // A finger: where in an element, from 0 to 1 across and down; without a place it is lifted.
   touch: async (page, [selector, across, down]) => {
-    const box = await page.locator(selector).boundingBox();
     const isDown = across !== undefined;
+    const element = page.locator(selector);
+    let box = null; // while the page draws it anew
+    while (isDown && (box = await element.boundingBox()) === null) await page.waitForTimeout(50);
     await (await protocol(page)).send("Input.dispatchTouchEvent", { type: isDown ? "touchStart" : "touchEnd",
       touchPoints: isDown ? [{ x: box.x + across * box.width, y: box.y + down * box.height }] : [] });
   },
