@@ -121,6 +121,7 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
             ["click", "record cine"], ["until", "viewer.xray.cine.count > 3"], ["up", "w"],
             ["press", "x"], ["see", "!viewer.xray.beam.isOn"], ["see", f"window.before = {drawn}"],
             ["down", "w"], ["until", f"{HUB} > 0.03"], ["up", "w"], ["see", f"{drawn} - before"],
+            ["until", f"{text('#arm')}.includes('last image')"],
             ["see", text("#arm")], ["until", "viewer.xray.beam.seconds < viewer.shown._desk.score.time - 0.2"],
             ["see", "!viewer.xray.beam.isOn"],
             ["click", "cine loop"], ["see", "[!document.getElementById('cine').hidden, viewer.xray.cine.count]"],
