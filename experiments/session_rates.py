@@ -22,8 +22,8 @@ import numpy as np
 from guidewire import Session
 from guidewire.anatomy.lumens import main_lumen
 from guidewire.env import Environment, Observation, Picture, all_tasks
-from guidewire.env.baselines import baseline_of
-from guidewire.env.observation import DEFAULT
+from guidewire.env.baselines import baseline_of, parts_of
+from guidewire.env.spaces import Error
 from guidewire.env.task import find_task
 from guidewire.runs import building
 
@@ -66,18 +66,18 @@ def rate(overrides: Mapping[str, Any], native: bool, step: float, seed: int = 0)
 def environment_rate(task: str, native: bool, image: Picture | None = None) -> tuple[float, float]:
     """Steps a second of the environment of a task under its baseline, and the time of a reset, ms: medians of episodes
     that the task draws from the first seeds. With an `image` each step makes that too."""
-    parts = (*DEFAULT, "overlap") if find_task(task).hubs > 1 else DEFAULT
-    with Environment(task, native=native, observation=Observation(parts=parts, image=image)) as environment:
+    observation = Observation(parts=parts_of(find_task(task)), image=image)
+    with Environment(task, native=native, observation=observation) as environment:
         policy = baseline_of(environment)
         rates, resets = [], []
         for seed in range(1, 1 + EPISODES):
             before = time.perf_counter()
-            observation, _ = environment.reset(seed=seed)
+            seen, _ = environment.reset(seed=seed)
             began = time.perf_counter()
-            policy.reset(observation)
+            policy.reset(seen)
             steps, ended = 0, False
             while not ended:
-                observation, _, terminated, truncated, _ = environment.step(policy.act(observation))
+                seen, _, terminated, truncated, _ = environment.step(policy.act(seen))
                 steps, ended = steps + 1, terminated or truncated
             rates.append(steps / (time.perf_counter() - began))
             resets.append(1e3 * (began - before))
@@ -112,10 +112,15 @@ def environments(tasks: Sequence[str], natives: Sequence[bool]) -> None:
 
 
 def main() -> None:
-    natives = (False, True) if building.native_library() else (False,)
-    if not sys.argv[1:]:
+    natives, named = (False, True) if building.native_library() else (False,), sys.argv[1:]
+    try:
+        for task in named:
+            find_task(task)
+    except Error as error:
+        sys.exit(f"session_rates: {error}")
+    if not named:
         sessions(natives)
-    environments(sys.argv[1:] or list(all_tasks()), natives)
+    environments(named or list(all_tasks()), natives)
 
 
 if __name__ == "__main__":

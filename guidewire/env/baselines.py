@@ -8,6 +8,8 @@ import numpy as np
 
 from guidewire.env.environment import Environment
 from guidewire.env.instruments import of_each
+from guidewire.env.observation import DEFAULT
+from guidewire.env.task import Task
 
 
 class TurnAndRetry:
@@ -134,6 +136,11 @@ class Lead(TurnAndRetry):
         catheter = super().act(observation)
         wire = 1.0 if extension < -self._behind - 5.0 else -1.0 if extension > -self._behind + 5.0 else catheter[0]
         return np.array([wire, 0.0, *catheter], dtype=np.float32)
+
+
+def parts_of(task: Task) -> tuple[str, ...]:
+    """Return the parts of an observation that the policy of a task needs."""
+    return (*DEFAULT, "overlap") if task.hubs > 1 else DEFAULT
 
 
 def baseline_of(environment: Environment) -> TurnAndRetry:

@@ -14,9 +14,9 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.env import score
-from guidewire.env.baselines import Chance, baseline_of
+from guidewire.env.baselines import Chance, baseline_of, parts_of
 from guidewire.env.environment import Environment
-from guidewire.env.observation import DEFAULT, Observation
+from guidewire.env.observation import Observation
 from guidewire.env.recorded import RecordedDrive, digest_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import all_tasks, find_task
@@ -88,8 +88,8 @@ def _policy_of(policy: str) -> Callable[[Environment, int], Any]:
 def _played(task: str, policy: str, seeds: range, jobs: int) -> list[score.Played]:
     make = _policy_of(policy)
     options = getattr(make, "options", {})
-    if not options and find_task(task).hubs > 1:
-        options = {"observation": Observation(parts=(*DEFAULT, "overlap"))}
+    if not options:
+        options = {"observation": Observation(parts=parts_of(find_task(task)))}
 
     def part(k: int) -> list[score.Played]:
         with Environment(task, **options) as environment:

@@ -32,8 +32,11 @@ const orders = {
   touch: async (page, [selector, across, down]) => {
     const isDown = across !== undefined;
     const element = page.locator(selector);
-    let box = null; // while the page draws it anew
-    while (isDown && (box = await element.boundingBox()) === null) await page.waitForTimeout(50);
+    let box = isDown && await element.boundingBox();
+    for (let k = 0; k < 2400 && box === null; k++) { // it has no place while the page draws it anew
+      await page.waitForTimeout(50);
+      box = await element.boundingBox();
+    }
     await (await protocol(page)).send("Input.dispatchTouchEvent", { type: isDown ? "touchStart" : "touchEnd",
       touchPoints: isDown ? [{ x: box.x + across * box.width, y: box.y + down * box.height }] : [] });
   },

@@ -23,8 +23,8 @@ namespace Guidewire.Core
 
         /// <summary>Begins with all of it.</summary>
         /// <param name="maxIterations">That one solution may take.</param>
-        /// <param name="limitedHubs">Hubs that may slip. For each displacement of one those of the instruments inside
-        /// it are found anew, so each further one doubles the work.</param>
+        /// <param name="limitedHubs">Hubs with a limit. Each one after the first doubles the work, because for each of
+        /// its displacements those of the hubs inside it are found anew.</param>
         public WorkLimit(int maxIterations, int limitedHubs = 0)
         {
             _maxIterations = maxIterations;

@@ -17,14 +17,14 @@ namespace Guidewire.Core
         private const double Close = 0.02;      // of the limit
         private const int MaxTrials = 24;
         private const double Exact = 1e-3;      // of the limit
-        private const double Near = 1.0 / 64.0; // of the shortest displacement, from what was found last
-        private const double Growth = 4.0;      // of that, from one trial to the next
-        private const double Same = 1e-6;       // of what was asked
+        private const double Near = 1.0 / 64.0; // of the shortest displacement: the first one from what was found last
+        private const double Growth = 4.0;      // of it from one trial to the next
+        private const double Same = 1e-6;       // of what is asked: it is as before
 
         private readonly double _limit;         // N
         private readonly double _shortest;      // m, by which a hub that may not rest gives way at first
         private double _asked;                  // m
-        private double _away;                   // m, from what was found last; 0: it began with what was asked
+        private double _away;                   // m, of the next trial from this one; 0: it began with what was asked
         private Trial _thrust;                  // the last with too much of either sense
         private Trial _tension;
         private Trial _allowed;                 // the last with no more than the limit
@@ -32,8 +32,8 @@ namespace Guidewire.Core
         private Trial _least;                   // force of all that have too much
         private bool _isLast;
         private int _trials;
-        private Found _last;                    // at the end of the step before
-        private Found _found;                   // in the last trial
+        private Found _foundBefore;             // in the step before
+        private Found _found;                   // last, in this step or before
         private int _stepsBeyond;
         private double _maxBeyond;              // N
 
@@ -49,13 +49,13 @@ namespace Guidewire.Core
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit < double.PositiveInfinity;
 
-        /// <summary>A step begins, before the hub does.</summary>
+        /// <summary>A step begins with what was found in the one before.</summary>
         public void BeginStep()
         {
-            _found = _last;
+            _found = _foundBefore;
         }
 
-        /// <summary>The trials of a step begin, or those for another displacement of what is around it.</summary>
+        /// <summary>Trials begin: of a step, or of another displacement of what is around it.</summary>
         /// <param name="asked">What the hub is to go, m.</param>
         /// <param name="around">What the next hub around it goes, m; null: what it went last.</param>
         public void Begin(double asked, double? around)
@@ -125,7 +125,7 @@ namespace Guidewire.Core
         /// <param name="force">N.</param>
         public void EndStep(double force)
         {
-            _last = _found;
+            _foundBefore = _found;
             if (Math.Abs(force) > (1.0 + Exact) * _limit)
             {
                 _stepsBeyond++;
@@ -152,10 +152,10 @@ namespace Guidewire.Core
         /// <summary>Writes or restores what was found in the step before, for a <see cref="StepStart"/>.</summary>
         public void SerializeStep(Snapshot snapshot)
         {
-            snapshot.Serialize(ref _last.Slipped);
-            snapshot.Serialize(ref _last.Moved);
-            snapshot.Serialize(ref _last.Around);
-            snapshot.Serialize(ref _last.Asked);
+            snapshot.Serialize(ref _foundBefore.Slipped);
+            snapshot.Serialize(ref _foundBefore.Moved);
+            snapshot.Serialize(ref _foundBefore.Around);
+            snapshot.Serialize(ref _foundBefore.Asked);
         }
 
         private bool End(double moved, double around)

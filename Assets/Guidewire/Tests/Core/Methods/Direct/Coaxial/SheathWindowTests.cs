@@ -11,17 +11,19 @@ namespace Guidewire.Core.Tests
         private const double Length = 400.0;     // mm
         private const int Steps = 30;
 
-        // Hubs of the wire and of each catheter slip at their limits, N, alone, all together, or not at all: 0.
-        [TestCase(false, 0.0, 0.0)]
-        [TestCase(true, 0.0, 0.0)]
-        [TestCase(true, 0.1, 0.1)]
-        [TestCase(false, 2e-3, 0.02, Category = "Long")]
-        [TestCase(false, 0.02, 5e-3, Category = "Long")]
-        [TestCase(false, 0.5, 2e-3, Category = "Long")]
-        [TestCase(true, 0.02, 0.02, Category = "Long")]
-        [TestCase(true, 0.1, 2e-3, Category = "Long")]
-        [TestCase(true, 0.5, 0.1, Category = "Long")]
-        public void WhatIsLeftOut_ChangesNeitherShapesNorForces(bool isThree, double wireLimit, double catheterLimit)
+        // Limits of the wire's hub and of each catheter's, N; 0: none. The search for a hub's place ends within 2 % of
+        // its limit, and rounding may end it elsewhere.
+        [TestCase(false, 0.0, 0.0, 1e-8)]
+        [TestCase(true, 0.0, 0.0, 1e-8)]
+        [TestCase(true, 0.1, 0.1, 1e-8)]
+        [TestCase(false, 2e-3, 0.02, 1e-8, Category = "Long")]
+        [TestCase(false, 0.02, 5e-3, 1e-6, Category = "Long")]
+        [TestCase(false, 0.5, 2e-3, 1e-6, Category = "Long")]
+        [TestCase(true, 0.02, 0.02, 1e-6, Category = "Long")]
+        [TestCase(true, 0.1, 2e-3, 1e-6, Category = "Long")]
+        [TestCase(true, 0.5, 0.1, 1e-6, Category = "Long")]
+        public void WhatIsLeftOut_ChangesNeitherShapesNorForces(bool isThree, double wireLimit, double catheterLimit,
+            double within)
         {
             SimulationParameters parameters = Scene(isThree, wireLimit, catheterLimit);
             DirectStep part = Run(parameters, false, out RodState state);
@@ -63,8 +65,7 @@ namespace Guidewire.Core.Tests
                 apart / Length, force, largest);
             Assert.That(most - least, Is.GreaterThan(3), "elements come and go");
             Assert.That(apart, Is.LessThan(1e-6 * Length), "mm");
-            // Of a hub that slips it is within 2 % of the limit, wherever the search ends.
-            Assert.That(force, Is.LessThan(wireLimit > 0.0 ? 2e-6 : 1e-8), "N");
+            Assert.That(force, Is.LessThan(within), "N");
         }
 
         private static DirectStep Run(SimulationParameters parameters, bool isWhole, out RodState state)
