@@ -366,7 +366,9 @@ def reconcile(scene: dict) -> dict:
     moves = scene.get("drive") in ("displace", "push") or scene.get("SteadyState") is False
     if scene.get("proximalEnd") == "free" and moves:
         del scene["proximalEnd"]
-    limit = 0.99 * scene.get("guidewireLength", LENGTH) / (2.0 * math.pi * scene.get("startRadius", 10.0))
+    units = 1.0 if solver == "pbd" else 1e-3 / scene.get("metresPerUnit", 1e-3)  # lengths by default are in mm
+    limit = scene.get("guidewireLength", LENGTH * units) / (2.0 * math.pi * scene.get("startRadius", 10.0 * units))
+    limit *= 0.99
     if scene.get("startShape") == "helix":
         scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
     is_clamped = scene.get("proximalEnd") == "clamped"
