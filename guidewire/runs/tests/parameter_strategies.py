@@ -27,7 +27,7 @@ REFUSED_IN_FILES = ("tipMoment", "tipFollowerForce", "damping", "materialDamping
 LOAD_TABLE = Path(__file__).with_name("load_table.csv")
 DRIVE_TABLE = Path(__file__).with_name("drive_table.csv")
 ARCH = Path(__file__).resolve().parents[3] / "params" / "meshes" / "arch.obj"
-LENGTH, OFFSET = 300.0, -120.0  # what the keys are where a scene does not name them
+DEFAULTS = {"guidewireLength": 300.0, "guidewireOffset": -120.0, "startRadius": 10.0}  # mm
 whole = st.integers
 
 
@@ -61,9 +61,15 @@ not_zero = st.lists(st.floats(-1.0, 1.0), min_size=3, max_size=3).filter(lambda 
 angles = vectors(st.floats(-360.0, 360.0))
 
 
+def length_of(scene: Mapping[str, Any], name: str) -> float:
+    """A length of a scene, units. Where it is not named it is one in mm; a wire without material knows no other unit."""
+    units = 1.0 if scene["solver"] == "pbd" else 1e-3 / scene.get("metresPerUnit", 1e-3)
+    return scene.get(name, DEFAULTS[name] * units)
+
+
 @st.composite
 def wire_sections(draw, scene: Mapping[str, Any]) -> list[dict]:
-    length = scene.get("guidewireLength", LENGTH)
+    length = length_of(scene, "guidewireLength")
     own = {"youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
            "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
            "innerRadius": st.floats(0.0, 0.9e-5), "shearFactor": st.floats(0.3, 1.0),
@@ -112,7 +118,7 @@ def load_tables(draw, scene: Mapping[str, Any]) -> dict | None:
 def start_files(draw, scene: Mapping[str, Any]) -> dict:
     """What a file to start from holds: a straight wire with noise, turned about itself."""
     n = int(scene.get("numberRodElements", 30))
-    length = scene.get("guidewireLength", LENGTH)
+    length = length_of(scene, "guidewireLength")
     rng = np.random.default_rng(draw(whole(0, 2**32 - 1)))
     noise = draw(log_uniform(1e-6, 0.3)) * length / n
     along = draw(not_zero.map(lambda v: v / np.linalg.norm(v)))
@@ -128,7 +134,7 @@ def start_files(draw, scene: Mapping[str, Any]) -> dict:
 
 @st.composite
 def vessels(draw, scene: Mapping[str, Any]) -> dict | None:
-    length, offset = scene.get("guidewireLength", LENGTH), scene.get("guidewireOffset", OFFSET)
+    length, offset = length_of(scene, "guidewireLength"), length_of(scene, "guidewireOffset")
     reach = draw(st.floats(1.0, 5.0)) * (scene.get("sphereRadius", 5.0) + scene.get("collisionMargin", 0.0)) + 20.0
     shape = draw(st.sampled_from([None, "plane", "tube", "mesh"]))
     if shape == "plane":
@@ -159,7 +165,7 @@ def obstacles(draw, scene: Mapping[str, Any]) -> list[dict] | None:
 
 @st.composite
 def point_loads(draw, scene: Mapping[str, Any]) -> list[dict] | None:
-    length = scene.get("guidewireLength", LENGTH)
+    length = length_of(scene, "guidewireLength")
     places = draw(st.one_of(st.none(), st.lists(st.floats(0.0, 1.0), max_size=3)))
     return places and [{"at": place * length, "force": draw(vectors(st.floats(-0.1, 0.1)))} for place in places]
 
@@ -366,9 +372,7 @@ def reconcile(scene: dict) -> dict:
     moves = scene.get("drive") in ("displace", "push") or scene.get("SteadyState") is False
     if scene.get("proximalEnd") == "free" and moves:
         del scene["proximalEnd"]
-    units = 1.0 if solver == "pbd" else 1e-3 / scene.get("metresPerUnit", 1e-3)  # lengths by default are in mm
-    limit = scene.get("guidewireLength", LENGTH * units) / (2.0 * math.pi * scene.get("startRadius", 10.0 * units))
-    limit *= 0.99
+    limit = 0.99 * length_of(scene, "guidewireLength") / (2.0 * math.pi * length_of(scene, "startRadius"))
     if scene.get("startShape") == "helix":
         scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
     is_clamped = scene.get("proximalEnd") == "clamped"
