@@ -337,6 +337,8 @@ def _reconcile_hub(scene: dict) -> None:
 
 def reconcile(scene: dict) -> dict:
     """Changes what does not go together in a scene; `CONFLICTS` in the tests holds what is refused."""
+    if scene.get("initialState") == "equilibrium":
+        scene = {name: value for name, value in scene.items() if name not in ("vessel", "obstacles")}
     solver = scene["solver"]
     for older, newer in (("VerletIntegration", "integrator"), ("SteadyState", "drive")):
         if newer in scene:
@@ -376,8 +378,6 @@ def reconcile(scene: dict) -> dict:
     if scene.get("startShape") == "helix":
         scene["startTurns"] = max(-limit, min(limit, scene.get("startTurns", 1.0)))
     is_clamped = scene.get("proximalEnd") == "clamped"
-    if scene.get("initialState") == "equilibrium":
-        scene = {name: value for name, value in scene.items() if name not in ("vessel", "obstacles")}
     is_held = scene.get("distalEnd") in ("clamped", "sliding") or (
         scene.get("distalEnd") == "held" and scene.get("proximalEnd", "held") == "held")
     if scene.get("initialState") == "equilibrium" and not is_clamped and not is_held:
