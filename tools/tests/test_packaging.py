@@ -198,7 +198,13 @@ def test_an_older_processor_gets_the_older_library(monkeypatch):
     for newer in (True, False):
         monkeypatch.setattr(installed, "has_avx2", lambda newer=newer: newer)
         assert installed.library().name == LIBRARY[newer]
-    assert has_avx2() == ("avx2" in Path("/proc/cpuinfo").read_text())
+
+
+@pytest.mark.skipif(sys.platform != "linux" or shutil.which("gcc") is None, reason="needs gcc on Linux")
+def test_the_processor_is_what_the_compiler_takes_it_for(tmp_path):
+    (tmp_path / "asks.c").write_text('int main(void) { return __builtin_cpu_supports("x86-64-v3") ? 0 : 1; }')
+    subprocess.run(["gcc", "asks.c", "-o", "asks"], cwd=tmp_path, check=True)
+    assert has_avx2() == (subprocess.run([tmp_path / "asks"], check=False).returncode == 0)
 
 
 @pytest.mark.long("a minute: the wheel is built; the test's other claims hold without")
