@@ -33,12 +33,11 @@ except ImportError:
 HEADLESS = ROOT / "headless"
 SDK_MAJOR = 10
 RUNNER = "Guidewire.Cli"
-CHECKER = "Guidewire.UnityCheck"
 BENCHMARKS = "Guidewire.Benchmarks"
 NATIVE = "Guidewire.Native"
 BROWSER = "Guidewire.Browser"
 DOTNET_TESTS = ("Guidewire.Core.Tests", "Guidewire.Unity.Tests")
-TESTED = (RUNNER, CHECKER, *DOTNET_TESTS)  # what tests need: Tests.slnf
+TESTED = (RUNNER, *DOTNET_TESTS)  # what tests need: Tests.slnf
 _WRITTEN = ("**/*.dll", "*.so", "*/*.deps.json", "*/*.runtimeconfig.json")
 
 

@@ -40,24 +40,6 @@ namespace UnityEngine
     }
 
     [AttributeUsage(AttributeTargets.Class)]
-    public sealed class CreateAssetMenuAttribute : Attribute
-    {
-        public string menuName { get; set; }
-
-        public string fileName { get; set; }
-
-        public int order { get; set; }
-    }
-
-    [AttributeUsage(AttributeTargets.Field)]
-    public sealed class TextAreaAttribute : PropertyAttribute
-    {
-        public TextAreaAttribute(int minLines, int maxLines)
-        {
-        }
-    }
-
-    [AttributeUsage(AttributeTargets.Class)]
     public sealed class DefaultExecutionOrder : Attribute
     {
         public DefaultExecutionOrder(int order)

@@ -24,32 +24,6 @@ namespace UnityEditor
         }
     }
 
-    [AttributeUsage(AttributeTargets.Class)]
-    public sealed class CustomPropertyDrawer : Attribute
-    {
-        public CustomPropertyDrawer(Type type)
-        {
-        }
-    }
-
-    public abstract class PropertyDrawer
-    {
-        public PropertyAttribute attribute { get; internal set; }
-
-        public virtual void OnGUI(Rect position, SerializedProperty property, GUIContent label)
-        {
-        }
-    }
-
-    public static class EditorGUI
-    {
-        public static bool PropertyField(Rect position, SerializedProperty property, GUIContent label)
-        {
-            UnityStubs.Engine.Show(label.text + "\n" + label.tooltip);
-            return false;
-        }
-    }
-
     public enum BuildTarget
     {
         StandaloneWindows64 = 19,

@@ -1,8 +1,6 @@
 using System;
 
-// What this project does not call, and scripts in general do: names with the signatures of Unity's, for the checker,
-// which
-// compiles what users add.
+// What tests of what Unity stores and sends need, and this project does not call.
 namespace UnityEngine
 {
     public sealed class SerializeReference : Attribute
@@ -17,32 +15,11 @@ namespace UnityEngine
         }
     }
 
-    public class Coroutine
-    {
-    }
-
     public class ScriptableObject : Object
     {
-        public static T CreateInstance<T>()
-            where T : ScriptableObject
-        {
-            return (T)System.Activator.CreateInstance(typeof(T));
-        }
     }
 
     public class Collider : Component
-    {
-    }
-
-    public class Collider2D : Behaviour
-    {
-    }
-
-    public class Collision
-    {
-    }
-
-    public class Collision2D
     {
     }
 
@@ -52,7 +29,6 @@ namespace UnityEngine
 
     public struct LayerMask
     {
-        public static int NameToLayer(string layerName) => -1;
     }
 }
 
@@ -60,10 +36,6 @@ namespace UnityEditor
 {
     public static class AssetDatabase
     {
-        public static void Refresh()
-        {
-        }
-
         public static T LoadAssetAtPath<T>(string assetPath)
             where T : UnityEngine.Object
         {

@@ -149,16 +149,6 @@ namespace UnityEngine
             return default;
         }
 
-        public T GetComponentInChildren<T>()
-        {
-            T own = GetComponent<T>();
-            for (int k = 0; own is null && k < transform.children.Count; k++)
-            {
-                own = transform.children[k].gameObject.GetComponentInChildren<T>();
-            }
-            return own;
-        }
-
         internal Component Attach(Type type)
         {
             var component = (Component)Activator.CreateInstance(type);
@@ -181,8 +171,6 @@ namespace UnityEngine
             component = gameObject.GetComponent<T>();
             return component is object;
         }
-
-        public T GetComponentInChildren<T>() => gameObject.GetComponentInChildren<T>();
 
         public T GetComponentInParent<T>()
         {
@@ -270,11 +258,6 @@ namespace UnityEngine
 
     public class MonoBehaviour : Behaviour
     {
-        public void Invoke(string methodName, float time) => throw new NotSupportedException();
-
-        public Coroutine StartCoroutine(string methodName) => throw new NotSupportedException();
-
-        public Coroutine StartCoroutine(System.Collections.IEnumerator routine) => throw new NotSupportedException();
     }
 
     public class Renderer : Component

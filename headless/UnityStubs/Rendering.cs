@@ -145,8 +145,6 @@ namespace UnityEngine
 
         public bool IsKeywordEnabled(string keyword) => _keywords.Contains(keyword);
 
-        public float GetFloat(string name) => (float)(Value(name) ?? 0f);
-
         private object Value(string name) => _values.TryGetValue(name, out object value) ? value : null;
 
         private void Set(string name, object value)

@@ -15,12 +15,15 @@ namespace UnityStubs
     {
         private const BindingFlags Fields = BindingFlags.Instance | BindingFlags.Public | BindingFlags.NonPublic;
         private static readonly string[] Texts = { ".json", ".txt", ".bytes", ".csv" };
-        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)$");
+        private static readonly Regex Header = new Regex(@"^--- !u!(\d+) &(-?\d+)( stripped)?$");
         private static readonly Regex Entry = new Regex(@"^  ([^ :{}-][^:{}]*):(?: (.*))?$");
+        // The first two lines, an object's type, and what stands within a key.
+        private static readonly Regex Other = new Regex(@"^(%.*|\w+:|    .*|)$");
         private static readonly Regex FileId = new Regex(@"\{fileID: (-?\d+)");
         private static readonly Regex Guid = new Regex(@"guid: ([0-9a-f]{32})");
 
-        private sealed class Document
+        /// <summary>One object: its class and number in the file, its keys, and their lists.</summary>
+        public sealed class Document
         {
             public int Class;
             public long Id;
@@ -51,13 +54,20 @@ namespace UnityStubs
         {
             if (!_paths.ContainsKey(guid))
             {
-                _paths = Known[_root] = new Dictionary<string, string>();
-                foreach (string file in Seen(_root, "*.meta"))
-                {
-                    _paths[Guid.Match(File.ReadAllText(file)).Groups[1].Value] = file.Substring(0, file.Length - 5);
-                }
+                _paths = Known[_root] = Paths(_root);
             }
             return _paths[guid];
+        }
+
+        /// <summary>Path of each asset of a project by GUID.</summary>
+        public static Dictionary<string, string> Paths(string root)
+        {
+            var paths = new Dictionary<string, string>();
+            foreach (string file in Seen(root, "*.meta"))
+            {
+                paths[Guid.Match(File.ReadAllText(file)).Groups[1].Value] = file.Substring(0, file.Length - 5);
+            }
+            return paths;
         }
 
         /// <summary>Files that Unity imports, of the project and of packages that lie in it.</summary>
@@ -102,35 +112,47 @@ namespace UnityStubs
         /// <param name="scripts">The assembly that holds the scripts' classes.</param>
         public static List<GameObject> Read(string root, string scene, Assembly scripts)
         {
-            return new SceneFile(root, scripts).Read(Parse(Path.Combine(root, scene)));
+            return new SceneFile(root, scripts).Read(Parse(File.ReadLines(Path.Combine(root, scene))));
         }
 
-        private static List<Document> Parse(string path)
+        /// <summary>The objects of a file in Unity's YAML, blocks within a key left aside.</summary>
+        /// <exception cref="FormatException">A line has another form than Unity's, or a key stands twice.</exception>
+        public static List<Document> Parse(IEnumerable<string> lines)
         {
             var documents = new List<Document>();
+            Document document = null;
             List<string> list = null;
-            foreach (string line in File.ReadLines(path))
+            int number = 0;
+            foreach (string line in lines)
             {
+                number++;
                 Match header = Header.Match(line);
+                Match entry = Entry.Match(line);
                 if (header.Success)
                 {
-                    documents.Add(new Document
+                    document = new Document
                     {
                         Class = int.Parse(header.Groups[1].Value, CultureInfo.InvariantCulture),
                         Id = long.Parse(header.Groups[2].Value, CultureInfo.InvariantCulture),
-                    });
-                    continue;
+                    };
+                    documents.Add(document);
+                    list = null;
                 }
-                Match entry = Entry.Match(line);
-                if (entry.Success)
+                else if (entry.Success && document != null)
                 {
-                    Document document = documents[documents.Count - 1];
-                    document.Values[entry.Groups[1].Value] = entry.Groups[2].Value;
+                    if (!document.Values.TryAdd(entry.Groups[1].Value, entry.Groups[2].Value))
+                    {
+                        throw new FormatException("line " + number + ": " + entry.Groups[1].Value + " stands twice");
+                    }
                     list = document.Lists[entry.Groups[1].Value] = new List<string>();
                 }
-                else if (line.StartsWith("  - ", StringComparison.Ordinal))
+                else if (line.StartsWith("  - ", StringComparison.Ordinal) && list != null)
                 {
                     list.Add(line.Substring(4));
+                }
+                else if (!Other.IsMatch(line))
+                {
+                    throw new FormatException("line " + number + ": '" + line + "' has no form of Unity's");
                 }
             }
             return documents;
@@ -199,7 +221,7 @@ namespace UnityStubs
             }
         }
 
-        // As in Unity, a name that the class does not have is skipped: finding it is the checker's work.
+        // As in Unity, a name that the class does not have is skipped: a test finds it.
         private static FieldInfo FieldOf(object target, string name)
         {
             FieldInfo field = null;

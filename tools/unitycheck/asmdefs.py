@@ -10,8 +10,6 @@ from tools.unitycheck.packages import dependencies, parsed
 from tools.unitycheck.project import Project
 from tools.unitycheck.violation import Violation
 
-# Folders whose files compile without the engine: Core and Io for every host, Tests/Core because .NET runs them too.
-ENGINE_FREE = ("Assets/Guidewire/Core/", "Assets/Guidewire/Io/", "Assets/Guidewire/Tests/Core/")
 NO_ENGINE_ASSEMBLIES = ("Guidewire.Core", "Guidewire.Io")
 # Assemblies of packages: the package that brings each.
 OUTSIDE = {"UnityEngine.TestRunner": "com.unity.test-framework", "UnityEditor.TestRunner": "com.unity.test-framework",

@@ -2,11 +2,11 @@
 
 from __future__ import annotations
 
-from tools.unitycheck import asmdefs, metas, packages, references, scenes, settings, sources, textfiles
+from tools.unitycheck import asmdefs, metas, packages, settings, textfiles
 from tools.unitycheck.project import Project
 from tools.unitycheck.violation import Violation
 
-MODULES = (metas, textfiles, packages, settings, asmdefs, sources, references, scenes)
+MODULES = (metas, textfiles, packages, settings, asmdefs)
 
 
 def run(project: Project) -> list[Violation]:

@@ -24,6 +24,8 @@ MODULE_OF = {
     "JsonUtility": "jsonserialize", "ScreenCapture": "screencapture", "EncodeToPNG": "imageconversion",
     "ImageConversion": "imageconversion", "Canvas": "ui", "UnityWebRequest": "unitywebrequest",
 }
+ENGINE = ("Assets/Guidewire/Runtime/", "Assets/Guidewire/Editor/")
+_BESIDE = re.compile(r'//.*|"(\\.|[^"\\\n])*"')  # comments and texts
 _VERSION = re.compile(r"^\d{1,6}\.\d{1,6}\.\d{1,6}(-[\w.-]+)?$")
 _NAME = re.compile(r"^[a-z0-9-]+(\.[a-z0-9-]+){2,}$")
 
@@ -52,7 +54,7 @@ def _numbers(version: str) -> tuple[int, ...]:
 
 
 def check(project: Project) -> Iterator[Violation]:
-    """Rules json, package-version, package-unknown, package-missing, package-file."""
+    """Rules json, package-version, package-unknown, package-missing, package-file, module-missing."""
     problem = parsed(project, MANIFEST)[1]
     if problem:
         yield problem
@@ -69,6 +71,12 @@ def check(project: Project) -> Iterator[Violation]:
         if name not in asked:
             yield Violation(MANIFEST, 0, "package-missing", f"needs {name}")
     yield from _own(project, asked)
+    for path in project.assets(".cs"):
+        if path.startswith(ENGINE):
+            for word in sorted(set(re.findall(r"\w+", _BESIDE.sub("", project.text(path)))) & set(MODULE_OF)):
+                module = f"com.unity.modules.{MODULE_OF[word]}"
+                if module not in asked:
+                    yield Violation(path, 0, "module-missing", f"{word} needs {module} in the manifest")
 
 
 def _own(project: Project, asked: dict[str, str]) -> Iterator[Violation]:

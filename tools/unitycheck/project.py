@@ -5,7 +5,7 @@ from __future__ import annotations
 import copy
 import json
 from pathlib import Path
-from typing import Any, Callable, Iterable, Mapping
+from typing import Any, Callable, Mapping
 
 YAML_SUFFIXES = (".unity", ".mat", ".asset", ".prefab")
 TEXT_SUFFIXES = YAML_SUFFIXES + (".meta", ".cs", ".asmdef", ".asmref", ".json", ".rsp", ".txt", ".md")
@@ -32,16 +32,12 @@ def strict_json(text: str) -> Any:
 
 
 class Project:
-    """The repository at `root`, listed once; paths are repository paths with forward slashes.
-
-    only : the C# sources that are checked; None for all.
-    """
+    """The repository at `root`, listed once; paths are repository paths with forward slashes."""
 
     def __init__(self, root: Path) -> None:
         self.root = root
         self.asset_files: list[str] = []
         self.asset_folders: list[str] = []
-        self.only: frozenset[str] | None = None
         self.changes: dict[str, bytes | None] = {}
         self._data: dict[str, bytes] = {}
         self._text: dict[str, str] = {}
@@ -50,13 +46,9 @@ class Project:
         self._settings = [path.relative_to(root).as_posix() for path in sorted((root / "ProjectSettings").glob("*"))
                           if path.is_file() and is_visible(path.name)]
 
-    def with_changes(self, changes: Mapping[str, bytes | None], only: Iterable[str] | None = None) -> Project:
-        """Return the same project with other bytes in some files, or (None) without them; nothing on disk is touched.
-
-        Of the C# sources `only` these are checked, where it is given.
-        """
+    def with_changes(self, changes: Mapping[str, bytes | None]) -> Project:
+        """Return the same project with other bytes in some files, or (None) without them; no file is touched."""
         other = copy.copy(self)
-        other.only = None if only is None else frozenset(only)
         other.changes = {**self.changes, **changes}
         other._text = {path: text for path, text in self._text.items() if path not in changes}
         other._derived = {}
@@ -105,7 +97,3 @@ class Project:
     def settings(self) -> list[str]:
         """Files directly under ProjectSettings."""
         return [path for path in self._settings if self.exists(path)]
-
-    def yaml_files(self) -> list[str]:
-        """Everything in Unity's YAML: scenes, materials and settings (metas have their own rules)."""
-        return self.assets(*YAML_SUFFIXES) + [path for path in self.settings() if path.endswith(".asset")]

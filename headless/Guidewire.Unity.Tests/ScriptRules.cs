@@ -1,0 +1,195 @@
+using System;
+using System.Linq;
+using System.Reflection;
+
+namespace Guidewire.Unity.Tests
+{
+    /// <summary>What compiles and does not work in Unity: fields that it does not store, methods that it does not call,
+    /// scripts that no object can hold.</summary>
+    internal static class ScriptRules
+    {
+        private const BindingFlags Declared = BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public
+            | BindingFlags.NonPublic | BindingFlags.DeclaredOnly;
+
+        /// <summary>Attributes that ask for a place in the Inspector, beside those that derive from
+        /// PropertyAttribute.</summary>
+        private static readonly HashSet<string> Inspector = new HashSet<string>
+        {
+            "SerializeField", "ContextMenuItem", "FormerlySerializedAsAttribute", "InspectorNameAttribute",
+        };
+
+        private static readonly Dictionary<string, string[]> Messages = Table();
+
+        /// <summary>Messages that may be coroutines; the others Unity refuses when it sends them.</summary>
+        private static readonly string[] Coroutines =
+        {
+            "Start", "OnCollision", "OnTrigger", "OnMouse", "OnBecame", "OnApplicationPause", "OnApplicationFocus",
+        };
+
+        /// <summary>What is wrong with a type.</summary>
+        /// <param name="type">A behaviour, or any class or struct beside them.</param>
+        /// <param name="files">Names of the sources, without their endings.</param>
+        public static IEnumerable<string> Problems(Type type, IReadOnlyCollection<string> files)
+        {
+            bool isBehaviour = typeof(MonoBehaviour).IsAssignableFrom(type);
+            if (IsMadeByUnity(type) && !type.IsAbstract
+                && (type.IsNested || !type.IsPublic || type.IsGenericType || !files.Contains(type.Name)))
+            {
+                yield return type.Name + " must be public, not generic, in no other class, and named as its file";
+            }
+            foreach (MemberInfo member in type.GetMembers(Declared))
+            {
+                string? problem = member is FieldInfo || member is PropertyInfo ? FieldProblem(type, member)
+                    : isBehaviour && member is MethodInfo { IsSpecialName: false } method ? MessageProblem(method)
+                    : null;
+                if (problem != null)
+                {
+                    yield return type.Name + "." + member.Name + ": " + problem;
+                }
+            }
+        }
+
+        /// <summary>The names under which a scene may hold fields of a type, former ones included.</summary>
+        public static IEnumerable<string> Stored(Type? type)
+        {
+            for (; type != null && type.Assembly != typeof(MonoBehaviour).Assembly; type = type.BaseType)
+            {
+                foreach (FieldInfo field in type.GetFields(Declared).Where(IsStored))
+                {
+                    if (Refusal(field) == null)
+                    {
+                        yield return field.Name;
+                        foreach (var former in field
+                            .GetCustomAttributes<UnityEngine.Serialization.FormerlySerializedAsAttribute>())
+                        {
+                            yield return former.oldName;
+                        }
+                    }
+                }
+            }
+        }
+
+        private static bool IsMadeByUnity(Type type)
+        {
+            return typeof(MonoBehaviour).IsAssignableFrom(type) || typeof(ScriptableObject).IsAssignableFrom(type);
+        }
+
+        private static string? FieldProblem(Type type, MemberInfo member)
+        {
+            if (!member.GetCustomAttributes().Any(one => one is UnityEngine.PropertyAttribute
+                || Inspector.Contains(one.GetType().Name)))
+            {
+                return null;
+            }
+            return !IsMadeByUnity(type) && !type.IsDefined(typeof(SerializableAttribute)) ? "its class is not stored"
+                : !(member is FieldInfo field) ? "a property is not stored; its field is with [field: SerializeField]"
+                : !IsStored(field) ? "is static, constant, readonly, [NonSerialized] or not [SerializeField]"
+                : Refusal(field);
+        }
+
+        /// <summary>Whether Unity stores a field, its type left aside.</summary>
+        private static bool IsStored(FieldInfo field)
+        {
+            bool isAsked = field.IsDefined(typeof(SerializeField)) || field.IsDefined(typeof(SerializeReference));
+            return (isAsked || field.IsPublic) && !field.IsDefined(typeof(NonSerializedAttribute)) && !field.IsStatic
+                && !field.IsInitOnly;
+        }
+
+        /// <summary>Why Unity does not store a field of this type; null where it does.</summary>
+        private static string? Refusal(FieldInfo field)
+        {
+            Type whole = field.FieldType;
+            Type type = whole.IsSZArray ? whole.GetElementType()!
+                : IsList(whole) ? whole.GetGenericArguments()[0] : whole;
+            if (field.IsDefined(typeof(SerializeReference)) || type == typeof(string)
+                || (type.Namespace ?? "").StartsWith("UnityEngine", StringComparison.Ordinal)
+                || typeof(UnityEngine.Object).IsAssignableFrom(type))
+            {
+                return null;
+            }
+            if (type.IsEnum || type.IsPrimitive)
+            {
+                bool isWide = type.IsEnum && Convert.GetTypeCode(Activator.CreateInstance(type)) >= TypeCode.Int64;
+                return isWide ? type.Name + " has 64 bits" : null;
+            }
+            bool isOwn = type.FullName != null && !type.FullName.StartsWith("System.", StringComparison.Ordinal);
+            return type.IsArray || IsList(type) ? "arrays and lists of one dimension only"
+                : !isOwn || type.IsInterface || type.IsAbstract || typeof(Delegate).IsAssignableFrom(type)
+                    || !type.IsDefined(typeof(SerializableAttribute)) ? type.Name + " is no type that Unity stores"
+                : null;
+        }
+
+        private static bool IsList(Type type)
+        {
+            return type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>);
+        }
+
+        /// <summary>Each message with the parameters that it may have, their types separated by commas.</summary>
+        private static Dictionary<string, string[]> Table()
+        {
+            var table = new Dictionary<string, string[]>();
+            Add(table, "Awake Start Update FixedUpdate LateUpdate OnEnable OnDisable OnDestroy OnGUI OnValidate Reset "
+                + "OnDrawGizmos OnDrawGizmosSelected OnApplicationQuit OnRenderObject OnPreRender OnPostRender "
+                + "OnPreCull OnWillRenderObject OnBecameVisible OnBecameInvisible OnMouseDown OnMouseUp OnMouseDrag "
+                + "OnMouseEnter OnMouseExit OnMouseOver OnMouseUpAsButton OnTransformChildrenChanged "
+                + "OnTransformParentChanged OnBeforeTransformParentChanged OnAnimatorMove OnParticleTrigger "
+                + "OnRectTransformDimensionsChange", "");
+            Add(table, "OnCollisionEnter OnCollisionStay OnCollisionExit", "", "Collision");
+            Add(table, "OnCollisionEnter2D OnCollisionStay2D OnCollisionExit2D", "", "Collision2D");
+            Add(table, "OnTriggerEnter OnTriggerStay OnTriggerExit", "", "Collider");
+            Add(table, "OnTriggerEnter2D OnTriggerStay2D OnTriggerExit2D", "", "Collider2D");
+            Add(table, "OnApplicationPause OnApplicationFocus", "", "Boolean");
+            Add(table, "OnParticleCollision", "", "GameObject");
+            Add(table, "OnAnimatorIK", "", "Int32");
+            Add(table, "OnRenderImage", "RenderTexture,RenderTexture");
+            Add(table, "OnAudioFilterRead", "Single[],Int32");
+            return table;
+        }
+
+        private static void Add(Dictionary<string, string[]> table, string names, params string[] parameters)
+        {
+            foreach (string name in names.Split(' '))
+            {
+                table[name] = parameters;
+            }
+        }
+
+        private static string? MessageProblem(MethodInfo method)
+        {
+            string name = method.Name;
+            if (!Messages.TryGetValue(name, out string[]? allowed))
+            {
+                string? meant = Messages.Keys.FirstOrDefault(message => IsNear(message, name));
+                return meant == null || method.ReturnType != typeof(void)
+                    || method.GetBaseDefinition() != method || method.IsDefined(typeof(ContextMenu)) ? null
+                    : "Unity's message is called " + meant;
+            }
+            string parameters = string.Join(",", method.GetParameters().Select(one => one.ParameterType.Name));
+            bool mayWait = method.ReturnType == typeof(System.Collections.IEnumerator)
+                && Coroutines.Any(start => name.StartsWith(start, StringComparison.Ordinal));
+            return method.IsStatic || method.IsGenericMethod ? "a message is an instance method without type parameters"
+                : method.ReturnType != typeof(void) && !mayWait ? "a message returns nothing"
+                : !allowed.Contains(parameters) ? "(" + parameters + ") is never sent"
+                : null;
+        }
+
+        /// <summary>Whether small letters for capital ones, or one letter added, lost, changed or exchanged with its
+        /// neighbour make one word the other.</summary>
+        private static bool IsNear(string a, string b)
+        {
+            (a, b) = a.Length > b.Length ? (b, a) : (a, b);
+            if (a.Equals(b, StringComparison.OrdinalIgnoreCase) || b.Length - a.Length > 1)
+            {
+                return a.Length == b.Length;
+            }
+            int i = 0;
+            while (i < a.Length && a[i] == b[i])
+            {
+                i++;
+            }
+            return a.Length < b.Length ? a.Substring(i) == b.Substring(i + 1)
+                : a.Substring(i + 1) == b.Substring(i + 1) || (i + 1 < a.Length && a[i] == b[i + 1]
+                    && a[i + 1] == b[i] && a.Substring(i + 2) == b.Substring(i + 2));
+        }
+    }
+}
