@@ -67,6 +67,39 @@ namespace Guidewire.Core.Tests
             Assert.That(term.Value(moved), Is.EqualTo(term.Value(shape)).Within(1e-12 * term.Value(shape)));
         }
 
+        /// <summary>Of a bent, twisted and strained wire between clamps, as a motion states them before its first
+        /// step.</summary>
+        [Category("Row")]
+        [TestCase(BendLaw.RotationVector)]
+        [TestCase(BendLaw.Darboux)]
+        public void ForcesAndCouplesOfClamps_AreTheDifferencesOfTheEnergy(BendLaw law)
+        {
+            MaterialRod rod = Uneven(N);
+            RodShape shape = Rods.Random(rod, 0.9, 0.3, 5);
+            var supports = new RodSupports { Distal = DistalEnd.Clamped, Clamp = ClampRule.HalfElement, Bend = law };
+            RodDynamics motion = MotionTests.Start(rod, supports, Rods.Schedule(null, shape), shape,
+                Integrator.Esdirk3, 1e-6);
+            Holds("force of the proximal clamp", motion.ReactionAt(0), (moved, s) => moved.X[0] += s);
+            Holds("force of the distal clamp", motion.ReactionAt(N), (moved, s) => moved.X[N] += s);
+            Holds("couple of the proximal clamp", motion.Reactions.ProximalCouple,
+                (moved, s) => moved.ProximalFrame = RotationVector.Exp(s) * moved.ProximalFrame);
+            Holds("couple of the distal clamp", motion.Reactions.DistalCouple,
+                (moved, s) => moved.DistalFrame = RotationVector.Exp(s) * moved.DistalFrame);
+
+            void Holds(string what, Vector3d stated, Action<RodShape, Vector3d> move)
+            {
+                double Slope(Vector3d e) => EnergySlopes.FineDifference(1e-3, s =>
+                {
+                    RodShape moved = Rods.Copy(shape);
+                    move(moved, s * e);
+                    return motion.Terms.ElasticEnergy(moved);
+                });
+                var slope = new Vector3d(Slope(Vector3d.UnitX), Slope(Vector3d.UnitY), Slope(Vector3d.UnitZ));
+                Row.Holds(what + ", " + law + ": off the difference of the energy",
+                    Vector3d.Distance(stated, slope) / slope.Length, 0.0, 1e-6);
+            }
+        }
+
         [Category("Row")]
         [TestCase(1e-6)]
         [TestCase(0.3)]

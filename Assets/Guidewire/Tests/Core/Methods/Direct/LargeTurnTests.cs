@@ -5,12 +5,14 @@ namespace Guidewire.Core.Tests
 {
     /// <summary>Wires that turn far, where stretching is stiff and driven all the time: what a scheme keeps there of
     /// energy, momenta and order. Energies are those of <see cref="WireEnergy"/>.</summary>
+    [Category("Row")]
     public sealed class LargeTurnTests
     {
         [TestCase(Integrator.Trbdf2, Rods.Radius, 5e-5)]
         [TestCase(Integrator.Esdirk3, Rods.Radius, 5e-5)]
         [TestCase(Integrator.Esdirk4, Rods.Radius, 5e-5)]
         [TestCase(Integrator.Bdf2, Rods.Radius, 3e-4)]
+        [TestCase(Integrator.Bdf2, 0.2 * Rods.Radius, 3e-4)]
         [TestCase(Integrator.Trbdf2, 0.2 * Rods.Radius, 5e-5)]
         [TestCase(Integrator.Esdirk3, 0.2 * Rods.Radius, 5e-5)]
         [TestCase(Integrator.Esdirk4, 0.2 * Rods.Radius, 5e-5)]
@@ -30,14 +32,16 @@ namespace Guidewire.Core.Tests
                 Assert.That(motion.Step(1e-3), Is.Null);
             }
             energy.Of(shape.X, motion.Velocities, shape.Q, motion.Spins);
-            double lost = Math.Abs(energy.Kinetic + energy.Elastic + Gravity * energy.MassMoment.Y);
-            Assert.That(lost / (0.5 * energy.Mass * Gravity * Rods.Length), Is.LessThan(fraction));
+            double lost = energy.Kinetic + energy.Elastic + Gravity * energy.MassMoment.Y;
+            Row.Holds("pendulum released from the horizontal, r = " + 1e3 * radius + " mm, 2 s at 1 ms, " + scheme
+                + ": change of energy, m g L/2", lost / (0.5 * energy.Mass * Gravity * Rods.Length), 0.0, fraction);
         }
 
         [TestCase(Integrator.Trbdf2, 3e-4, 1e-4)]
         [TestCase(Integrator.Esdirk3, 3e-4, 1e-4)]
         [TestCase(Integrator.Esdirk4, 3e-4, 1e-4)]
         [TestCase(Integrator.Bdf2, 1.5e-3, 8e-4)]
+        [TestCase(Integrator.ImplicitEuler, 1.0, 1.0)]  // it loses most of both, and gains none
         public void SpinningWire_KeepsEnergyAndMomenta(Integrator scheme, double energyShare, double momentumShare)
         {
             // Free, straight, 40 rad/s about its middle, 1 s.
@@ -63,10 +67,11 @@ namespace Guidewire.Core.Tests
             Vector3d angular = wire.AngularMomentum;
             Rods.Step(motion, 0.5e-3, 2000);
             wire.Of(shape.X, motion.Velocities, shape.Q, motion.Spins);
-            Assert.That((wire.Kinetic + wire.Elastic) / energy, Is.EqualTo(1.0).Within(energyShare));
-            Assert.That(Vector3d.Distance(wire.AngularMomentum, angular) / angular.Length,
-                Is.LessThan(momentumShare));
-            Assert.That(wire.Momentum.Length / (wire.Mass * velocities[0].Length), Is.LessThan(1e-9));
+            string what = "free wire spun at 40 rad/s, 1 s at 0.5 ms, " + scheme + ": ";
+            Row.Holds(what + "energy left", (wire.Kinetic + wire.Elastic) / energy, 1.0, energyShare);
+            Row.Holds(what + "change of angular momentum",
+                Vector3d.Distance(wire.AngularMomentum, angular) / angular.Length, 0.0, momentumShare);
+            Row.Holds(what + "momentum, m w L/2", wire.Momentum.Length / (wire.Mass * velocities[0].Length), 0.0, 1e-9);
         }
 
         [TestCase(Integrator.Bdf2, 2.0, 400)]
@@ -77,7 +82,8 @@ namespace Guidewire.Core.Tests
         {
             double coarse = SoftWireError(scheme, steps);
             double fine = SoftWireError(scheme, 2 * steps);
-            Assert.That(Math.Log(coarse / fine, 2.0), Is.EqualTo(order).Within(0.2));
+            Row.Holds("soft wire tumbling by 4 rad, " + steps + " to " + 2 * steps + " steps, " + scheme
+                + ": order in time", Math.Log(coarse / fine, 2.0), order, 0.2);
         }
 
         /// <summary>Distance of a thick soft wire from its motion by 1600 steps of the scheme of order 4, whose own

@@ -83,7 +83,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>R(z) = 1 + z b^T (1 - z A)^-1 (1, .., 1).</summary>
-        private static Complex Growth(RungeKuttaScheme scheme, Complex z)
+        internal static Complex Growth(RungeKuttaScheme scheme, Complex z)
         {
             double[,] a = Matrix(scheme);
             double[] b = Weights(scheme);
