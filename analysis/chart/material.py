@@ -12,10 +12,9 @@ import numpy as np
 from analysis.chart import settings
 from analysis.chart.points import Asked, Measure, Problem, Setting, case
 from analysis.validation import beam, elastica, scenes, swing
-from analysis.validation.bar import BarChain
+from analysis.validation.bar import BAR_ELEMENTS, BAR_MASS, BAR_SPRING, BarChain, bar_gain
 from analysis.validation.dynamics import (
-    BAR_ELEMENTS, BAR_MASS, BAR_SPRING, RELEASE_LOAD, RELEASE_TIME, bar_gain, release, release_error,
-    release_reference, rms_error,
+    RELEASE_LOAD, RELEASE_TIME, release, release_error, release_reference, rms_error,
 )
 from analysis.validation.states import last_state, tip_at, tip_motion
 from analysis.validation.wire import BASE

@@ -13,12 +13,13 @@ from analysis.chart.points import Asked, Measure, Problem, Setting, case
 from analysis.validation import beam, elastica, scenes
 from analysis.validation.dynamics import rms_error
 from analysis.validation.states import last_state, tip_at
-from analysis.validation.statics import PLANE_DROP, PLANE_WIRE
 from analysis.validation.wire import Wire
 from guidewire.figures.wording import percent
 from guidewire.logs.runs import Run
 from guidewire.studies.table import Case
 
+PLANE_WIRE = Wire(radius=0.3e-3)
+PLANE_DROP = 20e-3  # m
 ABSENT = {"explicit": "does not support walls"}
 _FIRST = 2.0 * math.pi * beam.frequencies(PLANE_WIRE, 1)[0]  # rad/s
 _REST_TIME = 15.0 / _FIRST  # s

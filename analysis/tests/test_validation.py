@@ -19,9 +19,9 @@ from guidewire.sweeps.check import Check, Finding, Result, replay
 from guidewire.sweeps.sweep import Means, SweepResult, sweep
 from tools.testing import FULL_CAMPAIGNS
 
-# All only where campaigns run in full. Elsewhere one of each kind of row that no test of Core has: a large load, a bend
-# in space, derivatives, steps, a tube with clearance.
-ONE_OF_A_KIND = ("tip-load-100", "spatial-bend", "gradient", "order-in-time-axial", "twisted-tube")
+# All only where campaigns run in full. Elsewhere one of each kind of row that no test of Core has: a large load,
+# tolerances, a tube with clearance.
+ONE_OF_A_KIND = ("heavy-cantilever", "tolerance", "twisted-tube")
 CHECKS = FAST if FULL_CAMPAIGNS in os.environ else tuple(check for check in FAST if check.name in ONE_OF_A_KIND)
 
 
@@ -41,7 +41,7 @@ def fast_report(tmp_path_factory: pytest.TempPathFactory, runner_command: list[s
 @pytest.mark.parametrize("check", CHECKS, ids=lambda check: check.name)
 def test_direct_solver_keeps_its_gates(fast_report: Report, check: Check) -> None:
     results = fast_report.findings[check].results
-    assert any(result.gate is not None for result in results) or all(result.reason for result in results)
+    assert any(result.gate is not None for result in results)
     assert [result for result in results if result.passed is False] == []
 
 
@@ -49,10 +49,8 @@ def test_report_has_a_line_for_every_result(fast_report: Report) -> None:
     lines = as_csv(fast_report).splitlines()
     assert len(lines) == 1 + len(fast_report.results)
     text = as_markdown(fast_report)
-    passed, failed, shown, silent = fast_report.counts
+    passed, failed, shown = fast_report.counts
     assert failed == 0 and f"{passed} lines passed, 0 failed, {shown} have no gate" in text
-    reasons = [result.reason for _, result in fast_report.results if result.reason]
-    assert len(reasons) == silent and all(f": {reason} |" in text for reason in reasons)
     assert all(f"![{check.title}]" in text for check in CHECKS)
 
 

@@ -2,11 +2,17 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from scipy.linalg import eigh_tridiagonal
+
+from analysis.validation import scenes
+from analysis.validation.wire import BASE
+
+BAR_ELEMENTS = 30
+BAR_MASS = BASE.line_density * BASE.length / (BAR_ELEMENTS + 1)  # kg, of a sphere
+BAR_SPRING = BASE.stretching * BAR_ELEMENTS / BASE.length  # N/m
 
 
 @dataclass(frozen=True)
@@ -34,15 +40,6 @@ class BarChain:
         amplitudes = modes[node - 1] * (modes.T @ np.full(self.elements, -self.displacement))
         return self.displacement + np.cos(np.multiply.outer(time, np.sqrt(squared))) @ amplitudes
 
-    def first_mode(self) -> tuple[float, np.ndarray]:
-        """Return the slowest motion: its angular frequency, rad/s, and displacements of all masses, shape (n+1,), the
-        largest of them 1, where the last mass is half as heavy as the others, as lumping makes it."""
-        n = self.elements
-        # u_j = sin(j a): k (2 - 2 cos a) = m w^2 in the middle, and at half the mass its own image about it, so that
-        # the chain's end is the middle of one of 2 n springs: n a = pi/2.
-        angle = 0.5 * math.pi / n
-        return 2.0 * math.sqrt(self.spring / self.mass) * math.sin(0.5 * angle), np.sin(angle * np.arange(n + 1))
-
     @property
     def frequencies(self) -> np.ndarray:
         """Angular frequencies, rad/s, shape (n,), ascending."""
@@ -53,3 +50,13 @@ class BarChain:
         diagonal[-1] = 1.0
         squared, modes = eigh_tridiagonal(diagonal, np.full(self.elements - 1, -1.0))
         return squared * self.spring / self.mass, modes
+
+
+def bar_gain(step: float) -> float:
+    """k_A of one sweep a step that pulls as the springs do.
+
+    A sweep moves a sphere of mass m by k e/(m D) for an extension e, D = 2/m + 4 w_q l^2 (w_q = 1, l in units): over
+    dt^2 that is the acceleration s e/m of a spring s where k = s D dt^2.
+    """
+    length = BASE.length / BAR_ELEMENTS / scenes.UNIT
+    return BAR_SPRING * (2.0 / BAR_MASS + 4.0 * length * length) * step * step

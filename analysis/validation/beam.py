@@ -5,7 +5,6 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from scipy.linalg import expm
 from scipy.optimize import brentq
 
 from analysis.validation.wire import Wire
@@ -23,30 +22,6 @@ def mode_numbers(count: int) -> np.ndarray:
 def frequencies(wire: Wire, count: int) -> np.ndarray:
     """Return the frequencies of a thin cantilever (Euler-Bernoulli), Hz, shape (count,)."""
     return mode_numbers(count) ** 2 / (2.0 * math.pi * wire.time_unit)
-
-
-def thick_frequencies(wire: Wire, count: int) -> np.ndarray:
-    """Return the frequencies with shear GA and the rotary inertia rho I (Timoshenko), Hz, shape (count,).
-
-    State (w, t, m, q) over s/L: deflection, turn of the section, couple, shear force, each in units of L, 1, EI/L and
-    EI/L^2. Held at 0; couple and force vanish at 1, which the exponential of the state's matrix has to allow.
-    """
-    slender = wire.second_moment / (wire.area * wire.length**2)  # I/(A L^2), also the rotary inertia's fraction
-    shear = wire.bending / (wire.shearing * wire.length**2)  # EI/(GA L^2)
-
-    def condition(b: float) -> float:
-        w2 = b**4
-        matrix = np.array([
-            [0.0, 1.0, 0.0, shear],
-            [0.0, 0.0, 1.0, 0.0],
-            [0.0, -slender * w2, 0.0, -1.0],
-            [-w2, 0.0, 0.0, 0.0],
-        ])
-        carried = expm(matrix)[2:, 2:]
-        return float(np.linalg.det(carried)) / math.cosh(b)
-
-    found = [brentq(condition, 0.98 * b, 1.002 * b, xtol=1e-13) for b in mode_numbers(count)]
-    return np.array(found) ** 2 / (2.0 * math.pi * wire.time_unit)
 
 
 def mode_shape(number: float, arc: np.ndarray, derivative: int = 0) -> np.ndarray:

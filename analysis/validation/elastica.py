@@ -95,12 +95,6 @@ def heavy_on_plane(load: float, drop: float, points: np.ndarray) -> tuple[PlaneS
     return PlaneShape(points, along, across, angle), float(solution.p[0])
 
 
-def arc(angle: float, points: np.ndarray) -> PlaneShape:
-    """Under a couple theta EI/L at the tip: a circular arc of this angle theta in rad; 2 pi is a closed ring."""
-    turned = angle * points
-    return PlaneShape(points, np.sin(turned) / angle, (1.0 - np.cos(turned)) / angle, turned)
-
-
 def tip_by_elliptic_integrals(load: float) -> tuple[float, float]:
     """Tip over L, along and across, under k = F L^2/EI (Bisshopp and Drucker 1945), an independent way to `tip_loaded`.
 
@@ -116,11 +110,6 @@ def tip_by_elliptic_integrals(load: float) -> tuple[float, float]:
     p = brentq(lambda p: ellipk(p * p) - ellipkinc(amplitude(p), p * p) - root, low, high, xtol=1e-16)
     across = 1.0 - 2.0 / root * (ellipe(p * p) - ellipeinc(amplitude(p), p * p))
     return float(np.sqrt(2.0 * (2.0 * p * p - 1.0) / load)), float(across)
-
-
-def column_load() -> float:
-    """P L^2/EI at which a column, clamped below and free above, buckles: (pi/2)^2."""
-    return 0.25 * np.pi**2
 
 
 def _solve(carried: Callable[[np.ndarray], np.ndarray], load: float, points: np.ndarray) -> PlaneShape:

@@ -15,7 +15,6 @@ from analysis.validation import elastica, pictures, scenes
 from analysis.validation.planar_stability import PlaneRest, snap
 from analysis.validation.stability import LEFT, SECTION, Search, branches, limit, limit_line
 from analysis.validation.states import last_state, wall_time
-from analysis.validation.statics import SECTION as STATICS
 from analysis.validation.wire import BASE
 from guidewire.figures.wording import number, percent
 from guidewire.logs.runs import Run
@@ -213,7 +212,7 @@ def _snaps(slack: float, expected: float, n: int) -> Search:
 
 
 def _hanging(n: int, loads: tuple[float, ...]) -> Check:
-    return Check("heavy-cantilever", STATICS, "sag of a heavy cantilever", partial(_aspect, n, loads))
+    return Check("heavy-cantilever", "Statics", "sag of a heavy cantilever", partial(_aspect, n, loads))
 
 
 def _buckled(ratios: tuple[float, ...]) -> Check:

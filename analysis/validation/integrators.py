@@ -27,7 +27,6 @@ _REFERENCE = "Verlet, Euler"  # what the thesis calls Verlet
 _STEPS = 300
 _REPEATS = 5
 _TURN = 0.5 * math.pi  # of the last element at the start of the twist problem
-_ROUNDING = 1e-6  # units or rad; less is one motion
 
 _BASE: dict[str, Any] = {
     "solver": "pbd", "guidewireLength": 300.0, "numberRodElements": 30, "totalMass": 0.01, "stretchStiffness": 0.1,
@@ -134,32 +133,19 @@ def _step_time(run: Run, repeats: int) -> float:
 
 
 def _caption(results: list[Result], costs: Mapping[tuple[str, str], float], load: str) -> str:
-    of = {(r.what.split(":")[0], r.solver[5:]): r.error for r in results}
-    same = [problem for problem in _PROBLEMS if of[problem, "Euler, Euler"] < _ROUNDING]
-    sentences = [
+    of = {(r.what.split(":")[0], r.solver[5:]): r for r in results}
+    first = next(iter(_PROBLEMS))
+    return (
         "Four predictors, \"positions, orientations\" each by Euler or Verlet, in the thesis's transversal run and for "
-        f"a wire whose elements start rotated by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}."
-    ]
-    if same:
-        sentences.append(
-            f"Euler's and Verlet's positions are one formula and differ by rounding only (largest "
-            f"{number(max(of[problem, 'Euler, Euler'] for problem in same), 1)}) in: {'; '.join(same)}."
-        )
-    other = [problem for problem in _PROBLEMS if problem not in same]
-    if other:
-        sentences.append("They differ in: " + "; ".join(
-            f"{problem} by {number(of[problem, 'Euler, Euler'], 2)}" for problem in other) + ".")
-    sentences.append("Verlet for orientations changes the motion by " + "; ".join(
-        f"{number(of[problem, 'Verlet, Verlet'], 2)} {'rad' if problem.startswith('twist') else 'units'} ({problem})"
-        for problem in _PROBLEMS) + ".")
-    problem = next(iter(_PROBLEMS))
-    sentences.append(f"Median time of a step, {problem}, of runs made one at a time, {load}: " + ", ".join(
-        f"{method} {number(1e3 * costs[problem, method], 3)} ms" for method in _METHODS) + ".")
-    sentences.append(
-        "With pbd there is no limit in the time step that one of them could be nearer to; the choice of m changes the "
-        "motion far more."
+        f"a wire whose elements start rotated by 0 to 90°; {_STEPS} steps. Below: difference from {_REFERENCE}. "
+        "Largest of Euler's positions (rounding, where they are one formula), and of Verlet's orientations: "
+        + "; ".join(f"{problem}: {number(of[problem, 'Euler, Euler'].error, 2)}, "
+                    f"{number(of[problem, 'Verlet, Verlet'].error, 2)} {of[problem, 'Verlet, Verlet'].unit}"
+                    for problem in _PROBLEMS)
+        + f". Median time of a step, {first}, of runs made one at a time, {load}: "
+        + ", ".join(f"{method} {number(1e3 * costs[first, method], 3)} ms" for method in _METHODS)
+        + ". No limit of a time step is in sight with pbd; the choice of m changes the motion far more."
     )
-    return " ".join(sentences)
 
 
 INTEGRATORS, INTEGRATORS_ONCE = (

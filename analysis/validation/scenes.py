@@ -8,8 +8,6 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from analysis.validation import beam
-from analysis.validation.spatial import Bend
 from analysis.validation.states import solver_report
 from analysis.validation.wire import Wire
 from guidewire.logs.runs import Run
@@ -21,12 +19,10 @@ ELEMENTS = 30  # n of the scene
 CLAMPS_ALONG_Z: dict[str, Any] = {"proximalFrame": [0.0, 0.0, 0.0, 1.0], "distalFrame": [0.0, 0.0, 0.0, 1.0]}
 SCENE = "params/cantilever.json"  # the base wire, clamped
 
-_SETTLED = 12.0  # a critically damped motion is over after this many 1/omega
 _EXPLICIT_FRACTION = 0.75  # of the explicit solver's stable substep
 _SWEEPS = 3  # of xpbd in a substep; they nearly converge where it is at most
 _XPBD_SHEAR = 4.0  # of the time in which an element turns against its shear, and
 _XPBD_AXIAL = 1.0 / 3.0  # of the time that sound takes along an element
-_SUBSTEPS = 1000
 
 _Found = TypeVar("_Found")
 Asking = Generator[Sequence[Case], Mapping[str, Run], _Found]  # asks for runs before it knows what it returns
@@ -49,53 +45,16 @@ def damping(solver: str, rate: float, step: float) -> dict[str, float]:
     return {"damping": min(1.0, rate * step)} if solver == "pbd" else {"massDamping": rate}
 
 
-def bend_parameters(bend: Bend) -> dict[str, Any]:
-    """Return the keys of a curved wire under a force at its tip, with a unit of 1 m."""
-    return {
-        **wire_parameters(bend.wire), "metresPerUnit": 1.0, "guidewireLength": bend.wire.length,
-        "restCurvature": [bend.rod.curvature, 0.0, 0.0], "tipForce": bend.force.tolist(),
-    }
-
-
 def at_rest(overrides: Mapping[str, Any]) -> dict[str, Any]:
     """Return the rest shape, and nothing after it, by the direct solver."""
     return {"initialState": "equilibrium", "maxSimulationSteps": 0, "logOrientations": True, **overrides}
 
 
-def settled(
-    solver: str, wire: Wire, overrides: Mapping[str, Any], frequency: float | None = None, name: str = ""
-) -> Asking[dict[str, Any]]:
-    """A motion from the straight wire that is damped until it rests, for solvers that have no statics.
-
-    Parameters
-    ----------
-    solver : "explicit" or "xpbd".
-    wire : the rod.
-    overrides : loads and supports.
-    frequency : of the slowest motion, Hz; that of the cantilever where it is not given.
-    name : of the run that states the limit of explicit steps; that of the solver where it is not given.
-    """
-    omega = 2.0 * math.pi * (beam.frequencies(wire, 1)[0] if frequency is None else frequency)
-    stable = yield from stable_substep(overrides, name or f"{solver}-limit")
-    step = min(_SUBSTEPS * stable, 0.05 / omega)
-    elements = overrides.get("numberRodElements", ELEMENTS)
-    return {
-        "solver": solver,
-        "timeStep": step,
-        **(explicit_steps(step, stable) if solver == "explicit" else xpbd_steps(wire, step, elements)),
-        **damping(solver, 2.0 * omega, step),  # critical
-        "maxSimulationSteps": math.ceil(_SETTLED / omega / step),
-        "logEvery": 1_000_000,
-        "logOrientations": True,
-        **overrides,
-    }
-
-
 def small_steps(
     solver: str, wire: Wire, step: float, overrides: Mapping[str, Any], name: str = ""
 ) -> Asking[dict[str, Any]]:
-    """Substeps of a time step in s (and sweeps of each) of the explicit solver or of xpbd; the rest as for `settled`.
-    """
+    """Substeps of a time step in s, and sweeps of each, of the explicit solver or of xpbd; `name` is of the run that
+    states the limit of explicit steps, that of the solver where it is not given."""
     if solver == "xpbd":
         return xpbd_steps(wire, step, overrides.get("numberRodElements", ELEMENTS))
     return explicit_steps(step, (yield from stable_substep(overrides, name or f"{solver}-limit")))
@@ -133,21 +92,6 @@ def axial_substep(wire: Wire, elements: int) -> float:
     """2/omega of neighbours moving, or turning, against each other, omega = 2 sqrt(E/rho)/l: sound's time along an
     element, s."""
     return wire.length / elements / math.sqrt(wire.youngs_modulus / wire.density)
-
-
-def mode_start(wire: Wire, elements: int, number: float, amplitude: float) -> dict[str, Any]:
-    """Return a start at rest in a mode of the cantilever.
-
-    Parameters
-    ----------
-    wire : the rod.
-    elements : n.
-    number : of the mode, from `beam.mode_numbers`.
-    amplitude : of the tip over L; small.
-    """
-    arc = np.linspace(0.0, 1.0, elements + 1)
-    across = 0.5 * amplitude * wire.length * beam.mode_shape(number, arc)
-    return plane_start(wire.length * arc, across)
 
 
 def plane_start(along: np.ndarray, across: np.ndarray) -> dict[str, Any]:

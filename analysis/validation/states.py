@@ -42,11 +42,6 @@ class State:
         return np.stack([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=1)
 
     @property
-    def momentum_per_mass(self) -> np.ndarray:
-        """Sum over elements of the velocity of their middle, shape (3,): times the mass of one, the momentum."""
-        return np.sum(0.5 * (self.velocities[1:] + self.velocities[:-1]), axis=0)
-
-    @property
     def twists(self) -> np.ndarray:
         """Turn of each element about z from its start, rad, shape (n,), without jumps; for a straight wire along z."""
         return np.unwrap(2.0 * np.arctan2(self.orientations[:, 2], self.orientations[:, 3]), period=2.0 * np.pi)
@@ -83,11 +78,6 @@ def reactions(run: Run) -> np.ndarray:
     """Force of the first sphere's support, its mean over each step, N, shape (steps, 3); the run must log contacts."""
     entries = [entry for _, entry in read_entries(run.folder)][1:]
     return np.array([[entry["contact"]["reaction"][axis] for axis in "xyz"] for entry in entries], dtype=float)
-
-
-def solver_method(run: Run) -> str:
-    """Return how the solver says that it found the end of a run, in its own words."""
-    return str(run.summary["solver"]["method"])
 
 
 def solver_report(run: Run, name: str) -> float | np.ndarray:

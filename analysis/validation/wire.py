@@ -25,12 +25,6 @@ class Wire:
     density: float = 6450.0
     shear_factor: float = 0.9
 
-    @classmethod
-    def of_stiffness(cls, length: float, radius: float, bending: float, torsion: float, density: float) -> Wire:
-        """Return the wire of this radius whose EI and GJ are given."""
-        second = 0.25 * math.pi * radius**4
-        return cls(length, radius, bending / second, 0.5 * torsion / second, density)
-
     @property
     def area(self) -> float:
         """A, m^2."""
@@ -73,4 +67,3 @@ class Wire:
 
 
 BASE = Wire()
-STURDY = Wire(radius=5e-3)  # its explicit step is ten times longer and its period ten times shorter

@@ -14,7 +14,6 @@ folders that are there (`replay`).
 
 from __future__ import annotations
 
-import math
 from collections.abc import Callable, Generator, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
@@ -24,7 +23,7 @@ from matplotlib.figure import Figure
 
 from guidewire.logs.logs import LogError
 from guidewire.logs.runs import Run, read_runs
-from guidewire.studies.keys import TABLE, Value
+from guidewire.studies.keys import TABLE
 from guidewire.studies.table import RUN_SECONDS, Case, Rounds
 
 
@@ -41,7 +40,6 @@ class Result:
     gate : largest error allowed; None where the number is only shown.
     cost : wall time in s, or in s per simulated second where there is a motion.
     error_in : what the error is a part of, or its unit.
-    reason : why there is no figure; empty where there is one.
     """
 
     what: str
@@ -53,22 +51,11 @@ class Result:
     unit: str = ""
     cost: float | None = None
     error_in: str = "relative"
-    reason: str = ""
 
     @property
     def passed(self) -> bool | None:
         """None where there is no gate. An error that is not a number does not pass."""
         return None if self.gate is None else bool(self.error <= self.gate)
-
-
-# Why pbd has no line of a scene whose bending counts.
-TUNED = ("its stiffness is no material's and would be tuned to this very result, as in the chart of error against wall "
-         "time")
-
-
-def not_run(what: str, solver: str, reason: str) -> Result:
-    """Return a line of the table that only says why it has no figure."""
-    return Result(what, solver, math.nan, math.nan, math.nan, None, reason=reason)
 
 
 @dataclass(frozen=True)
@@ -153,8 +140,3 @@ def read_cases(cases: Sequence[Case], folder: Path) -> dict[str, Run]:
     if missing is not None:
         raise LogError(f"{folder / TABLE}: has no run {missing}")
     return {case.key: made[case.key] for case in cases}
-
-
-def by_point(runs: Mapping[str, Run]) -> dict[tuple[Value, ...], Run]:
-    """Runs of a grid by variant, where it has variants, and the values of its axes in their order."""
-    return {(*([run.variant] if run.variant else []), *run.values.values()): run for run in runs.values()}

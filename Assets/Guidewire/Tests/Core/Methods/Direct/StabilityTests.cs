@@ -83,8 +83,8 @@ namespace Guidewire.Core.Tests
             double expected = 2.0 * Math.PI * Math.Sqrt(3.0) * ratio;
             // At the limit itself the bare steps find no balance.
             double critical = Bisect(0.97, 1.025, part => RingNegative(rod, supports, part * expected), 5);
-            Row.Holds("closed ring, EI/GJ = " + ratio + ", n = 96: critical twist, of Michell's and Zajac's", critical, 1.0,
-                0.03);
+            Row.Holds("closed ring, EI/GJ = " + ratio + ", n = 96: critical twist, of Michell's and Zajac's",
+                critical, 1.0, 0.03);
         }
 
         /// <summary>A strip, clamped, with a force across its narrow side's axis at the tip: Prandtl's 4.0126
