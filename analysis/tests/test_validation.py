@@ -9,10 +9,7 @@ from pathlib import Path
 
 import pytest
 
-from analysis.stability import limit_explicit
-from analysis.validation import scenes
 from analysis.validation.report import FAST, Report, as_csv, as_markdown
-from analysis.validation.wire import BASE, Wire
 from guidewire.logs.runs import read_runs
 from guidewire.studies.table import Case
 from guidewire.sweeps.check import Check, Finding, Result, replay
@@ -80,40 +77,6 @@ def test_check_whose_run_has_no_result_is_dropped_and_reported(tmp_path: Path, r
     done = make([Check("wrong", "Test", "wrong", _wrong)], tmp_path, runner_command)
     (failure,) = done.failures
     assert failure.exit_code == 2 and "numberRodElements" in failure.message
-
-
-ROUNDED = 1.0 + 1e-9
-_WIRES = {"thin": (BASE, 30), "thick": (Wire(radius=5e-3), 60), "coarse": (Wire(radius=5e-3), 4)}
-
-
-def _slack(wire: Wire, n: int) -> float:
-    """By how much a bound of omega^2 that adds shear against turning, shear against shifting and bending may be too
-    high: the truth is at least what shear does on its own, and what turning elements with resting nodes do."""
-    length = wire.length / n
-    turning = wire.shearing / (wire.density * wire.second_moment)
-    shifting = 4.0 * wire.shear_factor * wire.shear_modulus / (wire.density * length**2)
-    bending = 4.0 * wire.youngs_modulus / (wire.density * length**2)
-    return (turning + shifting + bending) / max(turning + shifting, turning + (1.0 - 1.0 / n) * bending)
-
-
-def test_stable_substep_that_a_run_states_is_that_of_the_linear_chain(
-    tmp_path: Path, runner_command: list[str]
-) -> None:
-    """It must not be above 2/omega_max, and is below by no more than its bound of omega allows."""
-    stated = {}
-
-    def plan():
-        keys = {name: {**scenes.wire_parameters(wire), "numberRodElements": n, "proximalEnd": "free"}
-                for name, (wire, n) in _WIRES.items()}
-        stated.update((yield from scenes.stable_substeps(keys)))
-        return Finding((), lambda figure: None, "")
-
-    make([Check("limits", "Test", "limits", plan)], tmp_path, runner_command)
-    replay(Check("limits", "Test", "limits", plan), tmp_path)
-    for name, (wire, n) in _WIRES.items():
-        limit = limit_explicit(wire, n)
-        assert limit / math.sqrt(_slack(wire, n)) <= stated[name] * ROUNDED, name
-        assert stated[name] <= limit * ROUNDED, name
 
 
 @pytest.mark.skipif(FULL_CAMPAIGNS not in os.environ, reason="it needs the benchmarks, which are built for it alone")

@@ -40,11 +40,6 @@ class BarChain:
         amplitudes = modes[node - 1] * (modes.T @ np.full(self.elements, -self.displacement))
         return self.displacement + np.cos(np.multiply.outer(time, np.sqrt(squared))) @ amplitudes
 
-    @property
-    def frequencies(self) -> np.ndarray:
-        """Angular frequencies, rad/s, shape (n,), ascending."""
-        return np.sqrt(self._modes()[0])
-
     def _modes(self) -> tuple[np.ndarray, np.ndarray]:
         diagonal = np.full(self.elements, 2.0)
         diagonal[-1] = 1.0

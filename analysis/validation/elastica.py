@@ -11,8 +11,6 @@ from dataclasses import dataclass
 
 import numpy as np
 from scipy.integrate import solve_bvp
-from scipy.optimize import brentq
-from scipy.special import ellipe, ellipeinc, ellipk, ellipkinc
 
 _TOLERANCE = 1e-10  # relative residual of the boundary value problem
 _STEP = 4.0  # largest growth of the load between two problems, each the guess of the next
@@ -93,23 +91,6 @@ def heavy_on_plane(load: float, drop: float, points: np.ndarray) -> tuple[PlaneS
         raise ArithmeticError(f"elastica on a plane: {solution.message}")
     angle, _, along, across = solution.sol(points)
     return PlaneShape(points, along, across, angle), float(solution.p[0])
-
-
-def tip_by_elliptic_integrals(load: float) -> tuple[float, float]:
-    """Tip over L, along and across, under k = F L^2/EI (Bisshopp and Drucker 1945), an independent way to `tip_loaded`.
-
-    With p^2 = (1 + sin t_tip)/2 and sin f = 1/(p sqrt 2): sqrt k = K(p) - F(f, p),
-    across = 1 - 2 (E(p) - E(f, p))/sqrt k and along = sqrt(2 sin t_tip/k).
-    """
-    root = np.sqrt(load)
-
-    def amplitude(p: float) -> float:
-        return float(np.arcsin(1.0 / (p * np.sqrt(2.0))))
-
-    low, high = np.sqrt(0.5) * (1.0 + 1e-15), 1.0 - 1e-15
-    p = brentq(lambda p: ellipk(p * p) - ellipkinc(amplitude(p), p * p) - root, low, high, xtol=1e-16)
-    across = 1.0 - 2.0 / root * (ellipe(p * p) - ellipeinc(amplitude(p), p * p))
-    return float(np.sqrt(2.0 * (2.0 * p * p - 1.0) / load)), float(across)
 
 
 def _solve(carried: Callable[[np.ndarray], np.ndarray], load: float, points: np.ndarray) -> PlaneShape:

@@ -47,12 +47,6 @@ class State:
         return np.unwrap(2.0 * np.arctan2(self.orientations[:, 2], self.orientations[:, 3]), period=2.0 * np.pi)
 
 
-def read_states(run: Run) -> list[State]:
-    """Return every logged state of a run; the run must log all spheres."""
-    metres = _metres(run)
-    return [_state(entry, metres) for _, entry in read_entries(run.folder)]
-
-
 def last_state(run: Run) -> State:
     """Return the state at the end of a run."""
     entry = None

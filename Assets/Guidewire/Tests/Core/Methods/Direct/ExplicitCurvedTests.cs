@@ -1,3 +1,4 @@
+using System;
 using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
@@ -30,6 +31,30 @@ namespace Guidewire.Core.Tests
                 Rods.Straight(rod), named);
             TestContext.WriteLine("{0:G4} of the limit", named / limit);
             Assert.That(named, Is.LessThan(0.5 * limit * 1.001));
+        }
+
+        /// <summary>Of a straight wire the named step is no longer than the limit, and shorter by what its bound of
+        /// omega^2 adds at most: shear against turning, against shifting, and bending, where the truth is no less than
+        /// what shear does alone.</summary>
+        [TestCase(30, 0.5e-3)]
+        [TestCase(60, 5e-3)]
+        [TestCase(4, 5e-3)]
+        public void NamedStepOfAStraightWire_IsThatOfTheLinearChain(int n, double radius)
+        {
+            MaterialRod rod = MaterialRod.Round(n, Rods.Length, radius, Rods.Young, Rods.Shear, Rods.Density);
+            var supports = new RodSupports { Proximal = ProximalEnd.Free, Mass = MassRule.Lumped };
+            var terms = new RodTerms(rod, supports);
+            double named = ExplicitStep.StableTimeStep(rod, supports);
+            double limit = new ExplicitLimit(terms, new NodalInertia(terms.Mass, supports)).AtRest(
+                Rods.Straight(rod), named);
+            TestContext.WriteLine("{0:G6} of the limit", named / limit);
+            double l = Rods.Length / n;
+            double turning = 4.0 * Rods.Shear / (Rods.Density * radius * radius);
+            double shifting = 4.0 * Rods.Shear / (Rods.Density * l * l);
+            double bending = 4.0 * Rods.Young / (Rods.Density * l * l);
+            double slack = (turning + shifting + bending)
+                / Math.Max(turning + shifting, turning + (1.0 - 1.0 / n) * bending);
+            Assert.That(named, Is.InRange(0.999 * limit / Math.Sqrt(slack), 1.001 * limit));
         }
 
         /// <summary>A pre-curved wire that sets out straight moves far: at 0.99 of the named step it does not gain
