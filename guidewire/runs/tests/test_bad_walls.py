@@ -84,7 +84,8 @@ def test_a_mesh_without_end_is_refused(live, tmp_path, name):
     assert_refused(live, tmp_path, mesh(name), *words)
 
 
-@pytest.mark.parametrize("key", [pytest.param("parameters", marks=ONE_READER), "startFile", "loadTables"])
+@pytest.mark.parametrize("key", [pytest.param("parameters", marks=ONE_READER), "startFile",
+                                 pytest.param("loadTables", marks=ONE_READER)])
 def test_another_file_without_end_is_refused(runner_command, live, tmp_path, key):
     scene = {"startFile": "/dev/zero"} if key == "startFile" else {
         "solver": "direct", "loadTables": {"gravity": "/dev/zero"}}

@@ -139,6 +139,7 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     assert seen[7] == "20 mm" and seen[8].startswith("second plane, LAO 90") and seen[10] == 30
 
 
+@pytest.mark.long("two hubs and the table of a steered run are in the tests of the server; the page in those around")
 def test_both_pictures_turn_together_with_the_head_above_both_hands_steer_and_the_run_is_repeated(
         browse, runner_command, tmp_path):
     """By keys, sticks and the dial; the picture follows the instrument in the hand."""

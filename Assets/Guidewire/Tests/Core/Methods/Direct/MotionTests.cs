@@ -137,7 +137,7 @@ namespace Guidewire.Core.Tests
 
         [Category("Row")]
         [TestCase(Solver.Explicit, 1)]
-        [TestCase(Solver.Xpbd, 70)]
+        [TestCase(Solver.Xpbd, 70, Category = "Long")]
         public void AxialMode_KeepsTheEnergyThatSmallStepsLeave(Solver solver, int substeps)
         {
             // Verlet's steps keep it; xpbd's are implicit Euler's, by which x + i v/omega is divided by 1 + i omega h.
