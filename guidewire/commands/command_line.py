@@ -294,6 +294,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
         arguments.packages = (*arguments.packages, *ANATOMY, *_for_slices(arguments.what[0]))
     if arguments.command == "anatomy" and arguments.file is not None:
         arguments.packages = (*arguments.packages, *_for_slices(arguments.file))
+    if arguments.command == "test" and arguments.all:    # elsewhere what needs more than most users have is skipped
+        arguments.packages = (*arguments.packages, *ANATOMY, *DICOM)
     return arguments
 
 

@@ -39,7 +39,8 @@ def by_gamepad():
     def press(button, until):
         return [now(f"buttons[{button}].pressed = true"), ["until", until], now(f"buttons[{button}].pressed = false")]
 
-    return {"open": press(12, f"{CARD}.open"), "do": press(0, f"!{CARD}.open"),
+    return {"open": press(12, f"{CARD}.open"),
+            "do": press(0, f"!{CARD}.open || {text('#card')}.includes('not exchanged')"),
             "next": press(4, f"{STATUS}.held === 1"),
             "pull": [now("axes[1] = 1")], "push": [now("axes[1] = -1")], "rest": [now("axes[1] = 0")],
             "report": [["click", "report"]]}
