@@ -15,7 +15,7 @@ cos(phi) (over w); where that is no push any more at the top it leaves the wall 
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from functools import partial
 from typing import Any
 
@@ -75,17 +75,7 @@ def clamped_onset(length: float) -> float:
 
 
 def helix_lifts_off() -> float:
-    """f at which a helix leaves the wall at the top."""
-    return _helix(lambda y, f, _: _push(y, f))
-
-
-def helix_has_the_straight_energy() -> float:
-    """f at which a helix, its pitch uneven as the weight makes it, has the energy of the straight wire."""
-    return _helix(lambda y, _, length: y[4] + length)
-
-
-def _helix(condition: Callable[[np.ndarray, float, float], float]) -> float:
-    """f at which a helix whose number of turns is free meets a condition at its top.
+    """f at which a helix whose number of turns is free leaves the wall at the top.
 
     Half a turn from the bottom to the top is solved for, with its length and f: y is phi, its three derivatives, and
     the energy so far. As turns are free, the energy per length is the least: with the Hamiltonian H, which does not
@@ -100,7 +90,8 @@ def _helix(condition: Callable[[np.ndarray, float, float], float]) -> float:
     def ends(a: np.ndarray, b: np.ndarray, unknown: np.ndarray) -> np.ndarray:
         length, f = unknown
         hamiltonian = b[1] * (2.0 * b[1] ** 3 - f * b[1] - b[3]) + b[2] ** 2 - _energy(b, f)
-        return np.array([a[0], a[2], a[4], b[0] - np.pi, b[2], b[4] + hamiltonian * length, condition(b, f, length)])
+        push = 4.0 * b[1] * b[3] + 3.0 * b[2] ** 2 - b[1] ** 4 + f * b[1] ** 2 + np.cos(b[0])
+        return np.array([a[0], a[2], a[4], b[0] - np.pi, b[2], b[4] + hamiltonian * length, push])
 
     x = np.linspace(0.0, 1.0, 41)
     slope = math.sqrt(0.5 * EVEN_HELIX)
@@ -113,10 +104,6 @@ def _helix(condition: Callable[[np.ndarray, float, float], float]) -> float:
 
 def _energy(y: np.ndarray, f: float) -> np.ndarray:
     return 0.5 * (y[2] ** 2 + y[1] ** 4) - 0.5 * f * y[1] ** 2 - np.cos(y[0])
-
-
-def _push(y: np.ndarray, f: float) -> float:
-    return 4.0 * y[1] * y[3] + 3.0 * y[2] ** 2 - y[1] ** 4 + f * y[1] ** 2 + np.cos(y[0])
 
 
 def _loading(fraction: float) -> Plan:
@@ -143,12 +130,6 @@ def _loading(fraction: float) -> Plan:
         line(f"snaking begins as the thrust grows, {clearance}; endless wire", up, 2.0, _ONSET_GATE),
         line("the same, wire between clamps", up, clamped, _CLAMPED_GATE),
     ]
-    caption = (
-        f"A wire of {2e3 * _WIRE.radius:g} mm lies in a straight tube with a clearance of {1e3 * _CLEARANCE:g} mm, its "
-        f"{_WIRE.length:g} m between clamps, one of which slides under a thrust that grows and falls in "
-        f"{_DURATION:g} s; its weight leans by a thousandth. It snakes from {number(up, 4)} sqrt(EI w/c) on (endless "
-        f"wire 2, between clamps {number(clamped, 4)})"
-    )
     if fraction == 1.0:
         down = _onset(load[~rising], across[~rising])
         comes = _first(load[rising], above[rising] > _WOUND)
@@ -158,13 +139,6 @@ def _loading(fraction: float) -> Plan:
             line("helix comes as the thrust grows; equal energies", comes, EVEN_HELIX, None),
             line("helix goes as the thrust falls; it leaves the wall at the top", goes, helix_lifts_off(), None),
         ]
-        caption += (
-            f", is a helix from {number(comes, 3)} on, and on the way back down to {number(goes, 3)}; it is straight "
-            f"again below {number(down, 4)}. A uniform helix has the energy of the straight wire at "
-            f"{number(EVEN_HELIX, 3)}, one whose pitch is uneven, as the weight makes it, at "
-            f"{number(helix_has_the_straight_energy(), 3)}; that one leaves the wall at the top at "
-            f"{number(helix_lifts_off(), 3)}")
-    caption += "."
 
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
@@ -175,7 +149,11 @@ def _loading(fraction: float) -> Plan:
             axes.axvline(f, color="0.3", linewidth=0.9, linestyle=":", label=name)
         pictures.label(axes, "thrust (sqrt(EI w/c))", "largest distance of a node (c)")
 
-    return Finding(tuple(results), draw, caption)
+    return Finding(tuple(results), draw, (
+        f"A wire of {2e3 * _WIRE.radius:g} mm in a straight tube with {1e3 * _CLEARANCE:g} mm of clearance, between "
+        f"clamps, one of which slides under a thrust that grows and falls. It snakes from {number(up, 4)} sqrt(EI w/c) "
+        f"on, {number(clamped, 4)} in theory; a uniform helix has the energy of the straight wire at "
+        f"{number(EVEN_HELIX, 3)}."))
 
 
 def _onset(load: np.ndarray, across: np.ndarray) -> float:
@@ -232,22 +210,16 @@ def _held(loads: Sequence[float]) -> Plan:
             f"prepared helix loses turns below, found between {max(losing):g} and {min(holding):g}; it leaves the wall "
             "at the top", "direct", limit, helix_lifts_off(), abs(limit / helix_lifts_off() - 1.0), None,
             "sqrt(EI w/c)"))
-    caption = (
-        "A helix prepared in the same tube, under a steady thrust: its turns. At "
-        + ", ".join(f"{f:g}" for f in holding) + " sqrt(EI w/c) it is stable, at "
-        + ", ".join(f"{f:g}" for f in losing) + " it loses turns. A uniform helix has the energy of the straight "
-          "wire at "
-        f"{number(EVEN_HELIX, 3)}; below, it is no longer the state of least energy, but it leaves the wall at the top "
-        f"only at {number(helix_lifts_off(), 3)}, by the boundary value problem."
-    )
-
     def draw(figure: Any) -> None:
         axes = figure.add_subplot()
         for f, (time, turns) in curves.items():
             axes.plot(time, turns, "-" if f in holding else "--", label=f"{f:g}")
         pictures.label(axes, "time (s)", "turns about the tube's axis")
 
-    return Finding(tuple(results), draw, caption)
+    return Finding(tuple(results), draw, (
+        "A helix prepared in the same tube, under a steady thrust in sqrt(EI w/c): its turns (broken: it loses some). "
+        f"It has the energy of the straight wire at {number(EVEN_HELIX, 3)}, and leaves the wall at the top at "
+        f"{number(helix_lifts_off(), 3)}."))
 
 
 _FAR_BELOW = 0.91  # of the even helix's load: there it unwinds
