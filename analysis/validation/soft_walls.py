@@ -3,8 +3,8 @@
 A contact of stiffness k = K l and limit U has the force f(u) = k u + 0.3 k U phi(1 - u/U), phi(x) = (x - 1) (2 ln x +
 (x - 1)/x), whose second part is the barrier before the limit. Where U is large only k u is left: Winkler's foundation,
 which pushes and does not pull. On it a weightless beam under a point load P touches over the length pi lambda with
-lambda = (4 EI/K)^(1/4), and its deflection w under the load follows from w'''' = -4 w/lambda^4, w' = 0 and w''' =
-P/(2 EI) at the load, w = w'' = w''' = 0 where it lifts off.
+lambda = (4 EI/K)^(1/4). As long a beam with free ends has the deflection coth(pi/2)/8 P lambda^3/EI under the load, and
+none at its ends (Hetenyi 1946), where the rest lifts off.
 
 A straight rod under a thrust F in a channel that it just fills leans on one wall or the other: EI w'''' + F w'' + K w =
 0. An endless one buckles at F = 2 sqrt(EI K), and at 2 sqrt(2 EI K) where both walls press on it from the start.
@@ -17,11 +17,10 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 import numpy as np
-from scipy.integrate import simpson, solve_bvp
-from scipy.linalg import eigh
+from scipy.integrate import simpson
 from scipy.optimize import brentq
 
-from analysis.validation import pictures, planes, scenes, stability, tubes
+from analysis.validation import pictures, planes, scenes, stability, tube_buckling, tubes
 from analysis.validation.states import last_state, wall_time_per_second
 from analysis.validation.tubes import GRAVITY, SECTION
 from analysis.validation.wire import Wire
@@ -36,6 +35,7 @@ _THIN = Wire(radius=0.2e-3)
 _CLEARANCE = 1.5e-3  # m, of the column in a tube
 _WIDE = 10.0  # m, a limit so far away that the wall is a plain spring
 _TIP = 5e-3  # m
+_DEEP = 0.125 / math.tanh(0.5 * math.pi)  # P lambda^3/EI, the deflection under the load
 
 
 def force(displacement: float, stiffness: float, limit: float) -> float:
@@ -49,22 +49,6 @@ def displacement(load: float, stiffness: float, limit: float, in_series: float =
     most = min(load / (stiffness + in_series), limit * (1.0 - 1e-12))
     return float(brentq(lambda u: force(u, stiffness, limit) + in_series * u - load, 0.0, most, xtol=1e-18,
                         rtol=1e-14))
-
-
-def winkler() -> tuple[float, float]:
-    """Deflection under the load over P lambda^3/EI, and length of contact over lambda, of a beam that may lift off."""
-    def rates(t: np.ndarray, y: np.ndarray, p: np.ndarray) -> np.ndarray:
-        return p[0] * np.vstack([y[1], y[2], y[3], -4.0 * y[0]])
-
-    def ends(a: np.ndarray, b: np.ndarray, p: np.ndarray) -> np.ndarray:
-        return np.array([a[1], a[3] - 0.5, b[0], b[2], b[3]])
-
-    t = np.linspace(0.0, 1.0, 60)
-    guess = np.vstack([0.1 * (1.0 - t), -0.1 + 0 * t, 0.2 * (t - 1.0), 0.5 * (1.0 - t)])
-    found = solve_bvp(rates, ends, t, guess, p=[1.5], tol=1e-10)
-    if not found.success:
-        raise ArithmeticError(f"beam on a foundation: {found.message}")
-    return abs(float(found.y[0, 0])), 2.0 * float(found.p[0])
 
 
 def chain_deflection(element: float) -> float:
@@ -84,26 +68,6 @@ def chain_deflection(element: float) -> float:
         if np.array_equal(touches, w > 0.0):
             return 0.25 * float(w[half])
         touches = w > 0.0
-
-
-def channel_thrust(foundation: float, points: int = 400) -> float:
-    """Least thrust over EI/L^2 under which a rod between a clamp and a sliding clamp leaves its axis on a foundation
-    of K L^4/EI, by cubic Hermite elements."""
-    h = 1.0 / points
-    bend = np.array([[12, 6 * h, -12, 6 * h], [6 * h, 4 * h * h, -6 * h, 2 * h * h], [-12, -6 * h, 12, -6 * h],
-                     [6 * h, 2 * h * h, -6 * h, 4 * h * h]]) / h**3
-    slope = np.array([[36, 3 * h, -36, 3 * h], [3 * h, 4 * h * h, -3 * h, -h * h], [-36, -3 * h, 36, -3 * h],
-                      [3 * h, -h * h, -3 * h, 4 * h * h]]) / (30 * h)
-    rest = h / 420 * np.array([[156, 22 * h, 54, -13 * h], [22 * h, 4 * h * h, 13 * h, -3 * h * h],
-                               [54, 13 * h, 156, -22 * h], [-13 * h, -3 * h * h, -22 * h, 4 * h * h]])
-    size = 2 * (points + 1)
-    stiff, geometric = np.zeros((size, size)), np.zeros((size, size))
-    for j in range(points):
-        k = slice(2 * j, 2 * j + 4)
-        stiff[k, k] += bend + foundation * rest
-        geometric[k, k] += slope
-    free = slice(2, size - 2)
-    return 1.0 / float(eigh(geometric[free, free], stiff[free, free], eigvals_only=True)[-1])
 
 
 def _on_plane(stiffness: float, height: float, limit: float = 0.0, tip: float = _TIP) -> dict[str, Any]:
@@ -195,7 +159,6 @@ def _beam(elements: Sequence[float]) -> Plan:
         pointLoads=[{"at": 0.5 * _WIRE.length / scenes.UNIT, "force": [0.0, -load, 0.0]}]))
         for one, n in counts.items()}
     runs = yield list(cases.values())
-    depth, touched = winkler()
     results, shapes = [], {}
     for one, case in cases.items():
         run = runs[case.key]
@@ -210,8 +173,8 @@ def _beam(elements: Sequence[float]) -> Plan:
         results.append(Result(f"{what}: deflection against a chain of such elements", "direct", deflection, chain,
                               abs(deflection / chain - 1.0), 2e-3, "P lambda³/EI", wall_time_per_second(run)))
         for name, value, exact, unit in (
-                ("deflection", deflection, depth, "P lambda³/EI"),
-                ("length of contact", _length_above(*shapes[one]), touched, "lambda")):
+                ("deflection", deflection, _DEEP, "P lambda³/EI"),
+                ("length of contact", _length_above(*shapes[one]), math.pi, "lambda")):
             results.append(Result(f"{what}: {name}", "direct", value, exact, abs(value / exact - 1.0), gate, unit,
                                   wall_time_per_second(run)))
 
@@ -220,7 +183,7 @@ def _beam(elements: Sequence[float]) -> Plan:
         for one, (place, sunk) in shapes.items():
             axes.plot(place, sunk, ".-", label=f"elements of {one:g} lambda")
         axes.set_xlim(-4.0, 4.0)
-        axes.set_ylim(depth * 1.1, -0.3 * depth)
+        axes.set_ylim(1.1 * _DEEP, -0.3 * _DEEP)
         pictures.label(axes, "place along the wire (lambda)", "deflection (P lambda³/EI)")
 
     fine = [r.error for r in results if r.gate == 1e-2]
@@ -245,7 +208,9 @@ def _channel(preloads: Sequence[float]) -> Plan:
     lines, found, mode = [], {}, _channel_mode(stiffness, n)
     for preload in preloads:
         both = 2.0 if preload else 1.0
-        expected = channel_thrust(both * stiffness * _WIRE.length**4 / _WIRE.bending) * _WIRE.bending / _WIRE.length**2
+        unit = math.sqrt(both * _WIRE.bending * stiffness)  # N
+        endless = tube_buckling.clamped_onset(_WIRE.length * math.sqrt(unit / _WIRE.bending))
+        expected = endless * unit
         height = _WIRE.radius - preload
         wall = {**_on_plane(stiffness, height, _WIDE, 1e-9), "normal": [0.0, -1.0, 0.0]}
         start = scenes.plane_start(_WIRE.length * np.linspace(0.0, 1.0, n + 1), push * mode[both])
@@ -260,7 +225,6 @@ def _channel(preloads: Sequence[float]) -> Plan:
             lambda run: float(np.abs(last_state(run).positions[:, 1]).max()) / _WIRE.length,
             push / _WIRE.length, (0.96, 0.985, 1.015, 1.04))
         found["direct", "both walls press" if preload else "the walls just touch"] = one
-        endless = expected / math.sqrt(both * _WIRE.bending * stiffness)
         lines.append(stability.pushed_line(
             f"rod in a soft channel, {'both walls press' if preload else 'the walls just touch'}: thrust at which it "
             f"buckles, {number(endless, 4)} sqrt(EI K{' 2' if preload else ''}) between clamps", "direct", expected,
