@@ -230,9 +230,10 @@ def test_rod_twisted_in_a_tube_first_touches_at_greenhills_couple_and_then_split
     assert twisted_tube.splits() == pytest.approx(11.472, abs=1e-3)
 
 
-def test_two_contacts_of_the_twisted_rod_become_three() -> None:
-    # J. Li, thesis, 2010: 13.022. Where the one contact has just split both have its force.
+def test_two_contacts_of_the_twisted_rod_become_three_points_and_then_a_line_between_points() -> None:
+    # J. Li, thesis, 2010: 13.022 and 13.098. Where the one contact has just split both have its force.
     assert twisted_tube.touches_again() == pytest.approx(13.022, abs=1e-3)
+    assert twisted_tube.lies_on() == pytest.approx(13.098, abs=1e-3)
     just = twisted_tube.pair(twisted_tube.splits() + 0.03, (0.006, 0.04))
     assert just.force == pytest.approx(twisted_tube.middle(twisted_tube.splits() + 0.03)[2], rel=5e-3)
 

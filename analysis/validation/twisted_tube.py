@@ -7,7 +7,7 @@ go on and u''' jumps along u. By symmetry about the middle u(-s) is the conjugat
 u'' real. As M grows the deflection beside the point reaches the wall too, where (|u|^2)'' = 2 (|u'|^2 + u'') becomes
 0: the contact splits. Two points at +-s1 follow, where |u| = 1 and (|u|^2)' = 0, with a force along u each; between
 them the rod is off the wall by a thousandth of the clearance. It touches again in its middle, a third point, at 13.022,
-the value of J. Li, thesis, 2010, too.
+and along a line there from 13.098 on: the values of J. Li, thesis, 2010, too.
 """
 
 from __future__ import annotations
@@ -67,14 +67,18 @@ def _terms(moment: float, s: float, order: int) -> np.ndarray:
 
 @dataclass(frozen=True)
 class Pair:
-    """Two points of contact: |u| in the middle between them, and the wall's force on both, EI/L^3."""
+    """Two points of contact at +-s1: where they are and at what angle to the middle; |u| and (|u|^2)''/2 in the middle,
+    and the wall's force on both, EI/L^3."""
 
+    place: float
+    angle: float
     middle: float
+    bulge: float
     force: float
 
 
-def pair(moment: float, guess: tuple[float, float]) -> Pair:
-    """Return the rod that touches at two points.
+def pair(moment: float, guess: tuple[float, float], touches: bool = False) -> Pair:
+    """Return the rod that touches at two points, with `touches` in its middle too.
 
     Raises ArithmeticError where there is none near the guess of place and angle.
     """
@@ -94,8 +98,9 @@ def pair(moment: float, guess: tuple[float, float]) -> Pair:
             ask(none, _terms(moment, place, 0), part, wanted)
             for order in (1, 2):
                 ask(_terms(moment, place, order), -_terms(moment, place, order), part)
-        for order, part in ((0, "imag"), (1, "real"), (2, "imag"), (3, "real")):
+        for order, part in ((0, "imag"), (1, "real"), (2, "imag")):
             ask(_terms(moment, 0.0, order), none, part)
+        ask(_terms(moment, 0.0, 0 if touches else 3), none, "real", 1.0 if touches else 0.0)
         found = np.linalg.solve(np.array(rows), np.array(right))
         found = found[:8] + 1j * found[8:]
         return found[:4], found[4:]
@@ -115,7 +120,9 @@ def pair(moment: float, guess: tuple[float, float]) -> Pair:
         raise ArithmeticError(f"two contacts at M = {moment}: {solution.message}")
     place, angle = (float(x) for x in solution.x)
     inner, _ = halves(place, angle)
-    return Pair(abs(_terms(moment, 0.0, 0) @ inner), 2.0 * abs(push(place, angle)[1].real))
+    u, u1, u2 = (complex(_terms(moment, 0.0, order) @ inner) for order in range(3))
+    return Pair(place, angle, abs(u), abs(u1) ** 2 + (u.conjugate() * u2).real,
+                2.0 * abs(push(place, angle)[1].real))
 
 
 _PAIR = (0.0737, 0.589)  # of two contacts at M = 12.3
@@ -125,6 +132,11 @@ _TRIPLE = (0.0993, 0.873)  # at 13.02
 def touches_again() -> float:
     """M L/EI from which the rod touches at three points."""
     return float(brentq(lambda moment: pair(moment, _TRIPLE).middle - 1.0, 12.9, 13.1, xtol=1e-9))
+
+
+def lies_on() -> float:
+    """M L/EI from which the middle one of the three contacts is a line."""
+    return float(brentq(lambda moment: pair(moment, _TRIPLE, touches=True).bulge, 13.03, 13.2, xtol=1e-9))
 
 
 def splits() -> float:
