@@ -138,7 +138,7 @@ def test_a_resonance_at_700_is_reported_where_there_is_one(tables: dict[str, Com
     assert "As the thesis says, more solver steps come closer" in caption
     peaked = changed(smooth, mean_distance=3.0 - m / 1000.0 + np.exp(-(((m - 700.0) / 60.0) ** 2)))
     caption = perturbation_caption("4.11", peaked)
-    assert "local maxima at m = 700, 1 of them there" in caption
+    assert "local maxima stand at m = 700." in caption
     swinging = changed(smooth, swing=1.0 + np.exp(-(((m - 700.0) / 60.0) ** 2)))
     assert "is largest near m = 700" in perturbation_caption("4.11", swinging)
 
