@@ -53,9 +53,9 @@ def _rotation(reference: WireRun) -> str:
 def perturbation_caption(figure: str, table: ComparisonTable) -> str:
     """Caption of one of Figures 4.11 to 4.18."""
     scene, symbol, numbers = _scene(figure, table), _SYMBOLS[table.key], _numbers(table)
-    against = "".join(
-        f" {number(distances(other.motion, table.reference.motion).mean, 2)} units lie between it and "
-        f"{describe(other)} (grey in (c)): it is no limit." for other in table.others)
+    against = " and ".join(f"{number(distances(other.motion, table.reference.motion).mean, 2)} units from "
+                           f"{describe(other)}" for other in table.others)
+    against = f" It is {against} (grey in (c)), and so no limit." if against else ""
     start = (
         f"Figure {figure}. {scene}, {symbol} = {{first}} to {{last}}{_UNITS[table.key]} ({{count}} runs, else Table "
         f"4.1). The reference run has {describe(table.reference)}.{against} (a, b) At the end the wires are {{ends}} "
