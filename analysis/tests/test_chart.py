@@ -14,10 +14,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.chart import coaxial, figure, material, page, tables, walls
+from analysis.chart import coaxial, concentric, figure, material, page, tables, walls
 from analysis.chart.points import LOST, METHODS, Charted, Point, Problem, Setting, _point, pareto
 from analysis.chart.published import PUBLISHED
-from analysis.validation import concentric, swing
+from analysis.validation import swing
 from analysis.validation.wire import BASE
 from guidewire.figures.style import CAPTION_ID, opening
 from guidewire.logs.runs import Run

@@ -27,7 +27,7 @@ def charted(problem: Problem, count: int, folder: Path, command: list[str]) -> C
     return replay(check, folder)
 
 
-# Of the three tubes that snap one problem; the angles of the others are tests of Core (TurnedTubeTests).
+# Of the three tubes that snap one problem; the angles of the others are tests of Core (CoaxialStaticsTests).
 SNAPS = coaxial.PROBLEMS[:3] if FULL_CAMPAIGNS in os.environ else coaxial.PROBLEMS[:1]
 
 

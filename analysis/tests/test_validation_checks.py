@@ -181,4 +181,4 @@ def test_every_check_has_its_own_name() -> None:
     assert len({check.name for check in ROWS}) == len(ROWS)
     assert {check.section for check in ROWS} == {
         "Held by tests of Core", "Statics", "Stability limits", "Dynamics", "In the vessel", "Independence",
-        "A published suite", "A wire in a catheter"}
+        "A published suite"}

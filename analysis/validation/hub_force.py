@@ -67,15 +67,11 @@ def _plan() -> Plan:
         right.legend(fontsize="x-small")
 
     return Finding(tuple(results), draw, (
-        f"A wire of {2e3 * _WIRE.radius:g} mm is pushed at {1e3 * _SPEED:g} mm/s through a bend of 90° with a radius "
-        f"of {_BEND:g} mm, given by {_PIECES} pieces, in a lumen of {_LUMEN:g} mm radius. On the straight pieces the "
-        "normal force on the tip changes at every corner, and the peak is one of these ripples: "
-        f"{span(spread['corners'], 3)} N over n = {_ELEMENTS[0]} to {finest[0]} and dt = {1e3 * _STEPS[-1]:g} to "
-        f"{1e3 * _STEPS[0]:g} ms. With rounded corners (smooth) it converges: {span(spread['smooth'], 3)} N, with "
-        f"friction 0.2 {span(spread['smooth, friction 0.2'], 4)} N. Without friction the work of the hub is the "
-        "bending energy: in a bend of 180° the force, averaged from 60° to 120° of the tip's path, is EI/(2 R²) to "
-        f"{percent(max(r.error for r in plateaus))}, R that of the centreline: it is above it, as the wire lies at the "
-        "inner wall."), width=10.0)
+        "A wire is pushed through a bend of 90°. On straight pieces the peak of the force is a ripple of a corner, "
+        f"{span(spread['corners'], 3)} N over n and dt. With rounded corners (smooth) it converges: "
+        f"{span(spread['smooth'], 3)} N, with friction 0.2 {span(spread['smooth, friction 0.2'], 4)} N. In a bend of "
+        f"180° the mean force is EI/(2 R²) to {percent(max(r.error for r in plateaus))}, R that of the centreline."),
+        width=10.0)
 
 
 def _peaks(kinds: Mapping[str, Any], points: list, finest: tuple, cases: Mapping, runs: Mapping,

@@ -12,8 +12,8 @@ from pathlib import Path
 from matplotlib.figure import Figure
 
 from analysis.validation import (
-    coaxial, coil, drum, dynamics, friction, heavy_rods, hub_force, independence, planes, soft_walls, suite, tested,
-    tube_buckling, twisted_tube, vessel, whip,
+    coil, drum, dynamics, heavy_rods, hub_force, independence, planes, soft_walls, suite, tested, tube_buckling,
+    twisted_tube, vessel, whip,
 )
 from analysis.validation.pictures import SOLVER_MARKERS
 from guidewire.figures.style import captioned, new_figure, styled
@@ -22,11 +22,11 @@ from guidewire.logs.logs import LogError
 from guidewire.sweeps.check import Check, Finding, Result, replay
 
 ROWS: tuple[Check, ...] = (
-    *tested.CHECKS, *heavy_rods.CHECKS, *dynamics.CHECKS, *vessel.CHECKS, *friction.CHECKS, *hub_force.CHECKS,
-    *coil.CHECKS, *drum.CHECKS, *planes.CHECKS, *soft_walls.CHECKS, *twisted_tube.CHECKS, *whip.CHECKS,
-    *tube_buckling.CHECKS, *coaxial.CHECKS, *independence.CHECKS, *suite.CHECKS,
+    *tested.CHECKS, *heavy_rods.CHECKS, *dynamics.CHECKS, *vessel.CHECKS, *hub_force.CHECKS, *coil.CHECKS,
+    *drum.CHECKS, *planes.CHECKS, *soft_walls.CHECKS, *twisted_tube.CHECKS, *whip.CHECKS, *tube_buckling.CHECKS,
+    *independence.CHECKS, *suite.CHECKS,
 )
-_QUICK = ("tolerance", "twisted-tube", *(check.name for check in coaxial.CHECKS))
+_QUICK = ("tolerance", "twisted-tube")
 FAST = (  # what tests run
     *heavy_rods.FAST, *vessel.FAST, *whip.FAST, *tube_buckling.FAST,
     *(check for check in ROWS if check.name in _QUICK),

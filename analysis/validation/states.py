@@ -36,12 +36,6 @@ class State:
         return self.positions[:, [2, 1]] * np.array([1.0, -1.0])
 
     @property
-    def directors(self) -> np.ndarray:
-        """Third directors d3 of the elements, shape (n, 3)."""
-        x, y, z, w = self.orientations.T
-        return np.stack([2.0 * (x * z + w * y), 2.0 * (y * z - w * x), w * w - x * x - y * y + z * z], axis=1)
-
-    @property
     def twists(self) -> np.ndarray:
         """Turn of each element about z from its start, rad, shape (n,), without jumps; for a straight wire along z."""
         return np.unwrap(2.0 * np.arctan2(self.orientations[:, 2], self.orientations[:, 3]), period=2.0 * np.pi)

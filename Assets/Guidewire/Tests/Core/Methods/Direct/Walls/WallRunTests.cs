@@ -108,6 +108,7 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        [Category("Row")]
         public void Wire_LyingInATube_IsCarriedWhole()
         {
             SimulationParameters parameters = WallScenes.Wire(30, 0.4e-3);
@@ -121,8 +122,8 @@ namespace Guidewire.Core.Tests
             parameters.Method.MaxSimulationSteps = 400;
             Simulation run = Wires.Finish(parameters);
             double weight = 6450.0 * Math.PI * 0.16e-6 * 0.3 * 9.81;
-            Assert.That(run.Contacts!.Total.Y, Is.EqualTo(weight).Within(1e-6 * weight));
-            Assert.That(Math.Abs(run.Contacts.Total.X), Is.LessThan(1e-6 * weight));
+            Row.Holds("wire that lies in a level tube: force of the tube, off the weight, of it",
+                (run.Contacts!.Total - weight * Vector3d.UnitY).Length / weight, 0.0, 1e-6);
             Assert.That(Vector3d.Distance(run.Contacts.WallForces[0], run.Contacts.Total), Is.LessThan(1e-9 * weight));
             Assert.That(run.Contacts.LargestTotal, Is.GreaterThanOrEqualTo(run.Contacts.Total.Length));
             Assert.That(run.Contacts.LargestForce, Is.GreaterThan(weight / 31.0));

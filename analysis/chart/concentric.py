@@ -43,11 +43,6 @@ def snap_angle(c: float, lead: float = 0.0) -> float:
     return max(hub(tip) for tip in tips)
 
 
-def threshold(lead: float) -> float:
-    """sqrt(c) L at which the twist of pi ceases to be stable: sqrt(c) L_t tan(sqrt(c) L) = 1."""
-    return 0.5 * math.pi if lead == 0.0 else brentq(lambda x: x * lead * math.tan(x) - 1.0, 1e-6, 0.5 * math.pi - 1e-9)
-
-
 def turned_tip(ratio: float, nu: float, curvature: float, turn: float) -> np.ndarray:
     """Tip (over L) of two tubes of one curvature, the inner one turned at its hub, on the branch from 0.
 
