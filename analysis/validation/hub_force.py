@@ -67,10 +67,10 @@ def _plan() -> Plan:
         right.legend(fontsize="x-small")
 
     return Finding(tuple(results), draw, (
-        "A wire is pushed through a bend of 90°. On straight pieces the peak of the force is a ripple of a corner, "
+        "A wire is pushed through a bend of 90°. Between straight pieces the peak force is "
         f"{span(spread['corners'], 3)} N over n and dt. With rounded corners (smooth) it converges: "
         f"{span(spread['smooth'], 3)} N, with friction 0.2 {span(spread['smooth, friction 0.2'], 4)} N. In a bend of "
-        f"180° the mean force is EI/(2 R²) to {percent(max(r.error for r in plateaus))}, R that of the centreline."),
+        f"180° the mean is EI/(2 R²) to {percent(max(r.error for r in plateaus))}, R that of the centreline."),
         width=10.0)
 
 

@@ -61,6 +61,9 @@ namespace Guidewire.Core.Tests
         /// <summary>Newton iterations of the last search.</summary>
         public int Iterations { get; private set; }
 
+        /// <summary>Of the energy's second derivative where the last search ended.</summary>
+        public double SmallestEigenvalue { get; private set; }
+
         /// <summary>Its bending.</summary>
         public CoaxialBendTwist Bending => (CoaxialBendTwist)Terms.Bending;
 
@@ -124,6 +127,7 @@ namespace Guidewire.Core.Tests
             Terms.Loads.Set(Vector3d.Zero, TipForce);
             EquilibriumResult result = new RodStatics(Terms).Solve(Shape, 1e-11, 300);
             Iterations = result.Iterations;
+            SmallestEigenvalue = result.SmallestEigenvalue;
             if (!result.Converged)
             {
                 throw new InvalidOperationException(result.Reason);

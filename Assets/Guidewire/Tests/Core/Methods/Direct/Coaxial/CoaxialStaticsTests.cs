@@ -79,6 +79,26 @@ namespace Guidewire.Core.Tests
             Row.Holds(Unstable + lead + " L, n = 10: of the closed form", found / exact, 1.0, 2.5e-3);
         }
 
+        [Test]
+        [Category("Row")]
+        public void SmallestEigenvalue_GoesToZero_WhereStabilityEnds()
+        {
+            // A line in c through two shapes at the twist of pi below pi/2.
+            double[] c = { 0.97, 0.985 };
+            double[] value = Array.ConvertAll(c, of =>
+            {
+                double root = 0.5 * Math.PI * Math.Sqrt(of);
+                CoaxialPair pair = Pair(10, 0.6, 0.3, root / Math.Sqrt(Coupling(0.6, 0.3, 1.0)));
+                Assert.That(pair.IsStable(Math.PI));
+                pair.Solve(Math.PI);
+                return pair.SmallestEigenvalue;
+            });
+            Assert.That(value[1], Is.GreaterThan(0.0));
+            double zero = c[1] + value[1] * (c[1] - c[0]) / (value[0] - value[1]);
+            Row.Holds("two tubes at a twist of pi: sqrt(c) L at which the smallest eigenvalue is zero, n = 10: of pi/2",
+                Math.Sqrt(zero), 1.0, 2.5e-3);
+        }
+
         // Of the relative twist, that of the inner one where both have the same torque: (1/C_i)/(1/C_o + 1/C_i).
         private static double InnerPart(double b)
         {
