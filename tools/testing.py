@@ -81,7 +81,8 @@ def _python(workers: int, seconds: float, not_built: threading.Event) -> Count:
     if not (ROOT / "__pycache__").is_dir():
         subprocess.run([*PYTEST, "--collect-only", *PYTHON], cwd=ROOT, stdout=subprocess.DEVNULL,
                        stderr=subprocess.DEVNULL, check=False)
-    return run("pytest", [*PYTEST, "-n", str(workers), "--dist", "loadfile", *PYTHON], seconds, not_built)
+    seed = [f"--hypothesis-seed={os.environ[DAY]}"] if FULL_CAMPAIGNS in os.environ else []
+    return run("pytest", [*PYTEST, "-n", str(workers), "--dist", "loadfile", *seed, *PYTHON], seconds, not_built)
 
 
 def _dotnet(full: bool, seconds: float, not_built: threading.Event) -> Count:

@@ -1,6 +1,6 @@
 """Random parameter files of every method: each ends in one clear line, or as a run whose outcome is true.
 
-By default a seeded fraction of the campaign; GUIDEWIRE_ALL=1 makes it long and unseeded.
+By default a seeded fraction of the campaign; GUIDEWIRE_ALL=1 makes it long, by the seed that pytest is given.
 """
 
 import json

@@ -1,6 +1,6 @@
 """Random parameter files that hold something wrong: each ends in one line that names it, and nothing is written.
 
-By default a seeded fraction of the campaign; GUIDEWIRE_ALL=1 makes it long and unseeded.
+By default a seeded fraction of the campaign; GUIDEWIRE_ALL=1 makes it long, by the seed that pytest is given.
 """
 
 import json
