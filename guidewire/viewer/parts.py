@@ -6,10 +6,16 @@ import json
 import os
 import shutil
 import subprocess
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from guidewire.prepare import INSTALLED, ROOT, PreparationError
+
+try:
+    import fcntl
+except ImportError:
+    fcntl = None
 
 PAGE = Path(__file__).resolve().parent / "page"
 THREE = PAGE / "three"  # in the package
@@ -43,29 +49,51 @@ def require(kind: str, tell: Callable[[str], None]) -> Path:
     """
     wanted: dict[str, str] = json.loads((PAGE / "package.json").read_text(encoding="utf-8"))[kind]
     modules = CACHE / _MODULES
-    missing = [f"{name}@{version}" for name, version in wanted.items() if _version(modules / name) != version]
-    if not missing:
-        return modules
-    npm = shutil.which("npm")
-    by_hand = f"npm install --prefix {os.path.relpath(CACHE)} {' '.join(missing)}"
-    if npm is None:
+    missing = _missing(modules, wanted)
+    if missing and shutil.which("npm") is None:
         raise PreparationError(f"the page needs {', '.join(missing)} from npm, and there is no npm: install Node.js "
-                               f"(as root 'apt-get install npm') and try again, or elsewhere '{by_hand}' and copy "
-                               f"{os.path.relpath(CACHE)} here")
-    tell(f"installing {', '.join(missing)} into {os.path.relpath(CACHE)} with npm")
+                               "(as root 'apt-get install npm') and try again, or elsewhere "
+                               f"'{_by_hand(missing)}' and copy {os.path.relpath(CACHE)} here")
+    with _alone():    # what is there may be half there still
+        _install(modules, wanted, tell)
+    return modules
+
+
+def _by_hand(missing: list[str]) -> str:
+    return f"npm install --prefix {os.path.relpath(CACHE)} {' '.join(missing)}"
+
+
+@contextmanager
+def _alone() -> Iterator[None]:
+    """Hold the right to install: npm takes away what another npm is just writing."""
     CACHE.mkdir(exist_ok=True)
-    command = [npm, "install", "--prefix", str(CACHE), "--no-save", "--no-package-lock", "--no-audit", "--no-fund",
-               "--ignore-scripts", *(f"{name}@{version}" for name, version in _all(modules, wanted).items())]
+    with (CACHE / "lock").open("w") as file:
+        if fcntl is not None:
+            fcntl.flock(file, fcntl.LOCK_EX)
+        yield
+
+
+def _missing(modules: Path, wanted: dict[str, str]) -> list[str]:
+    return [f"{name}@{version}" for name, version in wanted.items() if _version(modules / name) != version]
+
+
+def _install(modules: Path, wanted: dict[str, str], tell: Callable[[str], None]) -> None:
+    """Install what is missing still."""
+    missing = _missing(modules, wanted)
+    if not missing:    # installed by whom we waited for
+        return
+    tell(f"installing {', '.join(missing)} into {os.path.relpath(CACHE)} with npm")
+    command = [shutil.which("npm"), "install", "--prefix", str(CACHE), "--no-save", "--no-package-lock", "--no-audit",
+               "--no-fund", "--ignore-scripts", *(f"{name}@{version}" for name, version in _all(modules, wanted).items())]
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=_SECONDS,
                               check=False)
         why = "" if done.returncode == 0 else (done.stderr.strip().splitlines() or ["npm failed"])[0]
     except (OSError, subprocess.TimeoutExpired) as error:
         why = str(error)
-    if why or any(_version(modules / name) != version for name, version in wanted.items()):
+    if why or _missing(modules, wanted):
         raise PreparationError(f"npm could not install {', '.join(missing)} ({why}): with a network try again, or "
-                               f"'{by_hand}'")
-    return modules
+                               f"'{_by_hand(missing)}'")
 
 
 def _all(modules: Path, wanted: dict[str, str]) -> dict[str, str]:
