@@ -84,7 +84,8 @@ def _install(modules: Path, wanted: dict[str, str], tell: Callable[[str], None])
         return
     tell(f"installing {', '.join(missing)} into {os.path.relpath(CACHE)} with npm")
     command = [shutil.which("npm"), "install", "--prefix", str(CACHE), "--no-save", "--no-package-lock",
-               "--no-audit", "--no-fund", "--ignore-scripts", *(f"{name}@{version}" for name, version in _all(modules, wanted).items())]
+               "--no-audit", "--no-fund", "--ignore-scripts",
+               *(f"{name}@{version}" for name, version in _all(modules, wanted).items())]
     try:
         done = subprocess.run(command, stdin=subprocess.DEVNULL, capture_output=True, text=True, timeout=_SECONDS,
                               check=False)
