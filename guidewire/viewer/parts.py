@@ -54,8 +54,9 @@ def require(kind: str, tell: Callable[[str], None]) -> Path:
         raise PreparationError(f"the page needs {', '.join(missing)} from npm, and there is no npm: install Node.js "
                                "(as root 'apt-get install npm') and try again, or elsewhere "
                                f"'{_by_hand(missing)}' and copy {os.path.relpath(CACHE)} here")
-    with _alone():    # what is there may be half there still
-        _install(modules, wanted, tell)
+    if missing or os.access(CACHE, os.W_OK):    # else nobody installs there
+        with _alone():    # what is there may be half there still
+            _install(modules, wanted, tell)
     return modules
 
 
