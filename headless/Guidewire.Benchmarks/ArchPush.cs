@@ -41,10 +41,7 @@ namespace Guidewire.Benchmarks
         public double Duration { get; }
 
         /// <summary>At its start.</summary>
-        public Simulation Start()
-        {
-            return Simulation.Create(_parameters);
-        }
+        public Simulation Start() => Simulation.Create(_parameters);
 
         /// <summary>Runs the push to its end and returns its Newton iterations per step.</summary>
         public static double Finish(Simulation run)

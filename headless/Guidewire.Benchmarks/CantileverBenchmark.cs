@@ -17,9 +17,6 @@ namespace Guidewire.Benchmarks
 
         [Benchmark]
         [Work(1e3 * FreeCantilever.Duration, "sim. ms")]
-        public double Release()
-        {
-            return _cantilever.Run(null);
-        }
+        public double Release() => _cantilever.Run(null);
     }
 }

@@ -124,9 +124,6 @@ namespace Guidewire.Benchmarks
             }
         }
 
-        private void Move()
-        {
-            RodStep.Apply(_all.Rod, _all.Supports, _shape, _direction, 1.0, _moved);
-        }
+        private void Move() => RodStep.Apply(_all.Rod, _all.Supports, _shape, _direction, 1.0, _moved);
     }
 }

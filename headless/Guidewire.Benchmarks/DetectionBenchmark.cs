@@ -23,43 +23,25 @@ namespace Guidewire.Benchmarks
         private int _step;
 
         [GlobalSetup(Target = nameof(Detect1e3))]
-        public void Setup1e3()
-        {
-            Setup(10, 50);
-        }
+        public void Setup1e3() => Setup(10, 50);
 
         [GlobalSetup(Target = nameof(Detect5e4))]
-        public void Setup5e4()
-        {
-            Setup(70, 358);
-        }
+        public void Setup5e4() => Setup(70, 358);
 
         [GlobalSetup(Target = nameof(Detect1e6))]
-        public void Setup1e6()
-        {
-            Setup(316, 1582);
-        }
+        public void Setup1e6() => Setup(316, 1582);
 
         [Benchmark]
         [Work(Elements, "element")]
-        public void Detect1e3()
-        {
-            DetectStep();
-        }
+        public void Detect1e3() => DetectStep();
 
         [Benchmark]
         [Work(Elements, "element")]
-        public void Detect5e4()
-        {
-            DetectStep();
-        }
+        public void Detect5e4() => DetectStep();
 
         [Benchmark]
         [Work(Elements, "element")]
-        public void Detect1e6()
-        {
-            DetectStep();
-        }
+        public void Detect1e6() => DetectStep();
 
         private void DetectStep()
         {

@@ -86,9 +86,6 @@ namespace Guidewire.Benchmarks
             return new Interleaved(() => inLanes.Advance(repeats), () => one.Advance(repeats));
         }
 
-        private static int Repeats(int n, int m)
-        {
-            return Math.Max(1, MinWork / (n * m));
-        }
+        private static int Repeats(int n, int m) => Math.Max(1, MinWork / (n * m));
     }
 }

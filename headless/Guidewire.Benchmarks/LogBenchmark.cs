@@ -39,10 +39,7 @@ namespace Guidewire.Benchmarks
 
         [Benchmark]
         [Work(1.0, "step")]
-        public void DefaultStep()
-        {
-            _simulation.Step();
-        }
+        public void DefaultStep() => _simulation.Step();
 
         [GlobalCleanup]
         public void Dispose()

@@ -22,10 +22,7 @@ namespace Guidewire.Benchmarks
         private const string Figure = "elementIterationsPerMillisecond";
 
         /// <summary>The sweep that a motion is timed against.</summary>
-        public static SteppedWire Sweep()
-        {
-            return new SteppedWire(SweepElements, SweepIterations, scalar => scalar);
-        }
+        public static SteppedWire Sweep() => new SteppedWire(SweepElements, SweepIterations, scalar => scalar);
 
         /// <summary>Measures the motion that a request describes, to its maxSimulationSteps, and writes
         /// parameters.json and summary.json into its folder.</summary>

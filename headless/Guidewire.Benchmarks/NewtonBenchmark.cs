@@ -106,15 +106,9 @@ namespace Guidewire.Benchmarks
             Move();
         }
 
-        private void Factorise(EnergyTerm[] terms)
-        {
-            _system.Factorise(terms, _shape, _gradient, _direction, 0.0);
-        }
+        private void Factorise(EnergyTerm[] terms) => _system.Factorise(terms, _shape, _gradient, _direction, 0.0);
 
-        private void Blocks(EnergyTerm term)
-        {
-            term.AddBlocks(_shape, _blocks, _gradient, 0, Elements + 1);
-        }
+        private void Blocks(EnergyTerm term) => term.AddBlocks(_shape, _blocks, _gradient, 0, Elements + 1);
 
         private void Gradient(EnergyTerm term)
         {

@@ -10,16 +10,10 @@ namespace Guidewire.Benchmarks
         private SteppedWire _wire = null!;
 
         [GlobalSetup]
-        public void Setup()
-        {
-            _wire = new SteppedWire(Elements, Iterations, scalar => scalar);
-        }
+        public void Setup() => _wire = new SteppedWire(Elements, Iterations, scalar => scalar);
 
         [Benchmark]
         [Work(Elements * Iterations, "el.-iter.")]
-        public void ScalarSweep()
-        {
-            _wire.Advance(1);
-        }
+        public void ScalarSweep() => _wire.Advance(1);
     }
 }

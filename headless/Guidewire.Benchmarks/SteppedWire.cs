@@ -31,10 +31,7 @@ namespace Guidewire.Benchmarks
         public IIterations? Sweeps { get; }
 
         /// <summary>Does one step.</summary>
-        public void Step()
-        {
-            Advance(1);
-        }
+        public void Step() => Advance(1);
 
         /// <summary>Does some steps.</summary>
         public void Advance(int steps)

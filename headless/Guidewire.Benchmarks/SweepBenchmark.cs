@@ -16,16 +16,10 @@ namespace Guidewire.Benchmarks
         public int Iterations { get; set; }
 
         [GlobalSetup]
-        public void Setup()
-        {
-            _simulation = Scenes.Transversal(Elements, Iterations);
-        }
+        public void Setup() => _simulation = Scenes.Transversal(Elements, Iterations);
 
         [Benchmark]
         [Work(1.0, "el.-iter.")]
-        public void Sweep()
-        {
-            _simulation.Step();
-        }
+        public void Sweep() => _simulation.Step();
     }
 }

@@ -30,9 +30,6 @@ namespace Guidewire.Cli
         }
 
         /// <inheritdoc/>
-        public override string? ReadLine()
-        {
-            return _lines.TryTake(out string? line, Timeout.Infinite) ? line : null;
-        }
+        public override string? ReadLine() => _lines.TryTake(out string? line, Timeout.Infinite) ? line : null;
     }
 }

@@ -89,10 +89,7 @@ namespace Guidewire.Cli
             }
         }
 
-        private static double Coordinate(JArray point, int axis)
-        {
-            return Number("centre", point[axis], -1e9, 1e9, Point);
-        }
+        private static double Coordinate(JArray point, int axis) => Number("centre", point[axis], -1e9, 1e9, Point);
 
         private static double Number(string name, JToken value, double low, double high, string allowed)
         {
@@ -101,9 +98,7 @@ namespace Guidewire.Cli
                 : throw Wrong(name, value, allowed);
         }
 
-        private static ParameterException Wrong(string name, JToken value, string allowed)
-        {
-            return new ParameterException("request", name, value.ToString(Formatting.None), allowed);
-        }
+        private static ParameterException Wrong(string name, JToken value, string allowed) =>
+            new ParameterException("request", name, value.ToString(Formatting.None), allowed);
     }
 }

@@ -67,10 +67,8 @@ namespace Guidewire.Cli
         }
 
         // Three figures, without an exponent.
-        private static string Figures(double value)
-        {
-            return value.ToString(value >= 99.5 ? "0" : value >= 1e-3 ? "G3" : "0.0e+0", CultureInfo.InvariantCulture);
-        }
+        private static string Figures(double value) =>
+            value.ToString(value >= 99.5 ? "0" : value >= 1e-3 ? "G3" : "0.0e+0", CultureInfo.InvariantCulture);
 
         private static string Duration(double seconds)
         {

@@ -325,10 +325,7 @@ namespace Guidewire.Cli
             answer["lumen"] = Text(_state.Numbers.AsSpan(0, _state.Count));
         }
 
-        private static JArray Vector(in Vector3d vector)
-        {
-            return new JArray(vector.X, vector.Y, vector.Z);
-        }
+        private static JArray Vector(in Vector3d vector) => new JArray(vector.X, vector.Y, vector.Z);
 
         private void TakePicture(RunRequest request, JObject answer)
         {

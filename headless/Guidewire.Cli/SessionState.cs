@@ -199,10 +199,8 @@ namespace Guidewire.Cli
             }
         }
 
-        private void Put(string name, Vector3d[] values)
-        {
+        private void Put(string name, Vector3d[] values) =>
             MemoryMarshal.Cast<Vector3d, double>(values).CopyTo(Next(name, values.Length, 3));
-        }
 
         // Rigid walls have none.
         private void PutSoft(string name, Vector3d[] displacements)
@@ -219,10 +217,8 @@ namespace Guidewire.Cli
             Put(name, _one);
         }
 
-        private void Put(string name, Quaterniond[] values)
-        {
+        private void Put(string name, Quaterniond[] values) =>
             MemoryMarshal.Cast<Quaterniond, double>(values).CopyTo(Next(name, values.Length, 4));
-        }
 
         private Span<double> Next(string name, int rows, int columns)
         {

@@ -91,10 +91,7 @@ namespace Guidewire.Native
 
         /// <summary>Forgets a session.</summary>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_close")]
-        public static void Close(long number)
-        {
-            Sessions.TryRemove(number, out _);
-        }
+        public static void Close(long number) => Sessions.TryRemove(number, out _);
 
         /// <summary>Does what the console program does with these arguments; returns its exit code.</summary>
         /// <param name="count">How many there are.</param>
@@ -114,23 +111,15 @@ namespace Guidewire.Native
         /// is the folder of the process's own program.</summary>
         /// <param name="folder">UTF-8, with a zero at its end.</param>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_folder")]
-        public static void SetFolder(byte* folder)
-        {
+        public static void SetFolder(byte* folder) =>
             AppContext.SetData(InstrumentLibrary.ProgramFolder, Marshal.PtrToStringUTF8((IntPtr)folder));
-        }
 
         /// <summary>Gives an answer's memory back.</summary>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_free")]
-        public static void Free(byte* answer)
-        {
-            NativeMemory.Free(answer);
-        }
+        public static void Free(byte* answer) => NativeMemory.Free(answer);
 
         /// <summary>How many numbers this build computes with at once: 4, or 1 where it has no vector paths.</summary>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_lanes")]
-        public static int CountLanes()
-        {
-            return Vector256.IsHardwareAccelerated ? Vector256<double>.Count : 1;
-        }
+        public static int CountLanes() => Vector256.IsHardwareAccelerated ? Vector256<double>.Count : 1;
     }
 }

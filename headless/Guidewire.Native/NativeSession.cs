@@ -76,10 +76,7 @@ namespace Guidewire.Native
         }
 
         /// <summary>The walls of the open scene, as <see cref="SessionWalls"/> has them.</summary>
-        public byte[] Walls()
-        {
-            return _host.Walls();
-        }
+        public byte[] Walls() => _host.Walls();
 
         /// <summary>As <see cref="Exports.Picture"/> says.</summary>
         public int Picture(ReadOnlySpan<byte> view, ReadOnlySpan<double> positions, Span<byte> grey)
@@ -111,9 +108,7 @@ namespace Guidewire.Native
                 : Refusal(ExitCodes.Internal, ErrorTrace.Write(error, null));
         }
 
-        private static string Refusal(int code, string message)
-        {
-            return new JObject { ["exitCode"] = code, ["message"] = message }.ToString(Formatting.None);
-        }
+        private static string Refusal(int code, string message) =>
+            new JObject { ["exitCode"] = code, ["message"] = message }.ToString(Formatting.None);
     }
 }

@@ -16,10 +16,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         [Test]
         public void M_TakesTheMaterialInPlaceOfGains_AndBack()

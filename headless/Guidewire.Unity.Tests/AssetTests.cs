@@ -7,21 +7,13 @@ namespace Guidewire.Unity.Tests
     public sealed class AssetTests
     {
         [SetUp]
-        public void Enter()
-        {
-            Engine.Reset(Stage.Root);
-        }
+        public void Enter() => Engine.Reset(Stage.Root);
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
-        private static TextAsset Asset(string name, string file)
-        {
-            return new TextAsset(File.ReadAllText(Path.Combine(Stage.Root, file))) { name = name };
-        }
+        private static TextAsset Asset(string name, string file) =>
+            new TextAsset(File.ReadAllText(Path.Combine(Stage.Root, file))) { name = name };
 
         private static SimulationLoop Open(string[] overrides, params TextAsset[] files)
         {

@@ -28,10 +28,7 @@ namespace Guidewire.Unity.Tests
             Directory.Delete(_folder, true);
         }
 
-        private static string Parameters(string name)
-        {
-            return Path.Combine(Stage.Root, "params", name);
-        }
+        private static string Parameters(string name) => Path.Combine(Stage.Root, "params", name);
 
         private static string[] Unity(params string[] own)
         {
@@ -40,10 +37,7 @@ namespace Guidewire.Unity.Tests
             return all.ToArray();
         }
 
-        private static string[] With(string[] own, string folder)
-        {
-            return new List<string>(own) { "-out", folder }.ToArray();
-        }
+        private static string[] With(string[] own, string folder) => new List<string>(own) { "-out", folder }.ToArray();
 
         /// <summary>The console program as it was built: it is in Tests.slnf.</summary>
         private static int Console(params string[] own)

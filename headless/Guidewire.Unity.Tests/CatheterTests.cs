@@ -19,10 +19,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         private static CoaxialRecord Catheter => Stage.Loop.Session!.Simulation.Catheters()[0];
 

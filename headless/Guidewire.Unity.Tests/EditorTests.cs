@@ -104,10 +104,8 @@ namespace Guidewire.Unity.Tests
             Assert.That(tooltip, Does.Contain("> 0").And.Contain("(s)").And.Contain("0.01"));
         }
 
-        internal static void Call(Type type, string method, params object?[] arguments)
-        {
+        internal static void Call(Type type, string method, params object?[] arguments) =>
             type.GetMethod(method, BindingFlags.Static | BindingFlags.NonPublic)!.Invoke(null, arguments);
-        }
 
         internal static readonly Type Menu = typeof(LoopInspector).Assembly.GetType("Guidewire.Editor.CreateMenu")!;
 

@@ -10,10 +10,7 @@ namespace Guidewire.Unity.Tests
         private const int Counted = 120;
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         private static long Count()
         {

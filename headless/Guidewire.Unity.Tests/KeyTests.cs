@@ -13,15 +13,9 @@ namespace Guidewire.Unity.Tests
         }
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
-        private static double Along()
-        {
-            return Stage.State.Positions[0].Z;
-        }
+        private static double Along() => Stage.State.Positions[0].Z;
 
         /// <summary>Angle of the first element about its axis in rad.</summary>
         private static double Turned()

@@ -49,10 +49,8 @@ namespace Guidewire.Unity.Tests
             return name.Substring(name.LastIndexOf('.') + 1);
         }
 
-        private static string Built(string assembly)
-        {
-            return Path.Combine(TestContext.CurrentContext.TestDirectory, assembly + ".dll");
-        }
+        private static string Built(string assembly) =>
+            Path.Combine(TestContext.CurrentContext.TestDirectory, assembly + ".dll");
 
         /// <summary>The tests of Core as they were built: they are in Tests.slnf.</summary>
         private static string CoreTests => Built("Guidewire.Core.Tests").Replace(

@@ -28,10 +28,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [TearDown]
-        public void Leave()
-        {
-            Directory.SetCurrentDirectory(_before);
-        }
+        public void Leave() => Directory.SetCurrentDirectory(_before);
 
         [Test]
         public void Linux_TakesTheEnabledScenesTheParametersAndTheInstruments()

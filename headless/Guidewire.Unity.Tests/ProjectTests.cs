@@ -9,10 +9,7 @@ namespace Guidewire.Unity.Tests
     public sealed class ProjectTests
     {
         [SetUp]
-        public void Enter()
-        {
-            Engine.Reset(Stage.Root);
-        }
+        public void Enter() => Engine.Reset(Stage.Root);
 
         [TearDown]
         public void Leave()

@@ -24,10 +24,7 @@ namespace Guidewire.Unity.Tests
         private LineRenderer _line = null!;
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         // A closed tube about z of the wire's object, with hemispheres' poles as fans; slightly bent to the side.
         private static Mesh Tube(Func<Vector3, Vector3> place)
@@ -60,10 +57,8 @@ namespace Guidewire.Unity.Tests
             return mesh;
         }
 
-        private static void Set(object target, string field, object value)
-        {
+        private static void Set(object target, string field, object value) =>
             target.GetType().GetField(field, BindingFlags.Instance | BindingFlags.NonPublic)!.SetValue(target, value);
-        }
 
         private void Build(bool byCollider = false)
         {
@@ -322,9 +317,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void Sample_IsShort()
-        {
+        public void Sample_IsShort() =>
             Assert.That(File.ReadAllLines(Path.Combine(Sample, "OwnWire.cs")).Length, Is.LessThanOrEqualTo(33));
-        }
     }
 }

@@ -12,15 +12,10 @@ namespace Guidewire.Unity.Tests
 
         private static readonly string Hud = GuidOf("Hud.cs");
 
-        private static string GuidOf(string file)
-        {
-            return Assets.Single(asset => Path.GetFileName(asset.Value) == file).Key;
-        }
+        private static string GuidOf(string file) => Assets.Single(asset => Path.GetFileName(asset.Value) == file).Key;
 
-        private static IReadOnlyList<string> Problems(string path, string text)
-        {
-            return SceneRules.Problems(path, text, Assets);
-        }
+        private static IReadOnlyList<string> Problems(string path, string text) =>
+            SceneRules.Problems(path, text, Assets);
 
         [Test]
         public void EveryFile_KeepsEveryRule()

@@ -86,15 +86,11 @@ namespace Guidewire.Unity.Tests
                 CultureInfo.InvariantCulture, out long id) ? id : 0;
         }
 
-        private static long IdOf(SceneFile.Document document, string key)
-        {
-            return document.Values.TryGetValue(key, out string? text) ? IdOf(text) : 0;
-        }
+        private static long IdOf(SceneFile.Document document, string key) =>
+            document.Values.TryGetValue(key, out string? text) ? IdOf(text) : 0;
 
-        private static IEnumerable<long> IdsOf(SceneFile.Document document, string key)
-        {
-            return document.Lists.TryGetValue(key, out List<string>? list) ? list.Select(IdOf) : Array.Empty<long>();
-        }
+        private static IEnumerable<long> IdsOf(SceneFile.Document document, string key) =>
+            document.Lists.TryGetValue(key, out List<string>? list) ? list.Select(IdOf) : Array.Empty<long>();
 
         private void Report(bool isWrong, string message)
         {

@@ -23,16 +23,10 @@ namespace Guidewire.Unity.Tests
         }
 
         [OneTimeTearDown]
-        public void Remove()
-        {
-            _project.Delete();
-        }
+        public void Remove() => _project.Delete();
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         [Test]
         public void InsertionComesFirst_AndThereAreFour()

@@ -96,10 +96,7 @@ namespace Guidewire.Unity.Tests
                 E();
             }
 
-            private async void OnEnable()
-            {
-                await System.Threading.Tasks.Task.Delay(1);
-            }
+            private async void OnEnable() => await System.Threading.Tasks.Task.Delay(1);
 
             private void OnApplicationPause(bool pause)
             {
@@ -170,10 +167,7 @@ namespace Guidewire.Unity.Tests
             {
             }
 
-            private int Awake()
-            {
-                return 1;
-            }
+            private int Awake() => 1;
 
             public struct Plain
             {

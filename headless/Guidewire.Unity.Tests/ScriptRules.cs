@@ -69,10 +69,8 @@ namespace Guidewire.Unity.Tests
             }
         }
 
-        private static bool IsMadeByUnity(Type type)
-        {
-            return typeof(MonoBehaviour).IsAssignableFrom(type) || typeof(ScriptableObject).IsAssignableFrom(type);
-        }
+        private static bool IsMadeByUnity(Type type) =>
+            typeof(MonoBehaviour).IsAssignableFrom(type) || typeof(ScriptableObject).IsAssignableFrom(type);
 
         private static string? FieldProblem(Type type, MemberInfo member)
         {
@@ -119,10 +117,8 @@ namespace Guidewire.Unity.Tests
                 : null;
         }
 
-        private static bool IsList(Type type)
-        {
-            return type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>);
-        }
+        private static bool IsList(Type type) =>
+            type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>);
 
         /// <summary>Each message with the parameters that it may have, their types separated by commas.</summary>
         private static Dictionary<string, string[]> Table()

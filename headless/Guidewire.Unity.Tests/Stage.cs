@@ -57,10 +57,7 @@ namespace Guidewire.Unity.Tests
         }
 
         /// <summary>Opens the scene in which the wire is steered by hand.</summary>
-        public static void OpenInsertion()
-        {
-            Open("Assets/Scenes/Insertion.unity");
-        }
+        public static void OpenInsertion() => Open("Assets/Scenes/Insertion.unity");
 
         public static void Frames(int count)
         {

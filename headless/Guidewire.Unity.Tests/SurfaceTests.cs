@@ -47,10 +47,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void EveryPublicMember_IsListed_AndNothingElse()
-        {
-            Assert.That(Listed(), Is.EqualTo(Public()));
-        }
+        public void EveryPublicMember_IsListed_AndNothingElse() => Assert.That(Listed(), Is.EqualTo(Public()));
 
         [Test]
         public void NoPublicMember_NamesATypeOfAnotherLibrary(

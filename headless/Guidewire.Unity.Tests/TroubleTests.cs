@@ -5,16 +5,10 @@ namespace Guidewire.Unity.Tests
     public sealed class TroubleTests
     {
         [SetUp]
-        public void Open()
-        {
-            Stage.OpenInsertion();
-        }
+        public void Open() => Stage.OpenInsertion();
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         private static void AssertStopped(string words)
         {

@@ -13,10 +13,7 @@ namespace Guidewire.Unity.Tests
         }
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         [Test]
         public void Wall_IsDrawnWhereTheSimulationHasIt()

@@ -10,10 +10,7 @@ namespace Guidewire.Unity.Tests
         private const int Patience = 60_000;    // ms, of a machine that other programs keep busy
 
         [TearDown]
-        public void Leave()
-        {
-            Engine.Unload();
-        }
+        public void Leave() => Engine.Unload();
 
         private static SimulationLoop Open(string file, params string[] overrides)
         {

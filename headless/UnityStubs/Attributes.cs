@@ -142,10 +142,7 @@ namespace UnityEngine.TestTools
         private static readonly List<string> Unexpected = new List<string>();
 
         /// <summary>The next lines of this type are held against this text until one matches.</summary>
-        public static void Expect(LogType type, Regex message)
-        {
-            Expected.Add((type, message));
-        }
+        public static void Expect(LogType type, Regex message) => Expected.Add((type, message));
 
         /// <summary>Forgets what was expected and what came: a test begins.</summary>
         internal static void Begin()

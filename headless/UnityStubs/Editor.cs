@@ -6,10 +6,7 @@ namespace UnityEditor
 {
     public static class EditorApplication
     {
-        public static void Exit(int returnValue)
-        {
-            UnityStubs.Engine.ExitCode = returnValue;
-        }
+        public static void Exit(int returnValue) => UnityStubs.Engine.ExitCode = returnValue;
     }
 
     [AttributeUsage(AttributeTargets.Method)]

@@ -61,10 +61,7 @@ namespace UnityEditor
         }
 
         internal static T Make<T>(params UnityEngine.Object[] targets)
-            where T : Editor, new()
-        {
-            return new T { targets = targets, serializedObject = new SerializedObject(targets[0]) };
-        }
+            where T : Editor, new() => new T { targets = targets, serializedObject = new SerializedObject(targets[0]) };
     }
 
     /// <summary>Fields of an object that hold lists of texts; what is changed is written at once.</summary>
@@ -189,10 +186,8 @@ namespace UnityEditor
     {
         internal static readonly List<UnityEngine.Object> Created = new List<UnityEngine.Object>();
 
-        public static void RegisterCreatedObjectUndo(UnityEngine.Object objectToUndo, string name)
-        {
+        public static void RegisterCreatedObjectUndo(UnityEngine.Object objectToUndo, string name) =>
             Created.Add(objectToUndo);
-        }
     }
 
     public class MenuCommand
@@ -219,20 +214,15 @@ namespace UnityEditor
 
     public static class PrefabUtility
     {
-        public static UnityEngine.Object InstantiatePrefab(UnityEngine.Object assetComponentOrGameObject)
-        {
-            return UnityStubs.SceneFile.Copy((GameObject)assetComponentOrGameObject);
-        }
+        public static UnityEngine.Object InstantiatePrefab(UnityEngine.Object assetComponentOrGameObject) =>
+            UnityStubs.SceneFile.Copy((GameObject)assetComponentOrGameObject);
     }
 
     public static class ProjectWindowUtil
     {
         internal static (string Path, string Content)? Last;
 
-        public static void CreateAssetWithContent(string filename, string content)
-        {
-            Last = (filename, content);
-        }
+        public static void CreateAssetWithContent(string filename, string content) => Last = (filename, content);
     }
 }
 
@@ -291,10 +281,8 @@ namespace UnityEngine
 
         public static Matrix4x4 matrix { get; set; } = Matrix4x4.identity;
 
-        public static void DrawLine(Vector3 from, Vector3 to)
-        {
+        public static void DrawLine(Vector3 from, Vector3 to) =>
             Drawn.Add(("line", matrix.MultiplyPoint3x4(from), matrix.MultiplyPoint3x4(to)));
-        }
 
         public static void DrawWireSphere(Vector3 center, float radius)
         {

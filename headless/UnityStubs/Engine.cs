@@ -151,10 +151,7 @@ namespace UnityStubs
         }
 
         /// <summary>A key goes up.</summary>
-        public static void Release(KeyCode key)
-        {
-            Input.Held.Remove(key);
-        }
+        public static void Release(KeyCode key) => Input.Held.Remove(key);
 
         /// <summary>The mouse is somewhere, with a button down or none, and its wheel turned.</summary>
         public static void Mouse(float x, float y, int button, float wheel)
@@ -169,10 +166,7 @@ namespace UnityStubs
         }
 
         /// <summary>Leaves input to the Input System package: every call of Input throws from here on.</summary>
-        public static void RefuseInput()
-        {
-            Input.IsRefused = true;
-        }
+        public static void RefuseInput() => Input.IsRefused = true;
 
         /// <summary>Destroys every object.</summary>
         public static void Unload()
@@ -256,15 +250,10 @@ namespace UnityStubs
             }
         }
 
-        internal static void Draw(Mesh mesh, Matrix4x4 place, Material material, int layer)
-        {
+        internal static void Draw(Mesh mesh, Matrix4x4 place, Material material, int layer) =>
             Drawn.Add((mesh, place, material, layer));
-        }
 
-        internal static void Show(string text)
-        {
-            Labels.Add(text);
-        }
+        internal static void Show(string text) => Labels.Add(text);
 
         internal static bool IsClicked(string text)
         {

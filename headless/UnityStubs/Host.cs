@@ -27,10 +27,7 @@ namespace UnityEngine
 
         public static int targetFrameRate { get; set; } = -1;
 
-        public static void Quit(int exitCode)
-        {
-            UnityStubs.Engine.ExitCode = exitCode;
-        }
+        public static void Quit(int exitCode) => UnityStubs.Engine.ExitCode = exitCode;
     }
 
     public enum RuntimePlatform

@@ -15,10 +15,7 @@ namespace UnityEngine.InputSystem
         public void Disable() => enabled = false;
 
         public TValue ReadValue<TValue>()
-            where TValue : struct
-        {
-            return (TValue)(object)(enabled ? Value : 0f);
-        }
+            where TValue : struct => (TValue)(object)(enabled ? Value : 0f);
     }
 
     public class InputActionReference : ScriptableObject

@@ -64,10 +64,8 @@ namespace UnityEngine
 
         public static float Dot(Vector3 a, Vector3 b) => a.x * b.x + a.y * b.y + a.z * b.z;
 
-        public static Vector3 Cross(Vector3 a, Vector3 b)
-        {
-            return new Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
-        }
+        public static Vector3 Cross(Vector3 a, Vector3 b) =>
+            new Vector3(a.y * b.z - a.z * b.y, a.z * b.x - a.x * b.z, a.x * b.y - a.y * b.x);
 
         public static float Distance(Vector3 a, Vector3 b) => (a - b).magnitude;
     }
@@ -90,10 +88,8 @@ namespace UnityEngine
         public static Quaternion identity => new Quaternion(0f, 0f, 0f, 1f);
 
         /// <summary>Degrees, applied about z, then x, then y.</summary>
-        public static Quaternion Euler(float x, float y, float z)
-        {
-            return About(Vector3.up, y) * About(Vector3.right, x) * About(Vector3.forward, z);
-        }
+        public static Quaternion Euler(float x, float y, float z) =>
+            About(Vector3.up, y) * About(Vector3.right, x) * About(Vector3.forward, z);
 
         public static Quaternion FromToRotation(Vector3 from, Vector3 to)
         {

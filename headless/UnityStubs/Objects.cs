@@ -289,10 +289,8 @@ namespace UnityEngine
             set => Array.Resize(ref _positions, value);
         }
 
-        public void SetPositions(Vector3[] positions)
-        {
+        public void SetPositions(Vector3[] positions) =>
             Array.Copy(positions, _positions, Math.Min(positions.Length, _positions.Length));
-        }
 
         public Vector3 GetPosition(int index) => _positions[index];
     }

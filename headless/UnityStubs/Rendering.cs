@@ -126,10 +126,8 @@ namespace UnityEngine
             set => SetTexture("_MainTex", value);
         }
 
-        public bool HasProperty(string name)
-        {
-            return Properties.TryGetValue(shader.name, out string[] names) && Array.IndexOf(names, name) >= 0;
-        }
+        public bool HasProperty(string name) =>
+            Properties.TryGetValue(shader.name, out string[] names) && Array.IndexOf(names, name) >= 0;
 
         public void SetColor(string name, Color value) => Set(name, value);
 
@@ -209,10 +207,7 @@ namespace UnityEngine
         {
         }
 
-        public void RecalculateNormals()
-        {
-            Copy(new Vector3[_vertices.Length], ref _normals);
-        }
+        public void RecalculateNormals() => Copy(new Vector3[_vertices.Length], ref _normals);
 
         private static void Copy<T>(T[] from, ref T[] to)
         {
@@ -256,10 +251,7 @@ namespace UnityEngine
     public static class Resources
     {
         public static T Load<T>(string path)
-            where T : Object
-        {
-            return UnityStubs.SceneFile.Resource(path) as T;
-        }
+            where T : Object => UnityStubs.SceneFile.Resource(path) as T;
     }
 
     public static class QualitySettings

@@ -110,10 +110,8 @@ namespace UnityStubs
         /// <param name="root">Folder that holds Assets.</param>
         /// <param name="scene">Path of the scene from there.</param>
         /// <param name="scripts">The assembly that holds the scripts' classes.</param>
-        public static List<GameObject> Read(string root, string scene, Assembly scripts)
-        {
-            return new SceneFile(root, scripts).Read(Parse(File.ReadLines(Path.Combine(root, scene))));
-        }
+        public static List<GameObject> Read(string root, string scene, Assembly scripts) =>
+            new SceneFile(root, scripts).Read(Parse(File.ReadLines(Path.Combine(root, scene))));
 
         /// <summary>The objects of a file in Unity's YAML, blocks within a key left aside.</summary>
         /// <exception cref="FormatException">A line has another form than Unity's, or a key stands twice.</exception>

@@ -155,14 +155,10 @@ namespace Guidewire.Core
                 : drive.Kind == Drive.Hold ? 0.0 : drive.InsertionSpeed * time;
         }
 
-        private static ParameterConflict Of(int catheter, string key, string needed, params object[] numbers)
-        {
-            return new ParameterConflict("catheters[" + catheter + "]." + key, Text(needed, numbers));
-        }
+        private static ParameterConflict Of(int catheter, string key, string needed, params object[] numbers) =>
+            new ParameterConflict("catheters[" + catheter + "]." + key, Text(needed, numbers));
 
-        private static string Text(string format, params object[] numbers)
-        {
-            return string.Format(CultureInfo.InvariantCulture, format, numbers);
-        }
+        private static string Text(string format, params object[] numbers) =>
+            string.Format(CultureInfo.InvariantCulture, format, numbers);
     }
 }

@@ -177,10 +177,7 @@ namespace Guidewire.Core
 
         /// <summary>The first conflict of these parameters, or null; walls and tables need not have been
         /// read.</summary>
-        public static ParameterConflict? Find(SimulationParameters parameters)
-        {
-            return First(Always, parameters);
-        }
+        public static ParameterConflict? Find(SimulationParameters parameters) => First(Always, parameters);
 
         /// <summary>The first conflict of parameters that are complete, or null.</summary>
         public static ParameterConflict? FindInScene(SimulationParameters parameters)
@@ -196,10 +193,8 @@ namespace Guidewire.Core
             return broken == null ? null : new ParameterConflict(broken.Key, broken.Needed(facts));
         }
 
-        private static Rule OfCatheters(Predicate<Facts> holds, string needed)
-        {
-            return new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
-        }
+        private static Rule OfCatheters(Predicate<Facts> holds, string needed) =>
+            new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
 
         private static Rule NoSlipOf(int catheter)
         {
@@ -207,20 +202,14 @@ namespace Guidewire.Core
                 && !p.HasWalls && p.Scene.Catheters[catheter].Drive.HubForceLimit > 0.0, NoSlipWithoutWalls);
         }
 
-        private static ParameterConflict? FindInCatheters(SimulationParameters parameters)
-        {
-            return parameters.Scene.Catheters.Count > 0 ? CoaxialStart.FindProblem(parameters) : null;
-        }
+        private static ParameterConflict? FindInCatheters(SimulationParameters parameters) =>
+            parameters.Scene.Catheters.Count > 0 ? CoaxialStart.FindProblem(parameters) : null;
 
-        private static Rule OfSheath(Predicate<Facts> holds, string needed)
-        {
-            return new Rule("sheath", p => p.Scene.Sheath != null && !holds(p), needed);
-        }
+        private static Rule OfSheath(Predicate<Facts> holds, string needed) =>
+            new Rule("sheath", p => p.Scene.Sheath != null && !holds(p), needed);
 
-        private static Rule OfMotion(string key, Func<Facts, EndMotion?> motion, Predicate<Facts> holds, string needed)
-        {
-            return new Rule(key, p => motion(p) != null && !(p.Method.Solver == Solver.Direct && holds(p)), needed);
-        }
+        private static Rule OfMotion(string key, Func<Facts, EndMotion?> motion, Predicate<Facts> holds, string needed) =>
+            new Rule(key, p => motion(p) != null && !(p.Method.Solver == Solver.Direct && holds(p)), needed);
 
         private static bool HasHollowTooWide(MaterialParameters material)
         {

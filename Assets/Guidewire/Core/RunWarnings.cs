@@ -74,24 +74,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>The wire starts in this state.</summary>
-        public void Begin(RodState state)
-        {
-            _rims.Begin(state);
-        }
+        public void Begin(RodState state) => _rims.Begin(state);
 
         /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="time">s.</param>
-        public void Update(RodState state, ContactRecord? contacts, double time)
-        {
-            _rims.Update(state, contacts, time);
-        }
+        public void Update(RodState state, ContactRecord? contacts, double time) => _rims.Update(state, contacts, time);
 
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
-        public void Serialize(Snapshot snapshot, RodState state)
-        {
-            _rims.Serialize(snapshot, state);
-        }
+        public void Serialize(Snapshot snapshot, RodState state) => _rims.Serialize(snapshot, state);
 
         private static double LengthOf(RodState state)
         {

@@ -140,38 +140,23 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the solver's report on its own work, for a run with a material; null with pbd.</summary>
-        public SolverReport? Report()
-        {
-            return _stepper.Report();
-        }
+        public SolverReport? Report() => _stepper.Report();
 
         /// <summary>Strains and stresses along the wire at the current time; null with pbd. Each call writes the record
         /// anew.</summary>
-        public StressRecord? Stress()
-        {
-            return _stepper.Stress();
-        }
+        public StressRecord? Stress() => _stepper.Stress();
 
         /// <summary>Energy of motion, that stored in all instruments, and minus the work of the loads that have a
         /// potential, J; null with pbd.</summary>
-        public Vector3d? Energies()
-        {
-            return _stepper.Energies();
-        }
+        public Vector3d? Energies() => _stepper.Energies();
 
         /// <summary>Results at the hub and the tip at the current time; null if the method does not compute them. Each
         /// call overwrites the record.</summary>
-        public HubRecord? Hub()
-        {
-            return _stepper.Hub();
-        }
+        public HubRecord? Hub() => _stepper.Hub();
 
         /// <summary>Results of the outermost catheter at the current time; null without one. Each call
         /// writes the record anew.</summary>
-        public CoaxialRecord? Coaxial()
-        {
-            return _stepper.Coaxial();
-        }
+        public CoaxialRecord? Coaxial() => _stepper.Coaxial();
 
         /// <summary>Gives the results of each catheter at the current time, outermost first; as
         /// <see cref="Coaxial"/>.</summary>

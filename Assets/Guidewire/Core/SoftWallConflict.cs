@@ -104,9 +104,7 @@ namespace Guidewire.Core
             density += heaviest;
         }
 
-        private static ParameterConflict Of(WallSoftness soft, string key, string needed)
-        {
-            return new ParameterConflict(soft.Name + "." + key, needed);
-        }
+        private static ParameterConflict Of(WallSoftness soft, string key, string needed) =>
+            new ParameterConflict(soft.Name + "." + key, needed);
     }
 }

@@ -9,9 +9,6 @@ namespace Guidewire.Editor
     public static class BatchEntry
     {
         /// <summary>Does one run and ends the editor with its exit code.</summary>
-        public static void Run()
-        {
-            EditorApplication.Exit(BatchRun.Execute(Environment.GetCommandLineArgs()));
-        }
+        public static void Run() => EditorApplication.Exit(BatchRun.Execute(Environment.GetCommandLineArgs()));
     }
 }

@@ -36,16 +36,12 @@ namespace Guidewire.Editor
         }
 
         [MenuItem("Assets/Create/Guidewire/Parameters")]
-        private static void CreateParameters()
-        {
+        private static void CreateParameters() =>
             ProjectWindowUtil.CreateAssetWithContent("Parameters.json", Parameters);
-        }
 
         [MenuItem("Assets/Create/Guidewire/Instrument")]
-        private static void CreateInstrument()
-        {
+        private static void CreateInstrument() =>
             ProjectWindowUtil.CreateAssetWithContent("Instrument.json", Instrument);
-        }
 
         // In this repository's project below Assets, in others' below Packages.
         private static string PathOf(string path)

@@ -18,10 +18,7 @@ namespace Guidewire.Io
         public const string RequestSource = "set";
 
         /// <summary>Whether a source counts instead of files.</summary>
-        internal static bool IsOverride(string source)
-        {
-            return source == Source || source == RequestSource;
-        }
+        internal static bool IsOverride(string source) => source == Source || source == RequestSource;
 
         /// <summary>Reads <c>-parameters FILE -out DIR -repeat K -force -KEY VALUE ...</c>.</summary>
         /// <param name="arguments">The arguments.</param>
@@ -102,10 +99,8 @@ namespace Guidewire.Io
         }
 
         // What a part may hold its entry does not say: what is no JSON is a text, such as the name of a mesh's file.
-        private static JToken PartFromText(string text)
-        {
-            return StrictJson.FindError(text) == null ? JsonText.Parse(text) : new JValue(text);
-        }
+        private static JToken PartFromText(string text) =>
+            StrictJson.FindError(text) == null ? JsonText.Parse(text) : new JValue(text);
 
         /// <summary>Reads parameters that stand as KEY=VALUE, as in an Inspector's list.</summary>
         /// <exception cref="ParameterException">An unknown key, a value that is missing or not allowed.</exception>

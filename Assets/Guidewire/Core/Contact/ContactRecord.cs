@@ -105,10 +105,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether any of these walls gives way.</summary>
-        internal static bool HasSoft(ContactShape[] walls)
-        {
-            return Array.Exists(walls, wall => wall.Softness != null);
-        }
+        internal static bool HasSoft(ContactShape[] walls) => Array.Exists(walls, wall => wall.Softness != null);
 
         internal void SetTotal(in Vector3d total)
         {
@@ -165,10 +162,7 @@ namespace Guidewire.Core
             }
         }
 
-        internal void StartStep()
-        {
-            Array.Clear(_impulses, 0, _impulses.Length);
-        }
+        internal void StartStep() => Array.Clear(_impulses, 0, _impulses.Length);
 
         internal void Serialize(Snapshot snapshot)
         {
@@ -189,10 +183,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>The displacements of soft walls, which another run of the same wire may not have.</summary>
-        internal void SerializeDisplacements(Snapshot snapshot)
-        {
+        internal void SerializeDisplacements(Snapshot snapshot) =>
             snapshot.Serialize(Displacements, Math.Min(Displacements.Length, _spheres - 1));
-        }
 
         /// <summary>Adds what the drive asked of sphere 0 in a step, and what of it the walls prevented,
         /// units.</summary>

@@ -94,10 +94,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double ClearanceOf(int w, int j)
-        {
-            return _distance[w * _elementCount + j];
-        }
+        public double ClearanceOf(int w, int j) => _distance[w * _elementCount + j];
 
         // True where the element comes near the wall, or may have met it during the motion.
         private bool FindElement(int w, int j, Vector3d[] from, Vector3d[] to)

@@ -65,16 +65,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>A step begins: marks of an abandoned attempt are cleared.</summary>
-        public void BeginStep()
-        {
-            Array.Clear(_left, 0, _left.Length);
-        }
+        public void BeginStep() => Array.Clear(_left, 0, _left.Length);
 
         /// <summary>Writes into a snapshot, or restores from one, the passages so far.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            Total = snapshot.Serialize(Total);
-        }
+        public void Serialize(Snapshot snapshot) => Total = snapshot.Serialize(Total);
 
         /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>
         public void EndStep(Vector3d[] from, Vector3d[] to)
@@ -107,10 +101,8 @@ namespace Guidewire.Core
         // Whether the wire led from point k out through the disc of a rim, and from there a straight line leads to
         // where the point is now: an end that is drawn out and aside leaves by the rim, though its straight line cuts
         // the lip. Beside the vessel no straight line from the disc leads.
-        private bool LeavesByRim(ContactShape wall, Vector3d[] from, int k, in Vector3d after)
-        {
-            return LeavesByRim(wall, from, k, -1, after) || LeavesByRim(wall, from, k, 1, after);
-        }
+        private bool LeavesByRim(ContactShape wall, Vector3d[] from, int k, in Vector3d after) =>
+            LeavesByRim(wall, from, k, -1, after) || LeavesByRim(wall, from, k, 1, after);
 
         private bool LeavesByRim(ContactShape wall, Vector3d[] from, int k, int sense, in Vector3d after)
         {
@@ -176,10 +168,7 @@ namespace Guidewire.Core
             }
         }
 
-        private static int PointsOf(int elementCount)
-        {
-            return elementCount * SamplesPerElement + 1;
-        }
+        private static int PointsOf(int elementCount) => elementCount * SamplesPerElement + 1;
 
         private Vector3d Point(Vector3d[] x, int k)
         {

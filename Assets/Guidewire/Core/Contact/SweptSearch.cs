@@ -29,10 +29,7 @@ namespace Guidewire.Core
 
         /// <summary>Clearance between core line and wall in the swept test, units: enough to stay clear of rounding,
         /// too little to matter.</summary>
-        public static double ClearanceFor(double radius)
-        {
-            return 1e-3 * radius;
-        }
+        public static double ClearanceFor(double radius) => 1e-3 * radius;
 
         /// <summary>Lists every point where the motion would pass a wall; true when there is one.</summary>
         /// <param name="from">Where the n + 1 spheres are, clear of the walls; units.</param>

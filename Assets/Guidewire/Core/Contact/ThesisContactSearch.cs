@@ -69,9 +69,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double ClearanceOf(int w, int j)
-        {
-            return double.NegativeInfinity;
-        }
+        public double ClearanceOf(int w, int j) => double.NegativeInfinity;
     }
 }

@@ -15,10 +15,8 @@ namespace Guidewire.Core
 
         /// <summary>What is wrong with the start that the parameters describe, in one phrase, or null.</summary>
         /// <exception cref="ArgumentException">There is no such start.</exception>
-        public static string? FindProblem(SimulationParameters parameters)
-        {
-            return parameters.Scene.Walls.Length == 0 ? null : FindProblem(parameters, new Scene(parameters));
-        }
+        public static string? FindProblem(SimulationParameters parameters) =>
+            parameters.Scene.Walls.Length == 0 ? null : FindProblem(parameters, new Scene(parameters));
 
         /// <summary>One line that gives the sizes of vessel and wire where they hardly belong together, or
         /// null.</summary>

@@ -123,17 +123,11 @@ namespace Guidewire.Core
         public bool IsActive { get; private set; }
 
         /// <summary>Gives the flow through a cell over that at the inlet, without injection.</summary>
-        public double ShareOf(int cell)
-        {
-            return _cells.Shares[cell];
-        }
+        public double ShareOf(int cell) => _cells.Shares[cell];
 
         /// <summary>The cell that a point of the lumen belongs to: the one whose sphere has the least power.</summary>
         /// <param name="point">mm.</param>
-        public int CellOf(in Vector3d point)
-        {
-            return VesselCells.Nearest(point, _cells.Middles, _cells.Radii);
-        }
+        public int CellOf(in Vector3d point) => VesselCells.Nearest(point, _cells.Middles, _cells.Radii);
 
         /// <summary>Begins an injection; one that goes on ends.</summary>
         /// <param name="cell">Where.</param>

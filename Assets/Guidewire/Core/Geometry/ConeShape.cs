@@ -116,16 +116,11 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override bool Contains(in Vector3d point)
-        {
-            return At(point).Distance > 0.0;
-        }
+        public override bool Contains(in Vector3d point) => At(point).Distance > 0.0;
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double clearance, double resolution, int hint)
-        {
-            return SweptTest.Impact(new ConvexWall(this), a0, b0, a1, b1, clearance, resolution);
-        }
+            double clearance, double resolution, int hint) =>
+            SweptTest.Impact(new ConvexWall(this), a0, b0, a1, b1, clearance, resolution);
 
         /// <summary>Where the segment is nearest, as at an edge. Its weight fades where that is not defined: along a
         /// generator of the cone, whose direction d has 1 - (d.axis)^2 = k^2.</summary>
@@ -175,10 +170,7 @@ namespace Guidewire.Core
         /// <summary>Unit vector along the axis.</summary>
         internal Vector3d Axis => _axis;
 
-        private double RadiusAt(double y)
-        {
-            return _radius + _slope * y;
-        }
+        private double RadiusAt(double y) => _radius + _slope * y;
 
         private Foot At(in Vector3d x)
         {
@@ -194,10 +186,8 @@ namespace Guidewire.Core
         }
 
         // Along the side, away from the start.
-        private Vector3d Generator(in Foot foot)
-        {
-            return Vector3d.Normalize(_axis - Vector3d.Dot(_axis, foot.Normal) * foot.Normal);
-        }
+        private Vector3d Generator(in Foot foot) =>
+            Vector3d.Normalize(_axis - Vector3d.Dot(_axis, foot.Normal) * foot.Normal);
 
         // The distance of a point, its gradient, the distance from the point of the axis that it belongs to, and
         // whether that is no end of it.

@@ -41,10 +41,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives a contact point of a flat wall.</summary>
-        public static ContactPoint Flat(in SurfaceContact contact, int weight)
-        {
-            return new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), 0.0, 0.0);
-        }
+        public static ContactPoint Flat(in SurfaceContact contact, int weight) =>
+            new ContactPoint(contact, weight, Vector3d.Perpendicular(contact.Normal), 0.0, 0.0);
 
         /// <summary>Gives a contact point at a straight edge, or on a cylinder.</summary>
         /// <param name="contact">Where.</param>
@@ -52,10 +50,8 @@ namespace Guidewire.Core
         /// <param name="along">Unit vector along the edge.</param>
         /// <param name="radius">Distance of the segment's point from the edge, negative where the centre of curvature
         /// lies on the free side; at 0 there is no curvature to state, and none is.</param>
-        public static ContactPoint Edge(in SurfaceContact contact, int weight, in Vector3d along, double radius)
-        {
-            return new ContactPoint(contact, weight, along, 0.0, radius == 0.0 ? 0.0 : 1.0 / radius);
-        }
+        public static ContactPoint Edge(in SurfaceContact contact, int weight, in Vector3d along, double radius) =>
+            new ContactPoint(contact, weight, along, 0.0, radius == 0.0 ? 0.0 : 1.0 / radius);
 
         /// <summary>Gives a contact point at a corner, or on a ball.</summary>
         /// <param name="contact">Where.</param>

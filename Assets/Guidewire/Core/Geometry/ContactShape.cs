@@ -55,10 +55,7 @@ namespace Guidewire.Core
         public abstract bool Contains(in Vector3d point);
 
         /// <summary>The same without what an open end of a vessel leads to.</summary>
-        public virtual bool IsWithin(in Vector3d point)
-        {
-            return Contains(point);
-        }
+        public virtual bool IsWithin(in Vector3d point) => Contains(point);
 
         /// <summary>Fraction of the linear motion of segment a b from (a0, b0) to (a1, b1) after which it stops clear
         /// of the wall, or <see cref="NoImpact"/>. At that moment its distance is at least <see
@@ -110,10 +107,8 @@ namespace Guidewire.Core
         /// the segment can slide in spite of rounding.</summary>
         /// <remarks>Pressed against the wall in every part of every step, a wire would lose half the clearance in 7
         /// million parts; a clearance of a thousandth of the radius is some 10 digits above rounding.</remarks>
-        internal static double FinalClearance(double start, double clearance)
-        {
-            return (1.0 - SlidingLoss) * Math.Min(start, clearance);
-        }
+        internal static double FinalClearance(double start, double clearance) =>
+            (1.0 - SlidingLoss) * Math.Min(start, clearance);
 
         /// <summary>Whether the wall is a surface of faces, which may end in open rims, and not the boundary of a body
         /// or a lumen: the sign of a distance is then known only near it, and points of the wire have features of their
@@ -140,24 +135,16 @@ namespace Guidewire.Core
         /// <summary>The wall where it has given way as far as it may, if a core line may go beyond the wall itself.
         /// </summary>
         /// <param name="units">Per metre.</param>
-        internal ContactShape AtLimit(double units)
-        {
-            return (Softness == null || Softness.Limit == 0.0 ? null : MovedOut(units * Softness.Limit)) ?? this;
-        }
+        internal ContactShape AtLimit(double units) =>
+            (Softness == null || Softness.Limit == 0.0 ? null : MovedOut(units * Softness.Limit)) ?? this;
 
         /// <summary>Makes the wall of <see cref="MovedOut"/>.</summary>
-        private protected virtual ContactShape? Outward(double distance)
-        {
-            return null;
-        }
+        private protected virtual ContactShape? Outward(double distance) => null;
 
         /// <summary>Distance of a guarded wire's element from the wall, 0 where it lies across it, by its signed
         /// distance, units. Spheres never get behind a wall that has no exit: an element of negative distance lies
         /// across it. A wire that left a surface by an open rim may lie beside it.</summary>
-        internal double UnsignedDistance(double distance)
-        {
-            return IsSurface ? Math.Abs(distance) : Math.Max(0.0, distance);
-        }
+        internal double UnsignedDistance(double distance) => IsSurface ? Math.Abs(distance) : Math.Max(0.0, distance);
 
         /// <summary>Turns the contact points of one point of a guarded wire to the side of the wall on which it is. One
         /// that a surface sees from behind lies beside the vessel, which it left by an open rim.</summary>
@@ -175,10 +162,7 @@ namespace Guidewire.Core
         /// <summary>Least signed distance of a point of segment a b, units, where <see cref="Nearest"/> found the
         /// segment at a negative distance. The two differ where a segment's distance is the displacement that takes all
         /// of it out of the wall.</summary>
-        internal virtual double MinAlong(in Vector3d a, in Vector3d b, double distance)
-        {
-            return distance;
-        }
+        internal virtual double MinAlong(in Vector3d a, in Vector3d b, double distance) => distance;
 
         /// <summary>Largest fraction of the motion for which every point of the segment is proven to stay at least
         /// <paramref name="clearance"/> from the wall, <see cref="NoImpact"/> for all of it. Approaches below the
@@ -207,10 +191,7 @@ namespace Guidewire.Core
 
         /// <summary>True if the whole segment certainly lies on the free side; also false where a shape cannot tell
         /// quickly.</summary>
-        internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint)
-        {
-            return false;
-        }
+        internal virtual bool Holds(in Vector3d a, in Vector3d b, ref int hint) => false;
 
         /// <summary>Adds to a list the features of the wall (as the shape defines them) that queries of points and
         /// parts of segment a b may meet while nothing of it moves farther than <paramref name="skin"/>, units; such
@@ -238,10 +219,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Drops the cache, where the wall was moved.</summary>
-        private protected void ClearCache()
-        {
-            _cache = null;
-        }
+        private protected void ClearCache() => _cache = null;
 
         /// <summary>A lower bound of the time of impact of segment a b in linear motion from (a0, b0) to (a1, b1), as a
         /// fraction during which it has at least a clearance, in units: <paramref name="limit"/> where that is less or
@@ -250,10 +228,8 @@ namespace Guidewire.Core
         /// hint is that of a query of the start, or -1; the features, where they are known, those of the start, for a
         /// skin that the motion up to the limit does not leave.</summary>
         internal virtual double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit)
-        {
-            return Math.Min(limit, TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint));
-        }
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit) =>
+            Math.Min(limit, TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint));
 
         /// <summary>Adds the edge contacts within <paramref name="range"/> of segment a b: where the wall is convex
         /// towards the free side, so that the interior of a segment can meet it before its ends do. None where the wall
@@ -265,9 +241,6 @@ namespace Guidewire.Core
 
         /// <summary>Radius in units of the largest ball that fits where the free side is narrowest, of all positions
         /// where that is between two radii; infinite where there is none.</summary>
-        internal virtual double NarrowestRadius(double above, double below)
-        {
-            return double.PositiveInfinity;
-        }
+        internal virtual double NarrowestRadius(double above, double below) => double.PositiveInfinity;
     }
 }

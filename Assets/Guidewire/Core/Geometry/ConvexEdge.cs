@@ -14,10 +14,7 @@ namespace Guidewire.Core
         /// <summary>Weight of an edge at which the wall turns by an angle, radians: tanh(angle/0.02).</summary>
         /// <remarks>Proportional to small angles, so that a bend counts the same however finely it is divided; but
         /// large enough for a coarse bend that the one edge met does not hold the wire at a vanishing gap.</remarks>
-        public static double Weight(double angle)
-        {
-            return Math.Tanh(angle / Sharp);
-        }
+        public static double Weight(double angle) => Math.Tanh(angle / Sharp);
 
         /// <summary>Adds the edge contact if the edge is within a range of segment a b.</summary>
         /// <param name="a">First end of the segment.</param>

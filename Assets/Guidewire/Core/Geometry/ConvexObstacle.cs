@@ -41,16 +41,12 @@ namespace Guidewire.Core
         internal double Radius => _radius;
 
         /// <summary>Makes a ball.</summary>
-        public static ConvexObstacle Sphere(in Vector3d centre, double radius)
-        {
-            return new ConvexObstacle(new[] { centre }, radius);
-        }
+        public static ConvexObstacle Sphere(in Vector3d centre, double radius) =>
+            new ConvexObstacle(new[] { centre }, radius);
 
         /// <summary>All points within a radius of the segment between two points.</summary>
-        public static ConvexObstacle Capsule(in Vector3d from, in Vector3d to, double radius)
-        {
-            return new ConvexObstacle(new[] { from, to }, radius);
-        }
+        public static ConvexObstacle Capsule(in Vector3d from, in Vector3d to, double radius) =>
+            new ConvexObstacle(new[] { from, to }, radius);
 
         /// <summary>A box with edges along the directors of <paramref name="orientation"/> and the lengths
         /// 2 <paramref name="halfSize"/>.</summary>
@@ -118,16 +114,12 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override bool Contains(in Vector3d point)
-        {
-            return _gjk.Distance(point, point, _points, out _, out _, out _) > _radius;
-        }
+        public override bool Contains(in Vector3d point) =>
+            _gjk.Distance(point, point, _points, out _, out _, out _) > _radius;
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double clearance, double resolution, int hint)
-        {
-            return SweptTest.Impact(new ConvexWall(this), a0, b0, a1, b1, clearance, resolution);
-        }
+            double clearance, double resolution, int hint) =>
+            SweptTest.Impact(new ConvexWall(this), a0, b0, a1, b1, clearance, resolution);
 
         /// <summary>That of the deepest point; the distance of a segment that cuts the body is the shortest
         /// displacement out of it, which may be longer.</summary>
@@ -165,10 +157,8 @@ namespace Guidewire.Core
             return least;
         }
 
-        private double DistanceOf(in Vector3d point)
-        {
-            return _gjk.Distance(point, point, _points, out _, out _, out _) - _radius;
-        }
+        private double DistanceOf(in Vector3d point) =>
+            _gjk.Distance(point, point, _points, out _, out _, out _) - _radius;
 
         /// <summary>The edges of the hull: over a face a segment is nearest with an end.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,

@@ -84,9 +84,6 @@ namespace Guidewire.Core
 
         /// <summary>Gives the angle by which the wall turns under a segment of this length, units, over the weight,
         /// radians.</summary>
-        public double TurnUnder(double length)
-        {
-            return Angle * Rounding > length ? length / Rounding : Angle;
-        }
+        public double TurnUnder(double length) => Angle * Rounding > length ? length / Rounding : Angle;
     }
 }

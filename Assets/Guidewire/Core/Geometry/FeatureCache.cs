@@ -107,10 +107,7 @@ namespace Guidewire.Core
                 Distance = distance;
             }
 
-            public bool Is(in Vector3d centre, double radius)
-            {
-                return _radius == radius && _centre == centre;
-            }
+            public bool Is(in Vector3d centre, double radius) => _radius == radius && _centre == centre;
         }
     }
 }

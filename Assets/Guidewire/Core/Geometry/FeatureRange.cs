@@ -62,9 +62,6 @@ namespace Guidewire.Core
         public int this[int index] => _features![index].Index;
 
         /// <summary>Lower bound of the present distance of the feature at an index, units.</summary>
-        public double MinDistance(int index)
-        {
-            return _features![index].Distance - Moved;
-        }
+        public double MinDistance(int index) => _features![index].Distance - Moved;
     }
 }

@@ -112,9 +112,7 @@ namespace Guidewire.Core
             return Math.Atan2(Turn(first, last, along), Vector3d.Dot(first, last));
         }
 
-        private static double Turn(in Vector3d from, in Vector3d to, in Vector3d axis)
-        {
-            return Vector3d.Dot(Vector3d.Cross(from, to), axis);
-        }
+        private static double Turn(in Vector3d from, in Vector3d to, in Vector3d axis) =>
+            Vector3d.Dot(Vector3d.Cross(from, to), axis);
     }
 }

@@ -173,10 +173,8 @@ namespace Guidewire.Core
         }
 
         // Not at the end of the vessel.
-        private double Inside(double least, double width, double distance)
-        {
-            return width > _above && _narrowest - width <= EndSlope * distance ? Math.Min(least, width) : least;
-        }
+        private double Inside(double least, double width, double distance) =>
+            width > _above && _narrowest - width <= EndSlope * distance ? Math.Min(least, width) : least;
 
         private double Across(double distance)
         {
@@ -185,10 +183,8 @@ namespace Guidewire.Core
             return _ball.Width;
         }
 
-        private double Lesser(in Vector3d x, in Vector3d direction)
-        {
-            return Math.Min(_ball.DistanceAt(x + direction), _ball.DistanceAt(x - direction));
-        }
+        private double Lesser(in Vector3d x, in Vector3d direction) =>
+            Math.Min(_ball.DistanceAt(x + direction), _ball.DistanceAt(x - direction));
 
         // Of the axes, the diagonals of the faces and those of the cube.
         private Vector3d FirstDirection(in Vector3d x, double width)

@@ -111,10 +111,8 @@ namespace Guidewire.Core
             return false;
         }
 
-        private void Measure(in Vector3d x, in Vector3d along, double enough)
-        {
+        private void Measure(in Vector3d x, in Vector3d along, double enough) =>
             _ball.Climb(x, along, Fineness * _radius, enough, _radius);
-        }
 
         private bool IsTooNarrow(TubeShape tube, Vector3d[] wire, double travel)
         {

@@ -54,31 +54,23 @@ namespace Guidewire.Core
         /// <summary>Lower bound of the distance between the wall and segment a b; minus infinity where no query was
         /// made.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly double Clearance(in Vector3d a, in Vector3d b)
-        {
-            return _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;
-        }
+        public readonly double Clearance(in Vector3d a, in Vector3d b) =>
+            _skin >= 0.0 ? _clearance - Moved(a, b) : double.NegativeInfinity;
 
         /// <summary>False where the wall is certainly farther from segment a b than a range.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly bool MayBeInRange(in Vector3d a, in Vector3d b, double range)
-        {
-            return MayBeInRange(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
-        }
+        public readonly bool MayBeInRange(in Vector3d a, in Vector3d b, double range) =>
+            MayBeInRange(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared), range);
 
         /// <summary>The same for its first end alone.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly bool FirstMayBeInRange(in Vector3d a, double range)
-        {
-            return MayBeInRange((a - _a).LengthSquared, range);
-        }
+        public readonly bool FirstMayBeInRange(in Vector3d a, double range) =>
+            MayBeInRange((a - _a).LengthSquared, range);
 
         /// <summary>The same for its second end.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly bool SecondMayBeInRange(in Vector3d b, double range)
-        {
-            return MayBeInRange((b - _b).LengthSquared, range);
-        }
+        public readonly bool SecondMayBeInRange(in Vector3d b, double range) =>
+            MayBeInRange((b - _b).LengthSquared, range);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private readonly bool MayBeInRange(double squaredMotion, double range)
@@ -89,27 +81,19 @@ namespace Guidewire.Core
 
         /// <summary>Its features, if the result is valid between a and b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly FeatureRange Features(StructList<WallFeature> features, in Vector3d a, in Vector3d b)
-        {
-            return Covers(a, b) ? new FeatureRange(features, _from, _to, Moved(a, b)) : default;
-        }
+        public readonly FeatureRange Features(StructList<WallFeature> features, in Vector3d a, in Vector3d b) =>
+            Covers(a, b) ? new FeatureRange(features, _from, _to, Moved(a, b)) : default;
 
         /// <summary>The same at its first end.</summary>
-        public readonly FeatureRange FeaturesAtA(StructList<WallFeature> features, in Vector3d a)
-        {
-            return Features(features, a, _b);
-        }
+        public readonly FeatureRange FeaturesAtA(StructList<WallFeature> features, in Vector3d a) =>
+            Features(features, a, _b);
 
         /// <summary>The same at its second end.</summary>
-        public readonly FeatureRange FeaturesAtB(StructList<WallFeature> features, in Vector3d b)
-        {
-            return Features(features, _a, b);
-        }
+        public readonly FeatureRange FeaturesAtB(StructList<WallFeature> features, in Vector3d b) =>
+            Features(features, _a, b);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private readonly double Moved(in Vector3d a, in Vector3d b)
-        {
-            return Math.Sqrt(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared));
-        }
+        private readonly double Moved(in Vector3d a, in Vector3d b) =>
+            Math.Sqrt(Math.Max((a - _a).LengthSquared, (b - _b).LengthSquared));
     }
 }

@@ -49,16 +49,11 @@ namespace Guidewire.Core
             return contact.Distance;
         }
 
-        private protected override ContactShape? Outward(double distance)
-        {
-            return new PlaneShape(_point - distance * _normal, _normal);
-        }
+        private protected override ContactShape? Outward(double distance) =>
+            new PlaneShape(_point - distance * _normal, _normal);
 
         /// <inheritdoc/>
-        public override bool Contains(in Vector3d point)
-        {
-            return Vector3d.Dot(point - _point, _normal) > 0.0;
-        }
+        public override bool Contains(in Vector3d point) => Vector3d.Dot(point - _point, _normal) > 0.0;
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
             double clearance, double resolution, int hint)
@@ -70,10 +65,8 @@ namespace Guidewire.Core
             return Math.Min(Crossing(da0, da1, clearance), Crossing(db0, db1, clearance));
         }
 
-        private static double Crossing(double before, double after, double clearance)
-        {
-            return after < clearance ? Math.Max(0.0, (before - clearance) / (before - after)) : NoImpact;
-        }
+        private static double Crossing(double before, double after, double clearance) =>
+            after < clearance ? Math.Max(0.0, (before - clearance) / (before - after)) : NoImpact;
 
         // An element parallel to the plane touches it everywhere: its middle represents it, so that a symmetric problem
         // symmetric.

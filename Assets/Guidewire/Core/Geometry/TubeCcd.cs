@@ -333,19 +333,12 @@ namespace Guidewire.Core
             return false;
         }
 
-        private bool HoldsAll(in TubePiece piece, in Vector3d a, in Vector3d b, in Vector3d c, in Vector3d d)
-        {
-            return Holds(piece, a) && Holds(piece, d) && Holds(piece, b) && Holds(piece, c);
-        }
+        private bool HoldsAll(in TubePiece piece, in Vector3d a, in Vector3d b, in Vector3d c, in Vector3d d) =>
+            Holds(piece, a) && Holds(piece, d) && Holds(piece, b) && Holds(piece, c);
 
-        private bool Holds(in TubePiece piece, in Vector3d x)
-        {
-            return !piece.IsBelow(x, _clearance) && piece.Distance(x, out _, out _) >= _clearance;
-        }
+        private bool Holds(in TubePiece piece, in Vector3d x) =>
+            !piece.IsBelow(x, _clearance) && piece.Distance(x, out _, out _) >= _clearance;
 
-        private Vector3d At(double s, double t)
-        {
-            return Vector3d.Lerp(_a + t * _moveA, _b + t * _moveB, s);
-        }
+        private Vector3d At(double s, double t) => Vector3d.Lerp(_a + t * _moveA, _b + t * _moveB, s);
     }
 }

@@ -222,10 +222,7 @@ namespace Guidewire.Core
                 || (_pieces[k - 1].IsPast(x, slack) && _pieces[k].IsBefore(x, slack));
         }
 
-        private double Difference(int k, in Vector3d x)
-        {
-            return _pieces[k - 1].Distance(x) - _pieces[k].Distance(x);
-        }
+        private double Difference(int k, in Vector3d x) => _pieces[k - 1].Distance(x) - _pieces[k].Distance(x);
 
         // Both pieces' terms at a point of the segment.
         private readonly struct Crossing

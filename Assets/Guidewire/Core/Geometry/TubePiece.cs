@@ -51,23 +51,15 @@ namespace Guidewire.Core
 
         /// <summary>Whether the centre that gives the distance is the last knot for all points within a distance of x.
         /// </summary>
-        public bool IsPast(in Vector3d x, double distance)
-        {
-            return Free(x - From) > _length + (1.0 + Math.Abs(_lean)) * distance;
-        }
+        public bool IsPast(in Vector3d x, double distance) =>
+            Free(x - From) > _length + (1.0 + Math.Abs(_lean)) * distance;
 
         /// <summary>Says the same for the first knot.</summary>
-        public bool IsBefore(in Vector3d x, double distance)
-        {
-            return Free(x - From) < -(1.0 + Math.Abs(_lean)) * distance;
-        }
+        public bool IsBefore(in Vector3d x, double distance) => Free(x - From) < -(1.0 + Math.Abs(_lean)) * distance;
 
         /// <summary>max over y in [0, length] of R(y) - |x - c(y)|: how deep x lies in the piece's lumen, negative
         /// outside. Concave, because the lumen is convex, and of slope 1 or less.</summary>
-        public double Distance(in Vector3d x)
-        {
-            return DistanceFrom(CentreAt(Free(x - From), out double y), y, x);
-        }
+        public double Distance(in Vector3d x) => DistanceFrom(CentreAt(Free(x - From), out double y), y, x);
 
         /// <summary>The same with the centre that gives it, and where along the piece that centre would lie if the
         /// piece had no ends: from 0 to 1 between its knots.</summary>
@@ -89,10 +81,8 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private double DistanceFrom(in Vector3d centre, double y, in Vector3d x)
-        {
-            return _radius + _slope * y - Vector3d.Distance(x, centre);
-        }
+        private double DistanceFrom(in Vector3d centre, double y, in Vector3d x) =>
+            _radius + _slope * y - Vector3d.Distance(x, centre);
 
         // Arc length of the centre if the piece had no ends, for an offset from the first knot.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -25,10 +25,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Distance of x beyond the plane of knot k, units.</summary>
-        public double Past(int k, in Vector3d x)
-        {
-            return Vector3d.Dot(_across[k], x - _knots[k]);
-        }
+        public double Past(int k, in Vector3d x) => Vector3d.Dot(_across[k], x - _knots[k]);
 
         /// <summary>The piece between whose planes x lies, from a guess on, without looking across the tube.</summary>
         public int PieceAt(in Vector3d x, int guess)

@@ -294,10 +294,8 @@ namespace Guidewire.Core
 
         /// <summary>Gives what <see cref="TubeCcd"/> proves at once.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
-            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit)
-        {
-            return Math.Min(limit, Ccd.SafeFraction(a0, b0, a1, b1, clearance, Guess(a0, hint)));
-        }
+            in Vector3d b1, double clearance, double resolution, int hint, FeatureRange features, double limit) =>
+            Math.Min(limit, Ccd.SafeFraction(a0, b0, a1, b1, clearance, Guess(a0, hint)));
 
         /// <summary>The part of the motion that <see cref="TubeCcd"/> proves to be free, and again from where it ends:
         /// until the segment is at the wall, or little is gained. Distances have slope 1 or less, so each advance is at
@@ -334,10 +332,8 @@ namespace Guidewire.Core
             return time;
         }
 
-        private int Guess(in Vector3d x, int hint)
-        {
-            return hint >= 0 && hint < _tree.Pieces.Length ? hint : _tree.Deepest(x, 0, out _);
-        }
+        private int Guess(in Vector3d x, int hint) =>
+            hint >= 0 && hint < _tree.Pieces.Length ? hint : _tree.Deepest(x, 0, out _);
 
         // Where d is least along the segment, and the piece whose term it is. A piece that is deepest at both ends of a
         // part is deepest on all of it, its term being concave, and then an end is the nearest point. So a part is
@@ -413,10 +409,8 @@ namespace Guidewire.Core
 
         /// <summary>The term of piece i at x with the centre that gives it, and where along the piece that centre would
         /// lie if the piece had no ends: from 0 to 1 between its knots.</summary>
-        internal double PieceDistance(int i, in Vector3d x, out Vector3d centre, out double along)
-        {
-            return _tree.Pieces[i].Distance(x, out centre, out along);
-        }
+        internal double PieceDistance(int i, in Vector3d x, out Vector3d centre, out double along) =>
+            _tree.Pieces[i].Distance(x, out centre, out along);
 
         private static string? Check(Vector3d[] knots, double[] radii)
         {

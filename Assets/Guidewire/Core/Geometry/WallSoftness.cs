@@ -46,9 +46,6 @@ namespace Guidewire.Core
         public WallRegions? Regions { get; set; }
 
         /// <summary>Says by how much a wire of a radius may displace a wall that stays where it is, m.</summary>
-        internal double MaxOf(double radius)
-        {
-            return Limit > 0.0 && Limit < radius ? Limit : LimitOfRadius * radius;
-        }
+        internal double MaxOf(double radius) => Limit > 0.0 && Limit < radius ? Limit : LimitOfRadius * radius;
     }
 }

@@ -94,15 +94,9 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override bool Equals(object? obj)
-        {
-            return Equals(obj as CArm);
-        }
+        public override bool Equals(object? obj) => Equals(obj as CArm);
 
         /// <inheritdoc/>
-        public override int GetHashCode()
-        {
-            return HashCode.Combine(LeftOblique, Cranial, Centre, FieldOfView, Pixels, Axes);
-        }
+        public override int GetHashCode() => HashCode.Combine(LeftOblique, Cranial, Centre, FieldOfView, Pixels, Axes);
     }
 }

@@ -12,10 +12,7 @@ namespace Guidewire.Core
         private const double StraightSquared = 4e-4;
 
         /// <summary>Whether element j is drawn as several pieces.</summary>
-        public static bool IsBent(Vector3d[] x, int j)
-        {
-            return IsBentAt(x, j) || IsBentAt(x, j + 1);
-        }
+        public static bool IsBent(Vector3d[] x, int j) => IsBentAt(x, j) || IsBentAt(x, j + 1);
 
         /// <summary>Gives the point of element j at t in [0, 1].</summary>
         public static Vector3d At(Vector3d[] x, int j, double t)

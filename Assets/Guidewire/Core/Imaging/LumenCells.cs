@@ -109,9 +109,6 @@ namespace Guidewire.Core
             return cell - 1;
         }
 
-        private int Index(double at, int axis)
-        {
-            return (int)Math.Max(0.0, Math.Min(_counts[axis] - 1.0, Math.Floor(at)));
-        }
+        private int Index(double at, int axis) => (int)Math.Max(0.0, Math.Min(_counts[axis] - 1.0, Math.Floor(at)));
     }
 }

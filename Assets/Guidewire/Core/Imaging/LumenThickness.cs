@@ -28,10 +28,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes where its vertices are, if they were moved; the middles of rims stay.</summary>
-        public void Take(Vector3d[]? vertices)
-        {
-            vertices?.CopyTo(_vertices, 0);
-        }
+        public void Take(Vector3d[]? vertices) => vertices?.CopyTo(_vertices, 0);
 
         /// <summary>Adds the vessel's thickness to that of others, in pixels' sides.</summary>
         /// <param name="arm">Where it is seen from.</param>
@@ -114,10 +111,8 @@ namespace Guidewire.Core
             }
         }
 
-        private static double Crossing(in Vector3d upper, in Vector3d lower, double y)
-        {
-            return upper.X + (y - upper.Y) / (lower.Y - upper.Y) * (lower.X - upper.X);
-        }
+        private static double Crossing(in Vector3d upper, in Vector3d lower, double y) =>
+            upper.X + (y - upper.Y) / (lower.Y - upper.Y) * (lower.X - upper.X);
 
         private static void Order(ref Vector3d a, ref Vector3d b)
         {

@@ -52,22 +52,14 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public bool Equals(PatientAxes? other)
-        {
-            return other != null && Left == other.Left && Chest == other.Chest && Head == other.Head;
-        }
+        public bool Equals(PatientAxes? other) =>
+            other != null && Left == other.Left && Chest == other.Chest && Head == other.Head;
 
         /// <inheritdoc/>
-        public override bool Equals(object? obj)
-        {
-            return Equals(obj as PatientAxes);
-        }
+        public override bool Equals(object? obj) => Equals(obj as PatientAxes);
 
         /// <inheritdoc/>
-        public override int GetHashCode()
-        {
-            return HashCode.Combine(Left, Chest, Head);
-        }
+        public override int GetHashCode() => HashCode.Combine(Left, Chest, Head);
 
         private static Vector3d Towards(string letters, char plus, char minus)
         {

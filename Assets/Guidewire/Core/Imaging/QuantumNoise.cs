@@ -12,10 +12,7 @@ namespace Guidewire.Core
         private static readonly float PerDeviation = (float)(1.0 / Math.Sqrt(4.0 * 65535.0 / 12.0));
 
         /// <summary>Gives what a seed contributes to every pixel's hash.</summary>
-        public static uint Start(uint seed)
-        {
-            return Mixed(seed ^ 0x9e3779b9u);
-        }
+        public static uint Start(uint seed) => Mixed(seed ^ 0x9e3779b9u);
 
         /// <summary>Gives a pixel's deviation, in standard deviations.</summary>
         /// <param name="start">Of the seed.</param>

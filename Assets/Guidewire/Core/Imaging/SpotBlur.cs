@@ -88,9 +88,6 @@ namespace Guidewire.Core
             _line = new float[_pixels + 2 * extent];
         }
 
-        private static double Weight(int k, double deviation)
-        {
-            return Math.Exp(-0.5 * k * k / (deviation * deviation));
-        }
+        private static double Weight(int k, double deviation) => Math.Exp(-0.5 * k * k / (deviation * deviation));
     }
 }

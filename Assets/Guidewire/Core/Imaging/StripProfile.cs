@@ -95,9 +95,6 @@ namespace Guidewire.Core
             return 2.0 * (_a > 0.0 ? outer - Math.Sqrt(Math.Max(0.0, _a * _a - s * s)) : outer);
         }
 
-        private static double Ramp(double x)
-        {
-            return x > 0.0 ? 0.5 * x * x : 0.0;
-        }
+        private static double Ramp(double x) => x > 0.0 ? 0.5 * x * x : 0.0;
     }
 }

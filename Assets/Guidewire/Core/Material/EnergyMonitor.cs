@@ -129,9 +129,6 @@ namespace Guidewire.Core
         }
 
         // T, J.
-        private double Motion()
-        {
-            return _inertia.KineticEnergy(_velocities, _spins);
-        }
+        private double Motion() => _inertia.KineticEnergy(_velocities, _spins);
     }
 }

@@ -100,10 +100,8 @@ namespace Guidewire.Core
             return _modes[0];
         }
 
-        private int Factorise(RodShape shape, double shift)
-        {
-            return _system.Factorise(_terms, shape, _gradient, _work, shift);
-        }
+        private int Factorise(RodShape shape, double shift) =>
+            _system.Factorise(_terms, shape, _gradient, _work, shift);
 
         // Just above the size of the most negative eigenvalue; its factorisation is kept.
         private double LowestShift(RodShape shape)

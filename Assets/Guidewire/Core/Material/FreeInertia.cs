@@ -17,9 +17,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
-        {
-            return _mass.KineticEnergy(velocities, spins, _first, _mass.ElementCount - _held);
-        }
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins) =>
+            _mass.KineticEnergy(velocities, spins, _first, _mass.ElementCount - _held);
     }
 }

@@ -226,9 +226,7 @@ namespace Guidewire.Core
                 + Vector3d.Dot(endCouple, Between(distal, shape.DistalFrame)));
         }
 
-        private static Vector3d Between(in Quaterniond before, in Quaterniond after)
-        {
-            return Quaterniond.Rotate(before, RotationVector.Log(before.Conjugate * after));
-        }
+        private static Vector3d Between(in Quaterniond before, in Quaterniond after) =>
+            Quaterniond.Rotate(before, RotationVector.Log(before.Conjugate * after));
     }
 }

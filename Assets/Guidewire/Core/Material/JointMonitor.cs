@@ -42,10 +42,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The rod has other elements.</summary>
-        public void Remesh()
-        {
-            _rod.SetJoints(_supports, _joints);
-        }
+        public void Remesh() => _rod.SetJoints(_supports, _joints);
 
         /// <summary>What the wire has lost of its twist in this shape, or is about to, in one line; or null.</summary>
         /// <param name="time">s; the clamps have turned as they should by then.</param>
@@ -62,17 +59,12 @@ namespace Guidewire.Core
         /// <param name="time">s.</param>
         /// <param name="done">How much of what the ends are asked to do at this time they have done, above 0 to
         /// 1.</param>
-        public string? FindTurned(RodShape shape, double time, double done = 1.0)
-        {
-            return FindTurned(shape, time, done, _least);
-        }
+        public string? FindTurned(RodShape shape, double time, double done = 1.0) =>
+            FindTurned(shape, time, done, _least);
 
         /// <summary>The same of a joint that is turned by more than half a turn: a wire that turned as it should would
         /// have been found before.</summary>
-        public string? FindPassed(RodShape shape, double time)
-        {
-            return FindTurned(shape, time, 1.0, 0.0);
-        }
+        public string? FindPassed(RodShape shape, double time) => FindTurned(shape, time, 1.0, 0.0);
 
         // That whose cos(a/2) is the least, below a limit.
         private string? FindTurned(RodShape shape, double time, double done, double limit)
@@ -195,9 +187,7 @@ namespace Guidewire.Core
 
         // cos(a/2) of the turn from a to b.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static double Cosine(in Quaterniond a, in Quaterniond b)
-        {
-            return a.X * b.X + a.Y * b.Y + a.Z * b.Z + a.W * b.W;
-        }
+        private static double Cosine(in Quaterniond a, in Quaterniond b) =>
+            a.X * b.X + a.Y * b.Y + a.Z * b.Z + a.W * b.W;
     }
 }

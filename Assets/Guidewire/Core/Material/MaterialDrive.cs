@@ -122,10 +122,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Displacement of node 0 in the following steps, m, instead of that asked; null: as asked.</summary>
-        public void OverrideDisplacement(double? displacement)
-        {
-            _override = displacement;
-        }
+        public void OverrideDisplacement(double? displacement) => _override = displacement;
 
         /// <summary>Sets where node 0 is and how fast it goes and turns, from this time on.</summary>
         public void Prepare(RodShape shape, double time)
@@ -162,16 +159,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Displacement that is asked of node 0 in the step that begins at this time, m.</summary>
-        public double AskedAt(double time)
-        {
-            return _direction == null ? 0.0 : SpeedAt(time) * _timeStep;
-        }
+        public double AskedAt(double time) => _direction == null ? 0.0 : SpeedAt(time) * _timeStep;
 
         /// <summary>Displacement of node 0 in the step that begins at this time, m.</summary>
-        public double NextMove(double time)
-        {
-            return _direction == null ? 0.0 : Limited(_override ?? AskedAt(time));
-        }
+        public double NextMove(double time) => _direction == null ? 0.0 : Limited(_override ?? AskedAt(time));
 
         /// <summary>Lets the hub slip, after a step, along its axis.</summary>
         /// <param name="slip">m, back where it is positive.</param>
@@ -187,10 +178,7 @@ namespace Guidewire.Core
 
         /// <summary>The part of a displacement between two positions in the sense in which the drive was last asked to
         /// go, m.</summary>
-        public double AxialProgress(in Vector3d from, in Vector3d to)
-        {
-            return _sense * Vector3d.Dot(to - from, Axis);
-        }
+        public double AxialProgress(in Vector3d from, in Vector3d to) => _sense * Vector3d.Dot(to - from, Axis);
 
         /// <summary>Writes or restores how far the hub has come.</summary>
         public void Serialize(Snapshot snapshot)
@@ -232,9 +220,6 @@ namespace Guidewire.Core
                 ? Math.Min(Math.Max(Insertion + asked, _minInsertion), _maxInsertion) - Insertion : asked;
         }
 
-        private double Rate(TimeTable table, double time)
-        {
-            return (table.At(time + _timeStep) - table.At(time)) / _timeStep;
-        }
+        private double Rate(TimeTable table, double time) => (table.At(time + _timeStep) - table.At(time)) / _timeStep;
     }
 }

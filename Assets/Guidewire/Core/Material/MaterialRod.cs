@@ -168,22 +168,13 @@ namespace Guidewire.Core
 
         /// <summary>Says what the joints at the two ends of element j see of it, where it is not the same all
         /// along.</summary>
-        public void SetSides(int j, in JointSide start, in JointSide end)
-        {
-            _sides[j] = new[] { start, end };
-        }
+        public void SetSides(int j, in JointSide start, in JointSide end) => _sides[j] = new[] { start, end };
 
         /// <summary>Gives what the joint before element j sees of it.</summary>
-        public JointSide StartOf(int j)
-        {
-            return _sides[j] == null ? Even(j) : _sides[j]![0];
-        }
+        public JointSide StartOf(int j) => _sides[j] == null ? Even(j) : _sides[j]![0];
 
         /// <summary>Gives what the joint after element j sees of it.</summary>
-        public JointSide EndOf(int j)
-        {
-            return _sides[j] == null ? Even(j) : _sides[j]![1];
-        }
+        public JointSide EndOf(int j) => _sides[j] == null ? Even(j) : _sides[j]![1];
 
         /// <summary>The n+1 joints: 0 and n at the ends, k between elements k-1 and k. A joint stands for half of the
         /// element on either side, times its weight; its compliance is the sum of theirs.</summary>
@@ -280,10 +271,8 @@ namespace Guidewire.Core
             return supports.Clamp;
         }
 
-        private static ClampRule ShortRule(RodSupports supports)
-        {
-            return supports.Clamp == ClampRule.FourthOrder ? ClampRule.HalfElement : supports.Clamp;
-        }
+        private static ClampRule ShortRule(RodSupports supports) =>
+            supports.Clamp == ClampRule.FourthOrder ? ClampRule.HalfElement : supports.Clamp;
 
         /// <summary>Weight of the joint that stands <paramref name="index"/> joints from a clamp (0: the clamp's
         /// own).</summary>

@@ -59,10 +59,7 @@ namespace Guidewire.Core
         /// <param name="fraction">Of the radius, that has to be free.</param>
         /// <param name="name">What the phrase calls it.</param>
         public static string? FindProblem(MaterialScene scene, int from, int to, double fraction = 1.0,
-            string name = Wire)
-        {
-            return FindProblem(scene, Nodes(scene), from, to, fraction, name);
-        }
+            string name = Wire) => FindProblem(scene, Nodes(scene), from, to, fraction, name);
 
         private static Vector3d[] Nodes(MaterialScene scene)
         {

@@ -139,10 +139,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or restores the time of the next check.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            snapshot.Serialize(ref _nextCheck);
-        }
+        public void Serialize(Snapshot snapshot) => snapshot.Serialize(ref _nextCheck);
 
         // The Newton step; false where the nearby equilibrium is unstable.
         private bool Factorise()
@@ -211,9 +208,7 @@ namespace Guidewire.Core
         }
 
         // The largest shift, or turn times L.
-        private double Size(RodVector[] v)
-        {
-            return _length * RodStep.Size(v, _scene.Rod.ElementCount, _length, out _, _terms.VectorCount);
-        }
+        private double Size(RodVector[] v) =>
+            _length * RodStep.Size(v, _scene.Rod.ElementCount, _length, out _, _terms.VectorCount);
     }
 }

@@ -76,10 +76,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Kinetic energy, J, of these velocities and angular velocities.</summary>
-        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins)
-        {
-            return KineticEnergy(velocities, spins, 0, ElementCount);
-        }
+        public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins) =>
+            KineticEnergy(velocities, spins, 0, ElementCount);
 
         /// <summary>The same where only the nodes from one to another one count.</summary>
         public double KineticEnergy(Vector3d[] velocities, Vector3d[] spins, int first, int last)

@@ -23,10 +23,7 @@ namespace Guidewire.Core
 
         /// <summary>The fraction of joint k that is outside a sheath: 0 where none of it is, above 0 to 1
         /// elsewhere.</summary>
-        public double FractionOutside(int k)
-        {
-            return Coaxial?.Joints.FractionOutside(k) ?? 1.0;
-        }
+        public double FractionOutside(int k) => Coaxial?.Joints.FractionOutside(k) ?? 1.0;
 
         /// <summary>Whether the joint at the proximal clamp stands for all of a wire in its sheath, and turns about it
         /// without limit.</summary>

@@ -128,16 +128,10 @@ namespace Guidewire.Core
         public bool HavePotential => Array.TrueForAll(All, term => term.HasPotential);
 
         /// <summary>The terms that are true energies.</summary>
-        public EnergyTerm[] WithPotential()
-        {
-            return Array.FindAll(All, term => term.HasPotential);
-        }
+        public EnergyTerm[] WithPotential() => Array.FindAll(All, term => term.HasPotential);
 
         /// <summary>Gives every term and these.</summary>
-        public EnergyTerm[] With(params EnergyTerm[] more)
-        {
-            return Joined(All, more);
-        }
+        public EnergyTerm[] With(params EnergyTerm[] more) => Joined(All, more);
 
         /// <summary>Sets all that is prescribed at this time.</summary>
         public void SetTime(RodSchedule schedule, double time)
@@ -156,16 +150,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the gradient of all terms.</summary>
-        public void AddGradient(RodShape shape, RodVector[] gradient)
-        {
-            AddGradient(All, shape, gradient);
-        }
+        public void AddGradient(RodShape shape, RodVector[] gradient) => AddGradient(All, shape, gradient);
 
         /// <summary>Adds the gradient of the loads: minus the forces and couples that act from outside.</summary>
-        public void AddLoadGradient(RodShape shape, RodVector[] gradient)
-        {
-            AddGradient(_loads, shape, gradient);
-        }
+        public void AddLoadGradient(RodShape shape, RodVector[] gradient) => AddGradient(_loads, shape, gradient);
 
         /// <summary>Gives the energy stored in the wire, J.</summary>
         public double ElasticEnergy(RodShape shape)
@@ -179,22 +167,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>Energy stored in the wire and in its contacts with walls, J.</summary>
-        public double StoredEnergy(RodShape shape)
-        {
-            return ElasticEnergy(shape) + (Contact == null ? 0.0 : Contact.StoredEnergy(shape)) + FrictionStored;
-        }
+        public double StoredEnergy(RodShape shape) =>
+            ElasticEnergy(shape) + (Contact == null ? 0.0 : Contact.StoredEnergy(shape)) + FrictionStored;
 
         /// <summary>Energy stored in the wire less the work of the loads that have a potential, J.</summary>
-        public double Potential(RodShape shape)
-        {
-            return PotentialFrom(0, shape);
-        }
+        public double Potential(RodShape shape) => PotentialFrom(0, shape);
 
         /// <summary>The same without what the wire stores: of loads and contacts, J.</summary>
-        public double LoadPotential(RodShape shape)
-        {
-            return PotentialFrom(_elastic.Length, shape);
-        }
+        public double LoadPotential(RodShape shape) => PotentialFrom(_elastic.Length, shape);
 
         private double PotentialFrom(int first, RodShape shape)
         {
@@ -228,16 +208,11 @@ namespace Guidewire.Core
 
         /// <summary>What of that is not on node 0, N: the force by which a sheath holds back a bent rod; 0 without
         /// one.</summary>
-        public double SheathForce(RodShape shape)
-        {
-            return Release?.SheathForce(shape) ?? 0.0;
-        }
+        public double SheathForce(RodShape shape) => Release?.SheathForce(shape) ?? 0.0;
 
         /// <summary>Gives the hub's axis, a unit vector.</summary>
-        public Vector3d HubAxis(RodShape shape)
-        {
-            return Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
-        }
+        public Vector3d HubAxis(RodShape shape) =>
+            Supports.HasProximalJoint ? shape.ProximalFrame.Director3 : shape.Q[0].Director3;
 
         /// <summary>Gradient of the elastic energy at node 0 or n, N: minus the force of the wire on it.</summary>
         public Vector3d EndGradient(RodShape shape, int node)

@@ -114,10 +114,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes a strain of an instrument; what is not a number is more than any.</summary>
-        internal void TakeStrain(double strain)
-        {
+        internal void TakeStrain(double strain) =>
             Strain = strain <= Strain ? Strain : double.IsNaN(strain) ? double.MaxValue : strain;
-        }
 
         /// <summary>Takes what the hub does.</summary>
         /// <param name="force">Along its axis, N.</param>
@@ -183,9 +181,6 @@ namespace Guidewire.Core
         }
 
         // Any number replaces NaN.
-        private static double Larger(double before, double now)
-        {
-            return before >= now ? before : now;
-        }
+        private static double Larger(double before, double now) => before >= now ? before : now;
     }
 }

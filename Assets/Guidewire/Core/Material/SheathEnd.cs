@@ -34,15 +34,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the distance of a node beyond the exit of the sheath, m; negative inside.</summary>
-        public double Outside(in Vector3d node)
-        {
-            return Vector3d.Dot(node - Exit, Axis);
-        }
+        public double Outside(in Vector3d node) => Vector3d.Dot(node - Exit, Axis);
 
         /// <summary>Gives the point of the sheath's axis beside a node, m.</summary>
-        public Vector3d OnAxis(in Vector3d node)
-        {
-            return Exit + Outside(node) * Axis;
-        }
+        public Vector3d OnAxis(in Vector3d node) => Exit + Outside(node) * Axis;
     }
 }

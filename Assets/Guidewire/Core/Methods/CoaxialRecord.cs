@@ -232,10 +232,8 @@ namespace Guidewire.Core
         }
 
         // 2 B_r dk/a with a = sqrt(12 play/dk), N.
-        private static double EndForce(double play, double mismatch, double reduced)
-        {
-            return mismatch > 0.0 ? 2.0 * reduced * mismatch / Math.Sqrt(12.0 * play / mismatch) : 0.0;
-        }
+        private static double EndForce(double play, double mismatch, double reduced) =>
+            mismatch > 0.0 ? 2.0 * reduced * mismatch / Math.Sqrt(12.0 * play / mismatch) : 0.0;
 
         // The largest force by which an end of the overlap lies against the lumen in a shape, N.
         private double LargestEndForce(CoaxialJoints joints, RodShape shape)
@@ -336,10 +334,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the force of a hub, N: of the outermost instrument first, of the wire last.</summary>
-        internal double ForceOf(int hub)
-        {
-            return hub == _instrument ? Force : Inside == null ? WireForce : Inside.ForceOf(hub);
-        }
+        internal double ForceOf(int hub) =>
+            hub == _instrument ? Force : Inside == null ? WireForce : Inside.ForceOf(hub);
 
         /// <summary>Takes the forces of hubs, N.</summary>
         /// <param name="force">Of the catheter's, without friction.</param>

@@ -99,9 +99,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes the wire as it is into a state.</summary>
-        protected void Write(RodState state)
-        {
-            Scene.Write(state, Shape, Velocities, Spins);
-        }
+        protected void Write(RodState state) => Scene.Write(state, Shape, Velocities, Spins);
     }
 }

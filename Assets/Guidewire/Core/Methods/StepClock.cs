@@ -22,10 +22,7 @@ namespace Guidewire.Core
         public double Time => _originTime + (_step - _originStep) * _timeStep;
 
         /// <summary>Counts one step more.</summary>
-        public void Advance()
-        {
-            _step++;
-        }
+        public void Advance() => _step++;
 
         /// <summary>Writes the clock into a snapshot, or goes on from one; with another dt from that moment
         /// on.</summary>

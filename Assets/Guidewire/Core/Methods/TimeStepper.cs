@@ -34,10 +34,7 @@ namespace Guidewire.Core
         public virtual ContactRecord? Contacts => null;
 
         /// <summary>Strains, forces, couples and energies of the wire as it is; null with pbd.</summary>
-        public virtual StressRecord? Stress()
-        {
-            return null;
-        }
+        public virtual StressRecord? Stress() => null;
 
         /// <summary>Energy of motion, that stored in all instruments, and minus the work of the loads that have a
         /// potential, J; null with pbd.</summary>
@@ -49,27 +46,19 @@ namespace Guidewire.Core
         }
 
         /// <summary>What is read off at the hub and the tip; null where the method does not compute it.</summary>
-        public virtual HubRecord? Hub()
-        {
-            return null;
-        }
+        public virtual HubRecord? Hub() => null;
 
         /// <summary>Gives the results of the outermost catheter, and of the one inside it; null without
         /// one.</summary>
-        public virtual CoaxialRecord? Coaxial()
-        {
-            return null;
-        }
+        public virtual CoaxialRecord? Coaxial() => null;
 
         /// <summary>Where the sheath ends, m; null without one.</summary>
         public virtual Vector3d? ExitOfSheath => null;
 
         /// <summary>Whether the wire's tip is in its sheath, or in a catheter whose own tip is within a wall and whose
         /// axis the wire's does not follow.</summary>
-        public bool IsTipCovered(ContactShape wall)
-        {
-            return Hub()?.SpheresInBody == 0 || Coaxial() is CoaxialRecord outer && IsIn(outer, wall, out _);
-        }
+        public bool IsTipCovered(ContactShape wall) =>
+            Hub()?.SpheresInBody == 0 || Coaxial() is CoaxialRecord outer && IsIn(outer, wall, out _);
 
         // Whether the wire's tip is in this catheter or one inside it, and how far beyond this one, m.
         private static bool IsIn(CoaxialRecord catheter, ContactShape wall, out double beyond)
@@ -85,10 +74,7 @@ namespace Guidewire.Core
         public abstract void Advance(RodState state);
 
         /// <summary>The solver's report on its own work after the steps so far; null with pbd.</summary>
-        public virtual SolverReport? Report()
-        {
-            return null;
-        }
+        public virtual SolverReport? Report() => null;
 
         /// <summary>Writes into a snapshot, or restores from one, all that the next step depends on besides the
         /// <see cref="RodState"/>: history, predictors, counters, what is prescribed.</summary>
@@ -97,9 +83,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Does the same for <see cref="PredictionError"/>.</summary>
-        protected void SerializePredictionError(Snapshot snapshot)
-        {
+        protected void SerializePredictionError(Snapshot snapshot) =>
             PredictionError = snapshot.Serialize(PredictionError);
-        }
     }
 }

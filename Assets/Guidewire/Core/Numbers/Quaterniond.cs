@@ -79,16 +79,12 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Quaterniond operator +(in Quaterniond a, in Quaterniond b)
-        {
-            return new Quaterniond(a.X + b.X, a.Y + b.Y, a.Z + b.Z, a.W + b.W);
-        }
+        public static Quaterniond operator +(in Quaterniond a, in Quaterniond b) =>
+            new Quaterniond(a.X + b.X, a.Y + b.Y, a.Z + b.Z, a.W + b.W);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Quaterniond operator *(double s, in Quaterniond a)
-        {
-            return new Quaterniond(s * a.X, s * a.Y, s * a.Z, s * a.W);
-        }
+        public static Quaterniond operator *(double s, in Quaterniond a) =>
+            new Quaterniond(s * a.X, s * a.Y, s * a.Z, s * a.W);
 
         /// <summary>Hamilton's product: a b turns by b first, then by a.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -101,29 +97,19 @@ namespace Guidewire.Core
                 a.W * b.W - a.X * b.X - a.Y * b.Y - a.Z * b.Z);
         }
 
-        public static bool operator ==(in Quaterniond a, in Quaterniond b)
-        {
-            return a.X == b.X && a.Y == b.Y && a.Z == b.Z && a.W == b.W;
-        }
+        public static bool operator ==(in Quaterniond a, in Quaterniond b) =>
+            a.X == b.X && a.Y == b.Y && a.Z == b.Z && a.W == b.W;
 
-        public static bool operator !=(in Quaterniond a, in Quaterniond b)
-        {
-            return !(a == b);
-        }
+        public static bool operator !=(in Quaterniond a, in Quaterniond b) => !(a == b);
 
         /// <summary>Gives the quaternion with imaginary part v and real part 0.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Quaterniond Pure(in Vector3d v)
-        {
-            return new Quaterniond(v.X, v.Y, v.Z, 0.0);
-        }
+        public static Quaterniond Pure(in Vector3d v) => new Quaterniond(v.X, v.Y, v.Z, 0.0);
 
         /// <summary>q / |q|. A quaternion of length 0 gives NaN: it names no orientation.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Quaterniond Normalize(in Quaterniond q)
-        {
-            return (1.0 / Math.Sqrt(q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W)) * q;
-        }
+        public static Quaterniond Normalize(in Quaterniond q) =>
+            (1.0 / Math.Sqrt(q.X * q.X + q.Y * q.Y + q.Z * q.Z + q.W * q.W)) * q;
 
         /// <summary>Gives the turn by <paramref name="angle"/> radians about <paramref name="axis"/>, a unit
         /// vector.</summary>
@@ -143,27 +129,17 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public bool Equals(Quaterniond other)
-        {
-            return X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z) && W.Equals(other.W);
-        }
+        public bool Equals(Quaterniond other) =>
+            X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z) && W.Equals(other.W);
 
         /// <inheritdoc/>
-        public override bool Equals(object? obj)
-        {
-            return obj is Quaterniond other && Equals(other);
-        }
+        public override bool Equals(object? obj) => obj is Quaterniond other && Equals(other);
 
         /// <inheritdoc/>
-        public override int GetHashCode()
-        {
-            return HashCode.Combine(X, Y, Z, W);
-        }
+        public override int GetHashCode() => HashCode.Combine(X, Y, Z, W);
 
         /// <inheritdoc/>
-        public override string ToString()
-        {
-            return string.Format(CultureInfo.InvariantCulture, "({0:R}, {1:R}, {2:R}, {3:R})", X, Y, Z, W);
-        }
+        public override string ToString() =>
+            string.Format(CultureInfo.InvariantCulture, "({0:R}, {1:R}, {2:R}, {3:R})", X, Y, Z, W);
     }
 }

@@ -122,10 +122,8 @@ namespace Guidewire.Core
 
         /// <summary>Writes the quaternions to successive positions in memory.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public void Store(ref Quaterniond first)
-        {
+        public void Store(ref Quaterniond first) =>
             Rows4.Store(ref Unsafe.As<Quaterniond, double>(ref first), 4, X, Y, Z, W);
-        }
     }
 }
 #endif

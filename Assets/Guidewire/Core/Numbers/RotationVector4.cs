@@ -76,10 +76,7 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Of(double value)
-        {
-            return Vector256.Create(value);
-        }
+        private static Vector256<double> Of(double value) => Vector256.Create(value);
     }
 }
 #endif

@@ -93,29 +93,20 @@ namespace Guidewire.Core
 
         /// <summary>Gives sum + a0 + a1 + a2 + a3, one after the other.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static double Sum(double sum, Vector256<double> a)
-        {
-            return sum + a.GetElement(0) + a.GetElement(1) + a.GetElement(2) + a.GetElement(3);
-        }
+        public static double Sum(double sum, Vector256<double> a) =>
+            sum + a.GetElement(0) + a.GetElement(1) + a.GetElement(2) + a.GetElement(3);
 
         /// <summary>Whether a comparison holds in every lane.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static bool All(Vector256<double> comparison)
-        {
-            return Avx.MoveMask(comparison) == 15;
-        }
+        public static bool All(Vector256<double> comparison) => Avx.MoveMask(comparison) == 15;
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static void AddAt(ref double first, int offset, Vector256<double> a)
-        {
+        private static void AddAt(ref double first, int offset, Vector256<double> a) =>
             (Vector256.LoadUnsafe(ref first, (nuint)offset) + a).StoreUnsafe(ref first, (nuint)offset);
-        }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static void AddAt(ref double first, int offset, Vector128<double> a)
-        {
+        private static void AddAt(ref double first, int offset, Vector128<double> a) =>
             (Vector128.LoadUnsafe(ref first, (nuint)offset) + a).StoreUnsafe(ref first, (nuint)offset);
-        }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         private static void Transpose(Vector256<double> a, Vector256<double> b, Vector256<double> c,

@@ -20,10 +20,7 @@ namespace Guidewire.Core
         public bool IsWritten { get; private set; } = true;
 
         /// <summary>What has been written, to be read from its start.</summary>
-        public Snapshot ToRead()
-        {
-            return new Snapshot { _bits = _bits, _count = _count, IsWritten = false };
-        }
+        public Snapshot ToRead() => new Snapshot { _bits = _bits, _count = _count, IsWritten = false };
 
         /// <summary>What comes next is written from the start on, in the memory that is there.</summary>
         public void RewindForWriting()
@@ -62,10 +59,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Makes room for some times what has been written.</summary>
-        public void Reserve(double times)
-        {
+        public void Reserve(double times) =>
             Array.Resize(ref _bits, Math.Max(_bits.Length, (int)Math.Ceiling(times * _count)));
-        }
 
         /// <summary>Writes or reads a count.</summary>
         public void Serialize(ref long value)
@@ -200,22 +195,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Numbers, the first ones or all; a reader has as many.</summary>
-        public void Serialize(double[] values, int count = int.MaxValue)
-        {
+        public void Serialize(double[] values, int count = int.MaxValue) =>
             Serialize(MemoryMarshal.Cast<double, long>(values.AsSpan(0, Math.Min(count, values.Length))));
-        }
 
         /// <summary>Vectors, the first ones or all; a reader has as many.</summary>
-        public void Serialize(Vector3d[] values, int count = int.MaxValue)
-        {
+        public void Serialize(Vector3d[] values, int count = int.MaxValue) =>
             Serialize(MemoryMarshal.Cast<Vector3d, long>(values.AsSpan(0, Math.Min(count, values.Length))));
-        }
 
         /// <summary>Orientations, the first ones or all; a reader has as many.</summary>
-        public void Serialize(Quaterniond[] values, int count = int.MaxValue)
-        {
+        public void Serialize(Quaterniond[] values, int count = int.MaxValue) =>
             Serialize(MemoryMarshal.Cast<Quaterniond, long>(values.AsSpan(0, Math.Min(count, values.Length))));
-        }
 
         /// <summary>A section that means something only to a reader made like its writer: written whole, and read where
         /// the reader's key is the writer's (method, scheme, step size), else left out.</summary>
@@ -262,19 +251,14 @@ namespace Guidewire.Core
         public int LeftOfSection => _sectionEnd - _at;
 
         /// <summary>Leaves out what is left of it.</summary>
-        public void SkipSection()
-        {
-            _at = _sectionEnd;
-        }
+        public void SkipSection() => _at = _sectionEnd;
 
         /// <summary>A section of a part that a writer or a reader may be without; where only one of them has it, it is
         /// left out.</summary>
         /// <param name="key">What both must agree in.</param>
         /// <param name="content">Serializes the part's numbers; null without the part.</param>
-        public void OptionalSection(string key, Action<Snapshot>? content)
-        {
+        public void OptionalSection(string key, Action<Snapshot>? content) =>
             Section(content == null ? "no " + key : key, content ?? (_ => { }));
-        }
 
         // Numbers as they lie in memory: a step keeps tens of thousands of them.
         private void Serialize(Span<long> values)

@@ -26,16 +26,10 @@ namespace Guidewire.Core
         public ref T this[int k] => ref _items[k];
 
         /// <summary>Removes all items; their memory stays.</summary>
-        public void Clear()
-        {
-            Count = 0;
-        }
+        public void Clear() => Count = 0;
 
         /// <summary>Removes the items from index <paramref name="count"/> on.</summary>
-        public void Truncate(int count)
-        {
-            Count = Math.Min(Count, count);
-        }
+        public void Truncate(int count) => Count = Math.Min(Count, count);
 
         /// <summary>Sorts the items from index <paramref name="from"/> on; allocates nothing where items say themselves
         /// which comes first.</summary>

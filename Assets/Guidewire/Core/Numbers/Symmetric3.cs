@@ -83,10 +83,8 @@ namespace Guidewire.Core
 
         /// <summary>Multiplies by a number: w A.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Symmetric3 operator *(double w, in Symmetric3 a)
-        {
-            return new Symmetric3(w * a._11, w * a._21, w * a._22, w * a._31, w * a._32, w * a._33);
-        }
+        public static Symmetric3 operator *(double w, in Symmetric3 a) =>
+            new Symmetric3(w * a._11, w * a._21, w * a._22, w * a._31, w * a._32, w * a._33);
 
         /// <summary>Multiplies a vector: A b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -68,78 +68,46 @@ namespace Guidewire.Core
         public bool IsFinite => IsFiniteNumber(X) && IsFiniteNumber(Y) && IsFiniteNumber(Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d operator +(in Vector3d a, in Vector3d b)
-        {
-            return new Vector3d(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
-        }
+        public static Vector3d operator +(in Vector3d a, in Vector3d b) =>
+            new Vector3d(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d operator -(in Vector3d a, in Vector3d b)
-        {
-            return new Vector3d(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
-        }
+        public static Vector3d operator -(in Vector3d a, in Vector3d b) =>
+            new Vector3d(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d operator -(in Vector3d a)
-        {
-            return new Vector3d(-a.X, -a.Y, -a.Z);
-        }
+        public static Vector3d operator -(in Vector3d a) => new Vector3d(-a.X, -a.Y, -a.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d operator *(double s, in Vector3d a)
-        {
-            return new Vector3d(s * a.X, s * a.Y, s * a.Z);
-        }
+        public static Vector3d operator *(double s, in Vector3d a) => new Vector3d(s * a.X, s * a.Y, s * a.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d operator *(in Vector3d a, double s)
-        {
-            return new Vector3d(s * a.X, s * a.Y, s * a.Z);
-        }
+        public static Vector3d operator *(in Vector3d a, double s) => new Vector3d(s * a.X, s * a.Y, s * a.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d operator /(in Vector3d a, double s)
-        {
-            return new Vector3d(a.X / s, a.Y / s, a.Z / s);
-        }
+        public static Vector3d operator /(in Vector3d a, double s) => new Vector3d(a.X / s, a.Y / s, a.Z / s);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static bool operator ==(in Vector3d a, in Vector3d b)
-        {
-            return a.X == b.X && a.Y == b.Y && a.Z == b.Z;
-        }
+        public static bool operator ==(in Vector3d a, in Vector3d b) => a.X == b.X && a.Y == b.Y && a.Z == b.Z;
 
-        public static bool operator !=(in Vector3d a, in Vector3d b)
-        {
-            return !(a == b);
-        }
+        public static bool operator !=(in Vector3d a, in Vector3d b) => !(a == b);
 
         /// <summary>Takes the scalar product a . b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static double Dot(in Vector3d a, in Vector3d b)
-        {
-            return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
-        }
+        public static double Dot(in Vector3d a, in Vector3d b) => a.X * b.X + a.Y * b.Y + a.Z * b.Z;
 
         /// <summary>Takes the cross product a x b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d Cross(in Vector3d a, in Vector3d b)
-        {
-            return new Vector3d(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
-        }
+        public static Vector3d Cross(in Vector3d a, in Vector3d b) =>
+            new Vector3d(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 
         /// <summary>Gives the distance |a - b|.</summary>
-        public static double Distance(in Vector3d a, in Vector3d b)
-        {
-            return (a - b).Length;
-        }
+        public static double Distance(in Vector3d a, in Vector3d b) => (a - b).Length;
 
         /// <summary>Gives (1 - t) a + t b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d Lerp(in Vector3d a, in Vector3d b, double t)
-        {
-            return new Vector3d(a.X + t * (b.X - a.X), a.Y + t * (b.Y - a.Y), a.Z + t * (b.Z - a.Z));
-        }
+        public static Vector3d Lerp(in Vector3d a, in Vector3d b, double t) =>
+            new Vector3d(a.X + t * (b.X - a.X), a.Y + t * (b.Y - a.Y), a.Z + t * (b.Z - a.Z));
 
         /// <summary>v / |v|; the zero vector stays zero, because it has no direction.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -157,32 +125,18 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public bool Equals(Vector3d other)
-        {
-            return X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z);
-        }
+        public bool Equals(Vector3d other) => X.Equals(other.X) && Y.Equals(other.Y) && Z.Equals(other.Z);
 
         /// <inheritdoc/>
-        public override bool Equals(object? obj)
-        {
-            return obj is Vector3d other && Equals(other);
-        }
+        public override bool Equals(object? obj) => obj is Vector3d other && Equals(other);
 
         /// <inheritdoc/>
-        public override int GetHashCode()
-        {
-            return HashCode.Combine(X, Y, Z);
-        }
+        public override int GetHashCode() => HashCode.Combine(X, Y, Z);
 
         /// <inheritdoc/>
-        public override string ToString()
-        {
-            return string.Format(CultureInfo.InvariantCulture, "({0:R}, {1:R}, {2:R})", X, Y, Z);
-        }
+        public override string ToString() =>
+            string.Format(CultureInfo.InvariantCulture, "({0:R}, {1:R}, {2:R})", X, Y, Z);
 
-        private static bool IsFiniteNumber(double value)
-        {
-            return !double.IsNaN(value) && !double.IsInfinity(value);
-        }
+        private static bool IsFiniteNumber(double value) => !double.IsNaN(value) && !double.IsInfinity(value);
     }
 }

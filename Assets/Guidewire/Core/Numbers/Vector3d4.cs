@@ -35,36 +35,23 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d4 operator +(Vector3d4 a, Vector3d4 b)
-        {
-            return new Vector3d4(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
-        }
+        public static Vector3d4 operator +(Vector3d4 a, Vector3d4 b) => new Vector3d4(a.X + b.X, a.Y + b.Y, a.Z + b.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d4 operator -(Vector3d4 a, Vector3d4 b)
-        {
-            return new Vector3d4(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
-        }
+        public static Vector3d4 operator -(Vector3d4 a, Vector3d4 b) => new Vector3d4(a.X - b.X, a.Y - b.Y, a.Z - b.Z);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d4 operator *(Vector256<double> s, Vector3d4 a)
-        {
-            return new Vector3d4(s * a.X, s * a.Y, s * a.Z);
-        }
+        public static Vector3d4 operator *(Vector256<double> s, Vector3d4 a) =>
+            new Vector3d4(s * a.X, s * a.Y, s * a.Z);
 
         /// <summary>Takes the scalar products a . b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector256<double> Dot(Vector3d4 a, Vector3d4 b)
-        {
-            return a.X * b.X + a.Y * b.Y + a.Z * b.Z;
-        }
+        public static Vector256<double> Dot(Vector3d4 a, Vector3d4 b) => a.X * b.X + a.Y * b.Y + a.Z * b.Z;
 
         /// <summary>Takes the cross products a x b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector3d4 Cross(Vector3d4 a, Vector3d4 b)
-        {
-            return new Vector3d4(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
-        }
+        public static Vector3d4 Cross(Vector3d4 a, Vector3d4 b) =>
+            new Vector3d4(a.Y * b.Z - a.Z * b.Y, a.Z * b.X - a.X * b.Z, a.X * b.Y - a.Y * b.X);
 
         /// <summary>Gives v / |v|; a zero vector stays zero.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

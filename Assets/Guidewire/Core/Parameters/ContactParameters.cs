@@ -27,9 +27,6 @@ namespace Guidewire.Core
         public double ElasticSlip { get; set; }
 
         /// <summary>The same values; lists and walls are shared.</summary>
-        internal ContactParameters Copy()
-        {
-            return (ContactParameters)MemberwiseClone();
-        }
+        internal ContactParameters Copy() => (ContactParameters)MemberwiseClone();
     }
 }

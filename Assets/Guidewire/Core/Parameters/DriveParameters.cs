@@ -68,9 +68,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same values; lists and walls are shared.</summary>
-        internal DriveParameters Copy()
-        {
-            return (DriveParameters)MemberwiseClone();
-        }
+        internal DriveParameters Copy() => (DriveParameters)MemberwiseClone();
     }
 }

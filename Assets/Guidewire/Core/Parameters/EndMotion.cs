@@ -43,22 +43,13 @@ namespace Guidewire.Core
         public bool Turns { get; }
 
         /// <summary>Gives the displacement at this time, m.</summary>
-        public Vector3d DisplacementAt(double time)
-        {
-            return At(_displacements, time);
-        }
+        public Vector3d DisplacementAt(double time) => At(_displacements, time);
 
         /// <summary>Gives the velocity at this time, of two at a row that after it, m/s.</summary>
-        public Vector3d VelocityAt(double time)
-        {
-            return RateOf(_displacements, time);
-        }
+        public Vector3d VelocityAt(double time) => RateOf(_displacements, time);
 
         /// <summary>Gives the rotation of the frame at this time, relative to the start.</summary>
-        public Quaterniond RotationAt(double time)
-        {
-            return RotationVector.Exp(At(_rotations, time));
-        }
+        public Quaterniond RotationAt(double time) => RotationVector.Exp(At(_rotations, time));
 
         /// <summary>Angular velocity at this time, rad/s, in the world's axes: J(r) r' with the left Jacobian J = 1 +
         /// (1 - cos a)/a^2 [r] + (a - sin a)/a^3 [r]^2 of the rotation vector r, a = |r|.</summary>

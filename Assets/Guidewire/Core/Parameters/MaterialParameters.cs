@@ -58,9 +58,6 @@ namespace Guidewire.Core
         public BendLaw BendLaw { get; set; } = BendLaw.RotationVector;
 
         /// <summary>The same values; lists and walls are shared.</summary>
-        internal MaterialParameters Copy()
-        {
-            return (MaterialParameters)MemberwiseClone();
-        }
+        internal MaterialParameters Copy() => (MaterialParameters)MemberwiseClone();
     }
 }

@@ -60,9 +60,6 @@ namespace Guidewire.Core
         public CancellationToken Cancellation { get; set; }
 
         /// <summary>The same values; lists and walls are shared.</summary>
-        internal MethodParameters Copy()
-        {
-            return (MethodParameters)MemberwiseClone();
-        }
+        internal MethodParameters Copy() => (MethodParameters)MemberwiseClone();
     }
 }

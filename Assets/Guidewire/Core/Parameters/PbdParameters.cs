@@ -14,9 +14,6 @@ namespace Guidewire.Core
         public double TotalMass { get; set; } = 0.01;
 
         /// <summary>The same values; lists and walls are shared.</summary>
-        internal PbdParameters Copy()
-        {
-            return (PbdParameters)MemberwiseClone();
-        }
+        internal PbdParameters Copy() => (PbdParameters)MemberwiseClone();
     }
 }

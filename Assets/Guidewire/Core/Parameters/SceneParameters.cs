@@ -142,9 +142,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same values; lists and walls are shared.</summary>
-        internal SceneParameters Copy()
-        {
-            return (SceneParameters)MemberwiseClone();
-        }
+        internal SceneParameters Copy() => (SceneParameters)MemberwiseClone();
     }
 }

@@ -95,10 +95,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether the value changes at this time, s, or after it.</summary>
-        internal bool ChangesFrom(double time)
-        {
-            return time < End || (time == End && _jumps.Length > 0 && _jumps[_jumps.Length - 1] == End);
-        }
+        internal bool ChangesFrom(double time) =>
+            time < End || (time == End && _jumps.Length > 0 && _jumps[_jumps.Length - 1] == End);
 
         /// <summary>The time of the first row after this time, s; infinite where there is none.</summary>
         internal double NextRow(double time)

@@ -21,15 +21,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Twist at sphere i in rad/unit, about the third director; 0 at both ends.</summary>
-        public static double Twist(RodState state, int i)
-        {
-            return Darboux(state, i).Z;
-        }
+        public static double Twist(RodState state, int i) => Darboux(state, i).Z;
 
-        private static double ElementStretch(RodState state, int j)
-        {
-            return Vector3d.Distance(state.Positions[j], state.Positions[j + 1]) / state.ElementLengths[j] - 1.0;
-        }
+        private static double ElementStretch(RodState state, int j) =>
+            Vector3d.Distance(state.Positions[j], state.Positions[j + 1]) / state.ElementLengths[j] - 1.0;
 
         private static Vector3d Darboux(RodState state, int i)
         {

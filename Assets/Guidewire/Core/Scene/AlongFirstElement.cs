@@ -4,9 +4,6 @@ namespace Guidewire.Core
     internal sealed class AlongFirstElement : IDriveDirection
     {
         /// <inheritdoc/>
-        public Vector3d At(in Vector3d first, in Vector3d second)
-        {
-            return Vector3d.Normalize(second - first);
-        }
+        public Vector3d At(in Vector3d first, in Vector3d second) => Vector3d.Normalize(second - first);
     }
 }

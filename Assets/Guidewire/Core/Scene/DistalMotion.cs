@@ -37,10 +37,7 @@ namespace Guidewire.Core
         public double RampTime => _rampTime;
 
         /// <summary>The run begins with this frame.</summary>
-        public void Begin(in Quaterniond frame)
-        {
-            _frame = frame;
-        }
+        public void Begin(in Quaterniond frame) => _frame = frame;
 
         /// <summary>Gives the position of the last node at this time, m.</summary>
         public Vector3d PositionAt(double time)
@@ -57,28 +54,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the turn of the frame at this time, radians.</summary>
-        public double TurnAt(double time)
-        {
-            return Ramp(time) * _rotation;
-        }
+        public double TurnAt(double time) => Ramp(time) * _rotation;
 
         /// <summary>Gives the turning of the frame about its own d3 at this time, rad/s.</summary>
-        public double TwistRateAt(double time)
-        {
-            return time < _rampTime ? _rotation / _rampTime : 0.0;
-        }
+        public double TwistRateAt(double time) => time < _rampTime ? _rotation / _rampTime : 0.0;
 
         /// <summary>Gives the frame at this time.</summary>
-        public Quaterniond FrameAt(double time)
-        {
-            return FrameTurned(TurnAt(time));
-        }
+        public Quaterniond FrameAt(double time) => FrameTurned(TurnAt(time));
 
         /// <summary>Gives the frame turned by an angle, radians.</summary>
-        public Quaterniond FrameTurned(double turn)
-        {
-            return _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
-        }
+        public Quaterniond FrameTurned(double turn) => _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
 
         /// <summary>When it comes to rest, s, if that is after this time; else infinite.</summary>
         public double NextJump(double time)
@@ -103,9 +88,6 @@ namespace Guidewire.Core
 
         private bool Moves => _displacement != 0.0 || _rotation != 0.0;
 
-        private double Ramp(double time)
-        {
-            return _rampTime > 0.0 ? Math.Min(1.0, Math.Max(0.0, time / _rampTime)) : 1.0;
-        }
+        private double Ramp(double time) => _rampTime > 0.0 ? Math.Min(1.0, Math.Max(0.0, time / _rampTime)) : 1.0;
     }
 }

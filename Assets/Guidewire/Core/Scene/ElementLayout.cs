@@ -26,10 +26,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>The same of a catheter around the wire.</summary>
-        public static int Count(SimulationParameters parameters, Catheter catheter)
-        {
-            return Count(parameters.OfCatheter(catheter, Vector3d.UnitZ));
-        }
+        public static int Count(SimulationParameters parameters, Catheter catheter) =>
+            Count(parameters.OfCatheter(catheter, Vector3d.UnitZ));
 
         /// <summary>Length of the last element at rest, units.</summary>
         /// <exception cref="ArgumentException">As <see cref="ParameterConflict"/> has it.</exception>

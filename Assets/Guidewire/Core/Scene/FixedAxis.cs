@@ -13,9 +13,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public Vector3d At(in Vector3d first, in Vector3d second)
-        {
-            return _axis;
-        }
+        public Vector3d At(in Vector3d first, in Vector3d second) => _axis;
     }
 }

@@ -30,16 +30,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>The frame to which the first element is clamped is held at a turn from now on, radians.</summary>
-        public void HoldFrame(double turn)
-        {
-            _heldTurn = turn;
-        }
+        public void HoldFrame(double turn) => _heldTurn = turn;
 
         /// <summary>The run begins with this frame.</summary>
-        public void Begin(in Quaterniond frame)
-        {
-            _frame = frame;
-        }
+        public void Begin(in Quaterniond frame) => _frame = frame;
 
         /// <summary>The run begins with the hub displaced by so much, m, and turned, radians.</summary>
         public void BeginAt(in Vector3d displacement, double turn)
@@ -55,10 +49,7 @@ namespace Guidewire.Core
         public EndMotion? Motion => _motion;
 
         /// <summary>Gives the velocity of node 0 at this time, of two at a jump that after it, m/s.</summary>
-        public Vector3d VelocityAt(double time)
-        {
-            return _motion == null ? _velocity : _motion.VelocityAt(time);
-        }
+        public Vector3d VelocityAt(double time) => _motion == null ? _velocity : _motion.VelocityAt(time);
 
         /// <summary>Turning of the hub about its own d3, rad/s.</summary>
         public double TwistRate => _twistRate;
@@ -77,28 +68,16 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the turn of the hub at this time, radians.</summary>
-        public double TurnAt(double time)
-        {
-            return _turnOrigin + _twistRate * (time - _turnOriginTime);
-        }
+        public double TurnAt(double time) => _turnOrigin + _twistRate * (time - _turnOriginTime);
 
         /// <summary>Turn of the frame to which the first element is clamped at this time, radians.</summary>
-        public double FrameTurnAt(double time)
-        {
-            return _heldTurn ?? TurnAt(time);
-        }
+        public double FrameTurnAt(double time) => _heldTurn ?? TurnAt(time);
 
         /// <summary>How far the hub is ahead of that frame at this time, radians.</summary>
-        public double AheadAt(double time)
-        {
-            return _heldTurn.HasValue ? TurnAt(time) - _heldTurn.Value : 0.0;
-        }
+        public double AheadAt(double time) => _heldTurn.HasValue ? TurnAt(time) - _heldTurn.Value : 0.0;
 
         /// <summary>Gives the clamp's frame turned by an angle, radians.</summary>
-        public Quaterniond FrameTurned(double turn)
-        {
-            return _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
-        }
+        public Quaterniond FrameTurned(double turn) => _frame * Quaterniond.FromAxisAngle(Vector3d.UnitZ, turn);
 
         /// <summary>A user or a table moves the hub, up to this time, s: it turns at no rate of its own.</summary>
         public void BeginDrive(double end)
@@ -124,10 +103,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The hub is displaced at once, m.</summary>
-        public void Shift(in Vector3d displacement)
-        {
-            _position += displacement;
-        }
+        public void Shift(in Vector3d displacement) => _position += displacement;
 
         /// <summary>Whether it is at rest from this time on.</summary>
         public bool IsOver(double time)

@@ -52,10 +52,7 @@ namespace Guidewire.Core
         public bool HasDistributedForce => _distributedForce != Vector3d.Zero;
 
         /// <summary>Gives the acceleration of gravity at this time, m/s^2.</summary>
-        public Vector3d GravityAt(double time)
-        {
-            return Factor(_gravityTable, time) * _gravity;
-        }
+        public Vector3d GravityAt(double time) => Factor(_gravityTable, time) * _gravity;
 
         /// <summary>Gives the force on the last node at this time, N.</summary>
         /// <param name="axis">Direction of a pull on a sliding distal end, a unit vector.</param>
@@ -67,19 +64,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the force per length at rest at this time, N/m.</summary>
-        public Vector3d DistributedForceAt(double time)
-        {
-            return Factor(_distributedForceTable, time) * _distributedForce;
-        }
+        public Vector3d DistributedForceAt(double time) => Factor(_distributedForceTable, time) * _distributedForce;
 
         /// <summary>Point loads on the wire, at arc lengths in m, without their factor.</summary>
         public PointLoad[] PointLoads => _pointLoads;
 
         /// <summary>Gives the factor on them at this time.</summary>
-        public double PointLoadsFactor(double time)
-        {
-            return Factor(_pointLoadsTable, time);
-        }
+        public double PointLoadsFactor(double time) => Factor(_pointLoadsTable, time);
 
         /// <summary>Sum of the loads' magnitudes at this time, N, on a rod of this mass, kg.</summary>
         public double SumAt(double time, double mass)
@@ -129,14 +120,8 @@ namespace Guidewire.Core
                 && !Changes(_axialForceTable, time);
         }
 
-        private static double Factor(TimeTable? table, double time)
-        {
-            return table == null ? 1.0 : table.At(time);
-        }
+        private static double Factor(TimeTable? table, double time) => table == null ? 1.0 : table.At(time);
 
-        private static bool Changes(TimeTable? table, double time)
-        {
-            return table != null && table.ChangesFrom(time);
-        }
+        private static bool Changes(TimeTable? table, double time) => table != null && table.ChangesFrom(time);
     }
 }

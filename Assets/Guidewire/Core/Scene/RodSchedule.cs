@@ -28,10 +28,7 @@ namespace Guidewire.Core
         public DistalMotion Distal { get; }
 
         /// <summary>Gives the force on the last node at this time, N.</summary>
-        public Vector3d DistalForceAt(double time)
-        {
-            return Loads.DistalForceAt(time, Distal.Frame.Director3);
-        }
+        public Vector3d DistalForceAt(double time) => Loads.DistalForceAt(time, Distal.Frame.Director3);
 
         /// <summary>The first time after this one, s, at which a load or the velocity of a support jumps: the tip force
         /// is released, a table of a load has two rows of one time, the distal end comes to rest. Infinite where none
@@ -44,10 +41,7 @@ namespace Guidewire.Core
 
         /// <summary>The first time after this one, s, at which something prescribed is not smooth: a jump, or a row of
         /// a load's table. Infinite where there is none.</summary>
-        public double NextBreak(double time)
-        {
-            return Math.Min(NextJump(time), Loads.NextRow(time));
-        }
+        public double NextBreak(double time) => Math.Min(NextJump(time), Loads.NextRow(time));
 
         /// <summary>How far the hubs of instruments inside move at most in a time, s, in m; 0 without one.</summary>
         public double InnerMove(double duration)
@@ -113,21 +107,15 @@ namespace Guidewire.Core
         }
 
         /// <summary>Spin of the proximal frame along its own axes at this time, rad/s.</summary>
-        public Vector3d ProximalSpinAt(double time)
-        {
-            return SpinOf(Hub.Motion, Hub.FrameTurned(Hub.FrameTurnAt(time)), Hub.FrameTwistRate, time);
-        }
+        public Vector3d ProximalSpinAt(double time) =>
+            SpinOf(Hub.Motion, Hub.FrameTurned(Hub.FrameTurnAt(time)), Hub.FrameTwistRate, time);
 
         /// <summary>Gives the same for the distal frame.</summary>
-        public Vector3d DistalSpinAt(double time)
-        {
-            return SpinOf(Distal.Motion, Distal.FrameAt(time), Distal.TwistRateAt(time), time);
-        }
+        public Vector3d DistalSpinAt(double time) =>
+            SpinOf(Distal.Motion, Distal.FrameAt(time), Distal.TwistRateAt(time), time);
 
-        private static Quaterniond Moved(in Quaterniond frame, EndMotion? motion, double time)
-        {
-            return motion == null ? frame : motion.RotationAt(time) * frame;
-        }
+        private static Quaterniond Moved(in Quaterniond frame, EndMotion? motion, double time) =>
+            motion == null ? frame : motion.RotationAt(time) * frame;
 
         private static Vector3d SpinOf(EndMotion? motion, in Quaterniond frame, double twistRate, double time)
         {

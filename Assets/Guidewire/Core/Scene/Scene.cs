@@ -141,9 +141,7 @@ namespace Guidewire.Core
         }
 
         // That of a run is normalised; once more would change its bits, and with them the axis of a sheath.
-        private static Quaterniond Normalized(RodStart start, in Quaterniond q)
-        {
-            return start.IsReached ? q : Quaterniond.Normalize(q);
-        }
+        private static Quaterniond Normalized(RodStart start, in Quaterniond q) =>
+            start.IsReached ? q : Quaterniond.Normalize(q);
     }
 }

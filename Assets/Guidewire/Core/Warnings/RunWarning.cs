@@ -17,9 +17,6 @@ namespace Guidewire.Core
         public string Text { get; }
 
         /// <inheritdoc/>
-        public override string ToString()
-        {
-            return Text;
-        }
+        public override string ToString() => Text;
     }
 }

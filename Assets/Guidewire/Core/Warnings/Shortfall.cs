@@ -12,9 +12,7 @@ namespace Guidewire.Core
         /// <param name="shortfall">What is missing; negative where the hub went farther than asked.</param>
         /// <param name="asked">The motion that was asked, there and back both counted.</param>
         /// <param name="length">Of the wire.</param>
-        public static bool Counts(double shortfall, double asked, double length)
-        {
-            return Math.Abs(shortfall) > Math.Max(OfAsked * asked, OfLength * length);
-        }
+        public static bool Counts(double shortfall, double asked, double length) =>
+            Math.Abs(shortfall) > Math.Max(OfAsked * asked, OfLength * length);
     }
 }

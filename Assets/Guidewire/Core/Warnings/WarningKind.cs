@@ -58,14 +58,9 @@ namespace Guidewire.Core
             return next == values.Length ? text : throw Miscounted(values);
         }
 
-        internal RunWarning With(params object[] values)
-        {
-            return new RunWarning(this, Text(values));
-        }
+        internal RunWarning With(params object[] values) => new RunWarning(this, Text(values));
 
-        private ArgumentException Miscounted(object[] values)
-        {
-            return new ArgumentException(Name + " does not have " + values.Length + " values");
-        }
+        private ArgumentException Miscounted(object[] values) =>
+            new ArgumentException(Name + " does not have " + values.Length + " values");
     }
 }

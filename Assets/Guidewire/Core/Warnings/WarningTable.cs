@@ -170,10 +170,7 @@ namespace Guidewire.Core
         public static IReadOnlyList<WarningKind> All => Kinds;
 
         /// <summary>Gives the kind of a name.</summary>
-        internal static WarningKind Find(string name)
-        {
-            return Kinds.Find(kind => kind.Name == name)!;
-        }
+        internal static WarningKind Find(string name) => Kinds.Find(kind => kind.Name == name)!;
 
         /// <summary>The table as Markdown, as docs/runs.md shows it.</summary>
         public static string ToMarkdown()
@@ -190,20 +187,14 @@ namespace Guidewire.Core
             return text.ToString();
         }
 
-        private static WarningKind AtStart(string name, string line, string meaning)
-        {
-            return Add(name, WarningPlace.Start, true, line, meaning);
-        }
+        private static WarningKind AtStart(string name, string line, string meaning) =>
+            Add(name, WarningPlace.Start, true, line, meaning);
 
-        private static WarningKind AfterReason(string name, string line, string meaning)
-        {
-            return Add(name, WarningPlace.Reason, false, line, meaning);
-        }
+        private static WarningKind AfterReason(string name, string line, string meaning) =>
+            Add(name, WarningPlace.Reason, false, line, meaning);
 
-        private static WarningKind AtEnd(string name, string line, string meaning)
-        {
-            return Add(name, WarningPlace.End, false, line, meaning);
-        }
+        private static WarningKind AtEnd(string name, string line, string meaning) =>
+            Add(name, WarningPlace.End, false, line, meaning);
 
         private static WarningKind Add(string name, WarningPlace place, bool isReliable, string line, string meaning)
         {

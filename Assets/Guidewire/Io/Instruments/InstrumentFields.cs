@@ -38,10 +38,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Whether there is a member of this name.</summary>
-        public bool Has(string name)
-        {
-            return _object.ContainsKey(name);
-        }
+        public bool Has(string name) => _object.ContainsKey(name);
 
         /// <summary>A text that must be there and say something.</summary>
         public string Text(string name)
@@ -129,9 +126,6 @@ namespace Guidewire.Io
                 _file, At(name), _object[name]?.ToString(Formatting.None) ?? "(missing)", allowed);
         }
 
-        private string At(string name)
-        {
-            return _path.Length == 0 ? name : _path + "." + name;
-        }
+        private string At(string name) => _path.Length == 0 ? name : _path + "." + name;
     }
 }

@@ -99,10 +99,8 @@ namespace Guidewire.Io
             };
         }
 
-        private static int Count(double length, double element)
-        {
-            return Math.Max(1, (int)Math.Ceiling(length / element - Rounding));
-        }
+        private static int Count(double length, double element) =>
+            Math.Max(1, (int)Math.Ceiling(length / element - Rounding));
 
         // From the first distal section or bend to the tip, cut where the wire begins.
         private static List<Piece> Pieces(Instrument instrument, double whole)

@@ -178,9 +178,6 @@ namespace Guidewire.Io
             return null;
         }
 
-        private static string Millimetres(double length)
-        {
-            return (1e3 * length).ToString("G6", CultureInfo.InvariantCulture);
-        }
+        private static string Millimetres(double length) => (1e3 * length).ToString("G6", CultureInfo.InvariantCulture);
     }
 }

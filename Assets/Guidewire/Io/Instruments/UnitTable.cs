@@ -93,10 +93,8 @@ namespace Guidewire.Io
         }
 
         /// <summary>Gives the SI unit of a dimension.</summary>
-        public static string SIUnitOf(Dimension dimension)
-        {
-            return Array.Find(Units, one => one.Of == dimension && one.Size == 1.0).Unit;
-        }
+        public static string SIUnitOf(Dimension dimension) =>
+            Array.Find(Units, one => one.Of == dimension && one.Size == 1.0).Unit;
 
         /// <summary>The units of a dimension, with commas between.</summary>
         public static string Of(Dimension dimension)

@@ -51,16 +51,11 @@ namespace Guidewire.Io
         }
 
         /// <summary>The end with a name, whatever its case, or null.</summary>
-        public VesselEnd? Find(string name)
-        {
-            return Ends.FirstOrDefault(end => string.Equals(end.Name, name, StringComparison.OrdinalIgnoreCase));
-        }
+        public VesselEnd? Find(string name) =>
+            Ends.FirstOrDefault(end => string.Equals(end.Name, name, StringComparison.OrdinalIgnoreCase));
 
         /// <summary>The end nearest to a point.</summary>
-        public VesselEnd Nearest(Vector3d point)
-        {
-            return Ends.OrderBy(end => Vector3d.Distance(end.Centre, point)).First();
-        }
+        public VesselEnd Nearest(Vector3d point) => Ends.OrderBy(end => Vector3d.Distance(end.Centre, point)).First();
 
         /// <summary>The ends as listed in an error line, with number and position.</summary>
         public string List()

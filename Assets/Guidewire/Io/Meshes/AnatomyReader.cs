@@ -102,10 +102,8 @@ namespace Guidewire.Io
             return ends.Count > 0 ? anatomy : throw new FormatException();
         }
 
-        private static Vector3d Vector(JToken value)
-        {
-            return new Vector3d(Finite(value[0]!), Finite(value[1]!), Finite(value[2]!));
-        }
+        private static Vector3d Vector(JToken value) =>
+            new Vector3d(Finite(value[0]!), Finite(value[1]!), Finite(value[2]!));
 
         private static double Finite(JToken value)
         {

@@ -121,10 +121,8 @@ namespace Guidewire.Io
 
         /// <summary>Gives the distance of a point along the centreline to the target, negative beyond it; not a number
         /// without a target.</summary>
-        public double LeftFrom(in Vector3d point, int near)
-        {
-            return _fromTarget == null ? double.NaN : _fromTarget.DistanceOf(point, near);
-        }
+        public double LeftFrom(in Vector3d point, int near) =>
+            _fromTarget == null ? double.NaN : _fromTarget.DistanceOf(point, near);
 
         /// <summary>Whether a point of the centreline is at the target: within a radius of it along the centreline, or
         /// beyond it.</summary>
@@ -152,10 +150,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Gives the branch of a point of the centreline, from 0.</summary>
-        public int BranchOf(int near)
-        {
-            return _anatomy.Branches[near];
-        }
+        public int BranchOf(int near) => _anatomy.Branches[near];
 
         /// <summary>The points of the centreline from the inlet to the target, units, with radii and distances: "name",
         /// "reach", "indices" (in the anatomy's file), "points", "radii", "distances".</summary>

@@ -47,10 +47,7 @@ namespace Guidewire.Io
         public string Key => _key;
 
         /// <summary>Whether there is a field of this name.</summary>
-        public bool Has(string name)
-        {
-            return _object.ContainsKey(name);
-        }
+        public bool Has(string name) => _object.ContainsKey(name);
 
         /// <summary>A text; an empty one where it is missing.</summary>
         public string Text(string name)
@@ -154,10 +151,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Replaces a text by another.</summary>
-        public void Replace(string name, string text)
-        {
-            _object[name] = text;
-        }
+        public void Replace(string name, string text) => _object[name] = text;
 
         /// <summary>The line for a field whose value is not allowed.</summary>
         public ParameterException Wrong(string name, string allowed)
@@ -173,25 +167,14 @@ namespace Guidewire.Io
                 item.ToString(Formatting.None), allowed);
         }
 
-        private string Source(string name)
-        {
-            return _sourceOf(_key + "." + name);
-        }
+        private string Source(string name) => _sourceOf(_key + "." + name);
 
-        private static bool IsSmall(double number)
-        {
-            return Math.Abs(number) <= Largest;
-        }
+        private static bool IsSmall(double number) => Math.Abs(number) <= Largest;
 
-        private static bool IsSmall(in Vector3d vector)
-        {
-            return IsSmall(vector.X) && IsSmall(vector.Y) && IsSmall(vector.Z);
-        }
+        private static bool IsSmall(in Vector3d vector) => IsSmall(vector.X) && IsSmall(vector.Y) && IsSmall(vector.Z);
 
         /// <summary>Gives the line for something that Core refused.</summary>
-        public ParameterException Refused(string reason)
-        {
-            return new ParameterException(_sourceOf(_key) + ": " + _key + ": " + reason);
-        }
+        public ParameterException Refused(string reason) =>
+            new ParameterException(_sourceOf(_key) + ": " + _key + ": " + reason);
     }
 }

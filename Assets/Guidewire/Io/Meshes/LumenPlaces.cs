@@ -90,9 +90,7 @@ namespace Guidewire.Io
             return next - 1;
         }
 
-        private bool IsBeyondInlet(in Vector3d point)
-        {
-            return Vector3d.Dot(point - _path.Inlet.Centre, _path.Inlet.Direction) >= 0.9 * _path.Inlet.Radius;
-        }
+        private bool IsBeyondInlet(in Vector3d point) =>
+            Vector3d.Dot(point - _path.Inlet.Centre, _path.Inlet.Direction) >= 0.9 * _path.Inlet.Radius;
     }
 }

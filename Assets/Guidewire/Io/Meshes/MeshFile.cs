@@ -13,16 +13,11 @@ namespace Guidewire.Io
         /// <param name="scale">Units of the scene per unit of the file.</param>
         /// <param name="rims">A point near the middle of each rim that may be open, in the file's own units.</param>
         /// <exception cref="ParameterException">The file cannot be read or holds no such wall.</exception>
-        public static TriangleMesh Read(string file, double scale, IReadOnlyList<Vector3d> rims)
-        {
-            return Make(file, ReadBytes(file), scale, rims);
-        }
+        public static TriangleMesh Read(string file, double scale, IReadOnlyList<Vector3d> rims) =>
+            Make(file, ReadBytes(file), scale, rims);
 
         /// <summary>Whether a name ends as that of a mesh.</summary>
-        internal static bool IsNamed(string file)
-        {
-            return Extension(file) == ".obj" || Extension(file) == ".stl";
-        }
+        internal static bool IsNamed(string file) => Extension(file) == ".obj" || Extension(file) == ".stl";
 
         /// <summary>What stands in a file.</summary>
         /// <exception cref="ParameterException">It cannot be read.</exception>
@@ -62,9 +57,6 @@ namespace Guidewire.Io
             }
         }
 
-        private static string Extension(string file)
-        {
-            return Path.GetExtension(file).ToLowerInvariant();
-        }
+        private static string Extension(string file) => Path.GetExtension(file).ToLowerInvariant();
     }
 }

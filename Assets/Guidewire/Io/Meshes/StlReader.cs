@@ -66,10 +66,8 @@ namespace Guidewire.Io
             return count == 0 ? "has no triangles" : null;
         }
 
-        private static double Single(Span<byte> bytes)
-        {
-            return BitConverter.Int32BitsToSingle(BinaryPrimitives.ReadInt32LittleEndian(bytes));
-        }
+        private static double Single(Span<byte> bytes) =>
+            BitConverter.Int32BitsToSingle(BinaryPrimitives.ReadInt32LittleEndian(bytes));
 
         private static bool StartsWithSolid(byte[] bytes)
         {

@@ -29,10 +29,7 @@ namespace Guidewire.Io
         public string[] Words { get; private set; } = Array.Empty<string>();
 
         /// <summary>Is true where the bytes look like text: no zero byte among the first thousand.</summary>
-        public static bool IsText(byte[] bytes)
-        {
-            return Array.IndexOf(bytes, (byte)0, 0, Math.Min(bytes.Length, 1000)) < 0;
-        }
+        public static bool IsText(byte[] bytes) => Array.IndexOf(bytes, (byte)0, 0, Math.Min(bytes.Length, 1000)) < 0;
 
         /// <summary>Goes to the next line; false behind the last.</summary>
         public bool Next()

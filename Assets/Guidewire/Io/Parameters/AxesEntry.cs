@@ -26,9 +26,6 @@ namespace Guidewire.Io
             return true;
         }
 
-        internal override JToken FromText(string text)
-        {
-            return new JValue(text);
-        }
+        internal override JToken FromText(string text) => new JValue(text);
     }
 }

@@ -13,10 +13,7 @@ namespace Guidewire.Io
 
         public override string Allowed => "null, a name in double quotes, a number from 1, or a point [x, y, z]";
 
-        internal override JToken Write(RunParameters source)
-        {
-            return Get(source)?.DeepClone() ?? JValue.CreateNull();
-        }
+        internal override JToken Write(RunParameters source) => Get(source)?.DeepClone() ?? JValue.CreateNull();
 
         internal override bool TryRead(RunParameters target, JToken value)
         {
@@ -32,9 +29,6 @@ namespace Guidewire.Io
             return true;
         }
 
-        internal override JToken? FromText(string text)
-        {
-            return base.FromText(text) ?? text;
-        }
+        internal override JToken? FromText(string text) => base.FromText(text) ?? text;
     }
 }

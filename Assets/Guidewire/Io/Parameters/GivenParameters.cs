@@ -62,22 +62,13 @@ namespace Guidewire.Io
         }
 
         /// <summary>The value of a key and its source; false if it is not given.</summary>
-        public bool TryGet(string key, out (JToken Value, string Source) given)
-        {
-            return _wholes.TryGetValue(key, out given);
-        }
+        public bool TryGet(string key, out (JToken Value, string Source) given) => _wholes.TryGetValue(key, out given);
 
         /// <summary>Whether a key is given.</summary>
-        public bool Has(string key)
-        {
-            return _wholes.ContainsKey(key);
-        }
+        public bool Has(string key) => _wholes.ContainsKey(key);
 
         /// <summary>Removes the value of a key.</summary>
-        public void Remove(string key)
-        {
-            _wholes.Remove(key);
-        }
+        public void Remove(string key) => _wholes.Remove(key);
 
         /// <summary>The source of the value at a path, or of a part of it; empty if none is given.</summary>
         public string SourceOf(string path)

@@ -123,9 +123,7 @@ namespace Guidewire.Io
             return target;
         }
 
-        private static ParameterException Wrong(GivenParameters given, string key, JToken value, string needed)
-        {
-            return new ParameterException(given.SourceOf(key), key, value.ToString(Formatting.None), needed);
-        }
+        private static ParameterException Wrong(GivenParameters given, string key, JToken value, string needed) =>
+            new ParameterException(given.SourceOf(key), key, value.ToString(Formatting.None), needed);
     }
 }

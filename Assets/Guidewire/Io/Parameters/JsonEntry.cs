@@ -16,10 +16,7 @@ namespace Guidewire.Io
 
         public override string Allowed { get; }
 
-        internal override JToken Write(RunParameters source)
-        {
-            return Get(source)?.DeepClone() ?? JValue.CreateNull();
-        }
+        internal override JToken Write(RunParameters source) => Get(source)?.DeepClone() ?? JValue.CreateNull();
 
         internal override bool TryRead(RunParameters target, JToken value)
         {

@@ -23,10 +23,8 @@ namespace Guidewire.Io
 
         /// <summary>The object that a file holds.</summary>
         /// <exception cref="ParameterException">The file cannot be read, is not JSON or holds no object.</exception>
-        public static JObject ReadObject(string file)
-        {
-            return ParseObject(PlainFile.ReadText(file, "a parameter file"), file);
-        }
+        public static JObject ReadObject(string file) =>
+            ParseObject(PlainFile.ReadText(file, "a parameter file"), file);
 
         /// <summary>The object that a text holds, without its notes.</summary>
         /// <param name="text">The text.</param>

@@ -84,9 +84,7 @@ namespace Guidewire.Io
             return best;
         }
 
-        private static bool IsTaken(ParameterEntry entry, Solver? solver)
-        {
-            return solver == null || entry.IsTakenBy(solver.Value);
-        }
+        private static bool IsTaken(ParameterEntry entry, Solver? solver) =>
+            solver == null || entry.IsTakenBy(solver.Value);
     }
 }

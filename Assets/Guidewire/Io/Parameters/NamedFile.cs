@@ -16,9 +16,6 @@ namespace Guidewire.Io
             return file.Length == 0 ? file : Path.GetFullPath(isBeside ? beside : file);
         }
 
-        private static bool IsThere(string file)
-        {
-            return File.Exists(file) || Directory.Exists(file);
-        }
+        private static bool IsThere(string file) => File.Exists(file) || Directory.Exists(file);
     }
 }

@@ -19,29 +19,20 @@ namespace Guidewire.Io
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties, typeof(WireSection))]
         [DynamicDependency(DynamicallyAccessedMemberTypes.PublicProperties
             | DynamicallyAccessedMemberTypes.NonPublicProperties, typeof(RunParameters))]
-        public static string Of(string key)
-        {
-            return char.ToUpperInvariant(key[0]) + key.Substring(1);
-        }
+        public static string Of(string key) => char.ToUpperInvariant(key[0]) + key.Substring(1);
 
         /// <summary>Whether an object has a property of this name and type.</summary>
-        public static bool IsOf<T>(object owner, string name)
-        {
-            return owner.GetType().GetProperty(name)?.PropertyType == typeof(T);
-        }
+        public static bool IsOf<T>(object owner, string name) =>
+            owner.GetType().GetProperty(name)?.PropertyType == typeof(T);
 
         /// <summary>Gives the property's value.</summary>
         /// <exception cref="ArgumentException">There is no such property.</exception>
-        public static T Get<T>(object owner, string name)
-        {
-            return ((Func<T>)Delegate.CreateDelegate(typeof(Func<T>), owner, "get_" + name))();
-        }
+        public static T Get<T>(object owner, string name) =>
+            ((Func<T>)Delegate.CreateDelegate(typeof(Func<T>), owner, "get_" + name))();
 
         /// <summary>Sets the property's value.</summary>
         /// <exception cref="ArgumentException">There is no such property.</exception>
-        public static void Set<T>(object owner, string name, T value)
-        {
+        public static void Set<T>(object owner, string name, T value) =>
             ((Action<T>)Delegate.CreateDelegate(typeof(Action<T>), owner, "set_" + name))(value);
-        }
     }
 }

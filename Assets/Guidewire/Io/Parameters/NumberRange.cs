@@ -33,10 +33,7 @@ namespace Guidewire.Io
         public double Maximum { get; }
 
         /// <summary>Above 0, up to a bound that is inside.</summary>
-        public static NumberRange PositiveUpTo(double maximum)
-        {
-            return new NumberRange(0.0, true, maximum);
-        }
+        public static NumberRange PositiveUpTo(double maximum) => new NumberRange(0.0, true, maximum);
 
         /// <summary>The bounds as they follow "a number".</summary>
         internal string Text
@@ -52,9 +49,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Whether a number lies inside.</summary>
-        internal bool Contains(double value)
-        {
-            return (_minimumExcluded ? value > Minimum : value >= Minimum) && value <= Maximum;
-        }
+        internal bool Contains(double value) =>
+            (_minimumExcluded ? value > Minimum : value >= Minimum) && value <= Maximum;
     }
 }

@@ -113,10 +113,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Gives the default with this method, as JSON text.</summary>
-        public string Default(Solver method)
-        {
-            return Write(new RunParameters(method)).ToString(Formatting.None);
-        }
+        public string Default(Solver method) => Write(new RunParameters(method)).ToString(Formatting.None);
 
         /// <summary>Names the methods that take the key; the others refuse it in a file too.</summary>
         internal ParameterEntry OnlyWith(IReadOnlyList<Solver> methods)
@@ -146,16 +143,10 @@ namespace Guidewire.Io
 
         /// <summary>What a field of an object that it holds allows; null where there is no such field, or a reader of
         /// its own knows.</summary>
-        internal virtual string? AllowedOf(string field)
-        {
-            return null;
-        }
+        internal virtual string? AllowedOf(string field) => null;
 
         /// <summary>The present word for a word of older files; null for any other value.</summary>
-        internal virtual string? NewerWord(JToken value)
-        {
-            return null;
-        }
+        internal virtual string? NewerWord(JToken value) => null;
 
         /// <summary>The JSON value that a text on the command line stands for, or null where it stands for
         /// none.</summary>

@@ -22,14 +22,8 @@ namespace Guidewire.Io
         {
         }
 
-        private static string Shorten(string value)
-        {
-            return value.Length <= 80 ? value : value.Substring(0, 77) + "...";
-        }
+        private static string Shorten(string value) => value.Length <= 80 ? value : value.Substring(0, 77) + "...";
 
-        private static string OneLine(string text)
-        {
-            return text.Replace("\r", " ").Replace('\n', ' ');
-        }
+        private static string OneLine(string text) => text.Replace("\r", " ").Replace('\n', ' ');
     }
 }

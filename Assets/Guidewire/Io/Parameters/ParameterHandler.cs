@@ -55,16 +55,11 @@ namespace Guidewire.Io
         /// <param name="isSteered">Whether a user steers the wire instead of the drive.</param>
         /// <exception cref="ParameterException">A file that cannot be read, a key that is not known, a value that is
         /// not allowed, two keys that disagree.</exception>
-        public static ParameterHandler Load(string? file, IEnumerable<string> overrides, bool isSteered = false)
-        {
-            return Load(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
-        }
+        public static ParameterHandler Load(string? file, IEnumerable<string> overrides, bool isSteered = false) =>
+            Load(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
 
         internal static ParameterHandler Load(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
-            bool isSteered = false)
-        {
-            return Load(ParameterSource.OfFile(file), overrides, isSteered);
-        }
+            bool isSteered = false) => Load(ParameterSource.OfFile(file), overrides, isSteered);
 
         internal static ParameterHandler Load(ParameterSource from, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool isSteered)
@@ -256,10 +251,8 @@ namespace Guidewire.Io
             return !JToken.DeepEquals(entry.Write(read), entry.Write(new RunParameters(Method)));
         }
 
-        private ParameterException Refused(string path, string needed)
-        {
-            return _given.Refusal(path, needed, _from.Name ?? "defaults");
-        }
+        private ParameterException Refused(string path, string needed) =>
+            _given.Refusal(path, needed, _from.Name ?? "defaults");
 
         private void ReadWalls(SimulationParameters simulation)
         {
@@ -432,9 +425,6 @@ namespace Guidewire.Io
             }
         }
 
-        private void AddWarning(WarningKind kind, params object[] values)
-        {
-            _warnings.Add(kind.Text(values));
-        }
+        private void AddWarning(WarningKind kind, params object[] values) => _warnings.Add(kind.Text(values));
     }
 }

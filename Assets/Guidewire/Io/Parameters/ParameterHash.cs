@@ -82,10 +82,8 @@ namespace Guidewire.Io
             return bytes;
         }
 
-        private static bool IsTableFile(string key)
-        {
-            return key == "driveFile" || key == "proximalMotionFile" || key == "distalMotionFile";
-        }
+        private static bool IsTableFile(string key) =>
+            key == "driveFile" || key == "proximalMotionFile" || key == "distalMotionFile";
 
         private static void AppendFile(StringBuilder text, string name, string file)
         {

@@ -40,10 +40,8 @@ namespace Guidewire.Io
         /// <summary>Gives a file on disk.</summary>
         /// <param name="file">Its name; null for the defaults.</param>
         /// <param name="mesh">Keeps the vessel's mesh where one run follows another.</param>
-        public static ParameterSource OfFile(string? file, LastMesh? mesh = null)
-        {
-            return new ParameterSource(file, null, mesh);
-        }
+        public static ParameterSource OfFile(string? file, LastMesh? mesh = null) =>
+            new ParameterSource(file, null, mesh);
 
         /// <summary>The file of a request; its overrides are those that the request sets.</summary>
         /// <param name="file">Its name; null for the defaults.</param>
@@ -60,10 +58,8 @@ namespace Guidewire.Io
         /// <param name="name">What error lines call it.</param>
         /// <param name="text">A flat JSON object.</param>
         /// <exception cref="ParameterException">It is no JSON object.</exception>
-        public static ParameterSource OfText(string name, string text)
-        {
-            return new ParameterSource(name, JsonText.ParseObject(text, name), null);
-        }
+        public static ParameterSource OfText(string name, string text) =>
+            new ParameterSource(name, JsonText.ParseObject(text, name), null);
 
         /// <summary>The same with walls beside those that the keys state, and with files in memory.</summary>
         /// <param name="walls">See <see cref="Walls"/>.</param>
@@ -80,9 +76,7 @@ namespace Guidewire.Io
 
         /// <summary>Gives its keys and values; null without any.</summary>
         /// <exception cref="ParameterException">The file cannot be read.</exception>
-        internal JObject? Read()
-        {
-            return (JObject?)_content?.DeepClone() ?? (Name == null ? null : JsonText.ReadObject(Name));
-        }
+        internal JObject? Read() =>
+            (JObject?)_content?.DeepClone() ?? (Name == null ? null : JsonText.ReadObject(Name));
     }
 }

@@ -42,10 +42,8 @@ namespace Guidewire.Io
         public static IReadOnlyList<ParameterEntry> Entries { get; }
 
         /// <summary>Gives the entry of a key, or null.</summary>
-        public static ParameterEntry? Find(string key)
-        {
-            return ByKey.TryGetValue(key, out ParameterEntry? entry) ? entry : null;
-        }
+        public static ParameterEntry? Find(string key) =>
+            ByKey.TryGetValue(key, out ParameterEntry? entry) ? entry : null;
 
         /// <summary>The table as Markdown, a part for each group, as docs/parameters.md shows it.</summary>
         public static string ToMarkdown()

@@ -47,10 +47,7 @@ namespace Guidewire.Io
 
         /// <summary>Gives the text of a file, by its byte order mark or else as UTF-8.</summary>
         /// <exception cref="ParameterException">As <see cref="ReadBytes"/>.</exception>
-        public static string ReadText(string file, string needed)
-        {
-            return Decode(ReadBytes(file, needed));
-        }
+        public static string ReadText(string file, string needed) => Decode(ReadBytes(file, needed));
 
         /// <summary>The text in bytes, by their byte order mark or else as UTF-8.</summary>
         public static string Decode(byte[] bytes)

@@ -153,10 +153,8 @@ namespace Guidewire.Io
             return orientations;
         }
 
-        private static Quaterniond? Frame(string file, string path, JObject root, string key)
-        {
-            return root[key] is JToken value ? Orientation(file, path + key, value) : (Quaterniond?)null;
-        }
+        private static Quaterniond? Frame(string file, string path, JObject root, string key) =>
+            root[key] is JToken value ? Orientation(file, path + key, value) : (Quaterniond?)null;
 
         private static Quaterniond Orientation(string file, string key, JToken value)
         {

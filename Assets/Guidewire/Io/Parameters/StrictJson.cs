@@ -222,10 +222,7 @@ namespace Guidewire.Io
             }
         }
 
-        private char Current()
-        {
-            return _at < _text.Length ? _text[_at] : '\0';
-        }
+        private char Current() => _at < _text.Length ? _text[_at] : '\0';
 
         private string Unexpected(string expected)
         {

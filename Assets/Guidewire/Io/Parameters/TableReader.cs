@@ -51,10 +51,8 @@ namespace Guidewire.Io
         }
 
         // Words alone.
-        private static bool IsHead(string[] cells)
-        {
-            return Array.TrueForAll(cells, cell => cell.Length > 0 && (char.IsLetter(cell[0]) || cell[0] == '_'));
-        }
+        private static bool IsHead(string[] cells) =>
+            Array.TrueForAll(cells, cell => cell.Length > 0 && (char.IsLetter(cell[0]) || cell[0] == '_'));
 
         // Adds a row, whole or not at all.
         private static string? FindProblemOfRow(string[] cells, TableColumn[] columns, int[] order, double[] sizes,
@@ -117,14 +115,9 @@ namespace Guidewire.Io
                 : "has no column '" + columns[missing].Name + "': needed are " + Names(columns);
         }
 
-        private static string Names(TableColumn[] columns)
-        {
-            return string.Join(", ", columns.Select(column => column.Name));
-        }
+        private static string Names(TableColumn[] columns) => string.Join(", ", columns.Select(column => column.Name));
 
-        private static string Needed(TableColumn[] columns)
-        {
-            return string.Join(", ", columns.Select(column => column.Words)) + " with commas between";
-        }
+        private static string Needed(TableColumn[] columns) =>
+            string.Join(", ", columns.Select(column => column.Words)) + " with commas between";
     }
 }

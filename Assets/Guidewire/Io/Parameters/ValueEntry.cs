@@ -23,15 +23,10 @@ namespace Guidewire.Io
         public Action<RunParameters, T>? Setter { get; internal set; }
 
         /// <inheritdoc/>
-        internal override JToken Write(RunParameters source)
-        {
-            return new JValue((object?)Get(source));
-        }
+        internal override JToken Write(RunParameters source) => new JValue((object?)Get(source));
 
-        private protected T Get(RunParameters source)
-        {
-            return Getter == null ? NamedProperty.Get<T>(Owner(source), Property) : Getter(source);
-        }
+        private protected T Get(RunParameters source) =>
+            Getter == null ? NamedProperty.Get<T>(Owner(source), Property) : Getter(source);
 
         private protected void Set(RunParameters target, T value)
         {

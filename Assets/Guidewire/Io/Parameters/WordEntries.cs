@@ -41,10 +41,7 @@ namespace Guidewire.Io
 
         public override IReadOnlyList<string> Choices => Array.ConvertAll(Enum.GetNames(typeof(T)), Word);
 
-        internal override JToken Write(RunParameters source)
-        {
-            return new JValue(Word(Get(source).ToString()));
-        }
+        internal override JToken Write(RunParameters source) => new JValue(Word(Get(source).ToString()));
 
         internal override bool TryRead(RunParameters target, JToken value)
         {
@@ -64,10 +61,7 @@ namespace Guidewire.Io
             return false;
         }
 
-        internal override JToken FromText(string text)
-        {
-            return new JValue(text);
-        }
+        internal override JToken FromText(string text) => new JValue(text);
 
         internal override string? NewerWord(JToken value)
         {
@@ -76,10 +70,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>An enumeration's name as a word in files: in camelCase.</summary>
-        internal static string Word(string name)
-        {
-            return char.ToLowerInvariant(name[0]) + name.Substring(1);
-        }
+        internal static string Word(string name) => char.ToLowerInvariant(name[0]) + name.Substring(1);
     }
 
     /// <summary>Any text: a path.</summary>
@@ -102,9 +93,6 @@ namespace Guidewire.Io
             return true;
         }
 
-        internal override JToken FromText(string text)
-        {
-            return new JValue(text);
-        }
+        internal override JToken FromText(string text) => new JValue(text);
     }
 }

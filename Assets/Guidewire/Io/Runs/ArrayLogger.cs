@@ -147,10 +147,7 @@ namespace Guidewire.Io
         }
 
         /// <inheritdoc/>
-        public override void Dispose()
-        {
-            _rows.Dispose();
-        }
+        public override void Dispose() => _rows.Dispose();
 
         private void Begin(RodState state, int first, bool hasStress)
         {

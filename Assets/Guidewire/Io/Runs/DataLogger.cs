@@ -110,10 +110,7 @@ namespace Guidewire.Io
         }
 
         /// <inheritdoc/>
-        public override void Dispose()
-        {
-            _stream.Dispose();
-        }
+        public override void Dispose() => _stream.Dispose();
 
         private void AppendOrientations(RodState state)
         {

@@ -70,10 +70,8 @@ namespace Guidewire.Io
         }
 
         /// <summary>Whether it is the run of these parameters and this repeat, by this build.</summary>
-        public bool IsSame(ParameterHandler handler, int? repeat)
-        {
-            return HasHash(handler) && IsOfThisBuild && Repeat == repeat;
-        }
+        public bool IsSame(ParameterHandler handler, int? repeat) =>
+            HasHash(handler) && IsOfThisBuild && Repeat == repeat;
 
         /// <summary>Says in a few words in what it differs from a run of these parameters and this repeat.</summary>
         public string Difference(ParameterHandler handler, int? repeat)
@@ -96,10 +94,7 @@ namespace Guidewire.Io
 
         private bool IsOfThisBuild => (string?)_summary["versions"]?["core"] == RunSummary.CoreBuild;
 
-        private bool HasHash(ParameterHandler handler)
-        {
-            return (string?)_summary["parameterHash"] == handler.Hash;
-        }
+        private bool HasHash(ParameterHandler handler) => (string?)_summary["parameterHash"] == handler.Hash;
 
         private List<string> DifferentKeys(ParameterHandler handler)
         {

@@ -18,10 +18,8 @@ namespace Guidewire.Io
         private const double Slip = 0.1;
 
         /// <summary>A hand, whose pbd wire slips before it is lost if it is limited.</summary>
-        public static Steering Hand(bool isLimited)
-        {
-            return new Steering { SlipStrain = isLimited ? Slip : double.PositiveInfinity };
-        }
+        public static Steering Hand(bool isLimited) =>
+            new Steering { SlipStrain = isLimited ? Slip : double.PositiveInfinity };
 
         /// <summary>Sets the hubForceLimit of each hub that has none, where the method takes one.</summary>
         public static void Set(SimulationParameters parameters)

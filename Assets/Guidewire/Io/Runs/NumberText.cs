@@ -87,10 +87,7 @@ namespace Guidewire.Io
                 CultureInfo.InvariantCulture);
         }
 
-        private static double Read(string text)
-        {
-            return double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
-        }
+        private static double Read(string text) => double.Parse(text, NumberStyles.Float, CultureInfo.InvariantCulture);
 
         // d.ddd...E+xxx with one more in the last digit; a text of nines stays as it is.
         private static string Above(string text)

@@ -73,10 +73,8 @@ namespace Guidewire.Io
         }
 
         /// <summary>Name of a log that is not whole yet.</summary>
-        internal static string PartialLogOf(ParameterHandler handler)
-        {
-            return StateLog.NameOf(handler.Values.LogFormat) + AtomicFile.Partial;
-        }
+        internal static string PartialLogOf(ParameterHandler handler) =>
+            StateLog.NameOf(handler.Values.LogFormat) + AtomicFile.Partial;
 
         /// <summary>Starts the clock and logs the state before the first step.</summary>
         /// <param name="simulation">The run at its start.</param>
@@ -106,10 +104,7 @@ namespace Guidewire.Io
         /// <summary>Says in the summary that something other than the parameters made this run: it has no parameter
         /// hash then, and no later run relies on it.</summary>
         /// <param name="line">What it was, in one line.</param>
-        public void Note(string line)
-        {
-            _notes.Add(line);
-        }
+        public void Note(string line) => _notes.Add(line);
 
         /// <summary>Logs the last state, closes the log and writes the summary. What cannot be written turns the
         /// outcome into Failed.</summary>
@@ -160,10 +155,7 @@ namespace Guidewire.Io
             }
         }
 
-        private static bool IsDisk(Exception error)
-        {
-            return error is IOException || error is UnauthorizedAccessException;
-        }
+        private static bool IsDisk(Exception error) => error is IOException || error is UnauthorizedAccessException;
 
         private void Follow(Simulation simulation)
         {

@@ -226,14 +226,9 @@ namespace Guidewire.Io
         }
 
         /// <summary>Gives the outcome's one word.</summary>
-        internal static string Word(Outcome outcome)
-        {
-            return outcome.ToString().ToLowerInvariant();
-        }
+        internal static string Word(Outcome outcome) => outcome.ToString().ToLowerInvariant();
 
-        private static JValue Finite(double value)
-        {
-            return double.IsNaN(value) || double.IsInfinity(value) ? JValue.CreateNull() : new JValue(value);
-        }
+        private static JValue Finite(double value) =>
+            double.IsNaN(value) || double.IsInfinity(value) ? JValue.CreateNull() : new JValue(value);
     }
 }

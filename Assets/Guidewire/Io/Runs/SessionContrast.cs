@@ -24,20 +24,15 @@ namespace Guidewire.Io
 
         /// <summary>Begins anew with blood that flows otherwise.</summary>
         /// <exception cref="ArgumentException">A value of the flow out of its range.</exception>
-        public void Begin(BloodFlow flow)
-        {
-            Flow = new ContrastFlow(_tree, flow);
-        }
+        public void Begin(BloodFlow flow) => Flow = new ContrastFlow(_tree, flow);
 
         /// <summary>Begins an injection at a point of the lumen.</summary>
         /// <param name="point">Units; null: the inlet of the blood.</param>
         /// <param name="amount">ml.</param>
         /// <param name="rate">ml/s.</param>
         /// <exception cref="ArgumentException">A value out of its range.</exception>
-        public void Inject(Vector3d? point, double amount, double rate)
-        {
+        public void Inject(Vector3d? point, double amount, double rate) =>
             Flow.Inject(point is Vector3d place ? Flow.CellOf(_millimetres * place) : 0, amount, rate);
-        }
 
         /// <summary>That of a vessel, or null where it has no centreline.</summary>
         internal static SessionContrast? Of(Anatomy? anatomy, double millimetres)

@@ -75,10 +75,7 @@ namespace Guidewire.Io
 
         /// <summary>Where an instrument is in its vessel now; null where the run has no inlet.</summary>
         /// <param name="points">Of its spheres, from the hub on, units.</param>
-        public LumenPlace? PlaceOf(Vector3d[] points)
-        {
-            return _handler.Values.Places?.Of(points);
-        }
+        public LumenPlace? PlaceOf(Vector3d[] points) => _handler.Values.Places?.Of(points);
 
         /// <summary>The centreline from the inlet to the target, as <see cref="CentrelinePath.RouteToTarget"/> has it;
         /// null where the run has no target.</summary>
@@ -98,10 +95,8 @@ namespace Guidewire.Io
         /// <param name="isSteered">Whether the user holds the first element, instead of the drive; null: with
         /// pbd.</param>
         /// <exception cref="ParameterException">The file or a value cannot be used.</exception>
-        public static SimulationSession Open(string? file, IEnumerable<string> overrides, bool? isSteered)
-        {
-            return Open(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
-        }
+        public static SimulationSession Open(string? file, IEnumerable<string> overrides, bool? isSteered) =>
+            Open(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
 
         internal static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
             bool? isSteered)
@@ -129,10 +124,8 @@ namespace Guidewire.Io
         /// <param name="isSteered">Whether the user holds the first element, instead of the drive.</param>
         /// <exception cref="ParameterException">The file, a value or the folder cannot be used.</exception>
         public static SimulationSession Open(string file, IEnumerable<string> overrides,
-            string logFolder, bool isSteered)
-        {
-            return Open(ParameterSource.OfFile(file, new LastMesh()), overrides, logFolder, isSteered);
-        }
+            string logFolder, bool isSteered) =>
+            Open(ParameterSource.OfFile(file, new LastMesh()), overrides, logFolder, isSteered);
 
         /// <summary>A run at its start; errors as of the other.</summary>
         /// <param name="from">The parameters' source.</param>
@@ -198,10 +191,8 @@ namespace Guidewire.Io
 
         /// <summary>The key that names an instrument.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
-        public static string KeyOf(int instrument)
-        {
-            return instrument == 0 ? "instrument" : "catheters[" + (instrument - 1) + "].instrument";
-        }
+        public static string KeyOf(int instrument) =>
+            instrument == 0 ? "instrument" : "catheters[" + (instrument - 1) + "].instrument";
 
         /// <summary>One step. A run that is not steered takes no notice of push and turn.</summary>
         /// <param name="push">Motion of sphere 0 along the first element in it (thesis eq. 3.6), units; negative values
@@ -275,17 +266,12 @@ namespace Guidewire.Io
             return value.Type == JTokenType.String ? (string)value! : value.ToString(Newtonsoft.Json.Formatting.None);
         }
 
-        private static bool CanStateReactions(MethodParameters method)
-        {
-            return ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
-        }
+        private static bool CanStateReactions(MethodParameters method) =>
+            ParameterTable.Find("logContacts")!.IsTakenBy(method.Solver);
 
         /// <summary>All that the next steps depend on, as bytes: this run or another one of the same parameters goes on
         /// from there with the same bits.</summary>
-        public byte[] Save()
-        {
-            return SessionSnapshot.Of(Simulation.Save(), _handler.Hash, IsSteered);
-        }
+        public byte[] Save() => SessionSnapshot.Of(Simulation.Save(), _handler.Hash, IsSteered);
 
         /// <summary>Goes on from what was saved. Not for a run that is logged: a log goes forward in time.</summary>
         /// <param name="saved">What <see cref="Save"/> gave, here or in another run of the same parameters; one of
@@ -316,10 +302,8 @@ namespace Guidewire.Io
         /// <param name="value">As it stands behind KEY=.</param>
         /// <exception cref="ParameterException">The value is not allowed; nothing has changed.</exception>
         /// <exception cref="ArgumentException">This wire cannot go on with it; nothing has changed.</exception>
-        public void Set(string key, string value)
-        {
+        public void Set(string key, string value) =>
             Set(CommandLineHandler.ReadAssignments(new[] { key + "=" + value }));
-        }
 
         internal void Set(IReadOnlyCollection<KeyValuePair<string, JToken>> values)
         {
@@ -351,10 +335,8 @@ namespace Guidewire.Io
         /// <exception cref="ParameterException">It is in the vessel, or a value is not allowed; nothing has
         /// changed.</exception>
         /// <exception cref="ArgumentException">It does not fit the others; nothing has changed.</exception>
-        public void Exchange(int instrument, IEnumerable<string> values)
-        {
+        public void Exchange(int instrument, IEnumerable<string> values) =>
             Exchange(instrument, CommandLineHandler.ReadAssignments(values));
-        }
 
         internal void Exchange(int instrument, IReadOnlyCollection<KeyValuePair<string, JToken>> values)
         {

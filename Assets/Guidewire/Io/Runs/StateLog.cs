@@ -19,10 +19,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>Gives the name of the log of a complete run.</summary>
-        public static string NameOf(LogFormat format)
-        {
-            return format == LogFormat.Json ? "positions.json" : "positions.npz";
-        }
+        public static string NameOf(LogFormat format) => format == LogFormat.Json ? "positions.json" : "positions.npz";
 
         /// <summary>Writes one state.</summary>
         /// <param name="simulation">The run after its last step.</param>

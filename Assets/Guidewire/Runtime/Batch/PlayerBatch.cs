@@ -13,10 +13,7 @@ namespace Guidewire.Runtime
             Application.isBatchMode && BatchRun.Own(Environment.GetCommandLineArgs()) != null;
 
         [RuntimeInitializeOnLoadMethod(RuntimeInitializeLoadType.BeforeSceneLoad)]
-        private static void RunIfRequested()
-        {
-            Run(Environment.GetCommandLineArgs());
-        }
+        private static void RunIfRequested() => Run(Environment.GetCommandLineArgs());
 
         /// <summary>Does the run that the process's arguments ask for, if they ask for one.</summary>
         internal static void Run(string[] arguments)

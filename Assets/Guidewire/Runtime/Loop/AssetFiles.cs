@@ -30,9 +30,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Another text where something else stands in an asset.</summary>
-        public static string Key(TextAsset? asset)
-        {
-            return !asset ? "" : asset!.name + (asset.dataSize < Short ? asset.text : asset.dataSize.ToString());
-        }
+        public static string Key(TextAsset? asset) =>
+            !asset ? "" : asset!.name + (asset.dataSize < Short ? asset.text : asset.dataSize.ToString());
     }
 }

@@ -33,10 +33,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Waits until it is done, in another thread than that of the frames. What could not be compiled is
         /// compiled where it is called.</summary>
-        public static void Wait()
-        {
-            Task.WaitAny(_done);
-        }
+        public static void Wait() => Task.WaitAny(_done);
 
         private static void Compile()
         {

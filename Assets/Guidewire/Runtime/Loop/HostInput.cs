@@ -42,17 +42,13 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Whether keys are reported at all.</summary>
-        public bool IsThere
-        {
-            get
-            {
+        public bool IsThere =>
 #if HAS_INPUT_SYSTEM
-                return _isLegacy || Keyboard.current != null;
+                _isLegacy || Keyboard.current != null;
 #else
                 return _isLegacy;
 #endif
-            }
-        }
+
 
         /// <summary>Where the mouse is, pixels.</summary>
         public Vector2 Mouse

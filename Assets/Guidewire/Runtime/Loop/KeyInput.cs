@@ -21,9 +21,6 @@ namespace Guidewire.Runtime
         /// <inheritdoc/>
         public float Turn => _turn.Value(_input);
 
-        private void OnEnable()
-        {
-            _input = HostInput.Find();
-        }
+        private void OnEnable() => _input = HostInput.Find();
     }
 }

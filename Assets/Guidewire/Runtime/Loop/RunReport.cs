@@ -15,10 +15,7 @@ namespace Guidewire.Runtime
         public string Problem { get; private set; } = "";
 
         /// <summary>Begins with another run.</summary>
-        public void Begin()
-        {
-            (Problem, _reported) = ("", Outcome.Running);
-        }
+        public void Begin() => (Problem, _reported) = ("", Outcome.Running);
 
         /// <summary>Stops with what was thrown.</summary>
         public void Stop(Exception error)

@@ -33,10 +33,7 @@ namespace Guidewire.Runtime
         /// <param name="frame">The wire's object: a unit of the wire is a unit along its axes.</param>
         /// <exception cref="ArgumentException">There is no mesh, it is no such surface, or the friction is
         /// negative.</exception>
-        public ContactShape Create(Transform frame)
-        {
-            return Read(frame).Build();
-        }
+        public ContactShape Create(Transform frame) => Read(frame).Build();
 
         /// <summary>Another text where the wall would be another: in another place, or another mesh.</summary>
         internal string Key(Transform frame)
@@ -84,9 +81,7 @@ namespace Guidewire.Runtime
             return new VesselMesh(gameObject.name, mesh, place, rims, _frictionCoefficient);
         }
 
-        private ArgumentException Refused(string why)
-        {
-            return new ArgumentException("vessel " + gameObject.name + ": " + why);
-        }
+        private ArgumentException Refused(string why) =>
+            new ArgumentException("vessel " + gameObject.name + ": " + why);
     }
 }

@@ -194,18 +194,13 @@ namespace Guidewire.Runtime
         /// garbage.</summary>
         /// <param name="positions">Takes them; <see cref="SphereCount"/> long.</param>
         /// <exception cref="ArgumentException">It has another length.</exception>
-        public void GetPositions(Vector3[] positions)
-        {
-            WorldFrames.GetPositions(transform, Shown, positions);
-        }
+        public void GetPositions(Vector3[] positions) => WorldFrames.GetPositions(transform, Shown, positions);
 
         /// <summary>Orientations of all elements in the world: forward is along the wire. No garbage.</summary>
         /// <param name="orientations">Takes them; one less than <see cref="SphereCount"/>.</param>
         /// <exception cref="ArgumentException">It has another length.</exception>
-        public void GetOrientations(Quaternion[] orientations)
-        {
+        public void GetOrientations(Quaternion[] orientations) =>
             WorldFrames.GetOrientations(transform, Shown, orientations);
-        }
 
         /// <summary>Takes the alternative's parameters instead of the present ones, and rebuilds the wire; does
         /// nothing where there is no alternative.</summary>
@@ -222,10 +217,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Selects the next instrument to steer: wire, catheters, wire again.</summary>
-        public void HoldNext()
-        {
-            Held = Description == null ? 0 : (Held + 1) % Description.Titles.Count;
-        }
+        public void HoldNext() => Held = Description == null ? 0 : (Held + 1) % Description.Titles.Count;
 
         /// <summary>Takes the next name of the folders of instruments with which an instrument can be built, and builds
         /// the run anew; does nothing where there is none.</summary>
@@ -239,10 +231,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Rebuilds the wire from the parameters. The loop's thread opens it, while frames go on.</summary>
-        public void Load()
-        {
-            Load(new[] { _overrides });
-        }
+        public void Load() => Load(new[] { _overrides });
 
         /// <summary>Makes the steps of a frame, or asks the loop's thread for them, and takes over what has been
         /// made.</summary>
@@ -300,10 +289,7 @@ namespace Guidewire.Runtime
         /// <summary>Changes a parameter while the wire goes on; a value that is not allowed stops the loop.</summary>
         /// <param name="key">As in a file.</param>
         /// <param name="value">As behind KEY= in the Inspector.</param>
-        public void Set(string key, string value)
-        {
-            Do(session => session.Set(key, value));
-        }
+        public void Set(string key, string value) => Do(session => session.Set(key, value));
 
         /// <summary>Ends the run and its log; a thread in the middle of a step ends within 100 ms.</summary>
         public void Close()
@@ -341,15 +327,9 @@ namespace Guidewire.Runtime
             }
         }
 
-        private void OnDisable()
-        {
-            _run?.Forget(0.0);
-        }
+        private void OnDisable() => _run?.Forget(0.0);
 
-        private void OnDestroy()
-        {
-            Close();
-        }
+        private void OnDestroy() => Close();
 
         private void Load(IReadOnlyList<string[]> choices)
         {
@@ -411,10 +391,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        private bool CanStep()
-        {
-            return _opened != null && Problem.Length == 0 && _opened.Newest.Outcome == Outcome.Running;
-        }
+        private bool CanStep() => _opened != null && Problem.Length == 0 && _opened.Newest.Outcome == Outcome.Running;
 
         // Takes over what has been made since the last time.
         private void Take()

@@ -12,10 +12,7 @@ namespace Guidewire.Runtime
         public double Speed { get; private set; } = 1.0;
 
         /// <summary>Begins with another run.</summary>
-        public void Begin()
-        {
-            (Speed, _asked, _lastTime) = (1.0, 0.0, 0.0);
-        }
+        public void Begin() => (Speed, _asked, _lastTime) = (1.0, 0.0, 0.0);
 
         /// <summary>A frame has asked for in-game time.</summary>
         /// <param name="seconds">s.</param>

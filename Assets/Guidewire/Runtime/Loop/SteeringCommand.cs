@@ -12,9 +12,7 @@ namespace Guidewire.Runtime
         /// <summary>Its rotation speed, degrees per second of in-game time.</summary>
         public double Turn;
 
-        public readonly bool Equals(in SteeringCommand other)
-        {
-            return Held == other.Held && Push.Equals(other.Push) && Turn.Equals(other.Turn);
-        }
+        public readonly bool Equals(in SteeringCommand other) =>
+            Held == other.Held && Push.Equals(other.Push) && Turn.Equals(other.Turn);
     }
 }

@@ -36,10 +36,7 @@ namespace Guidewire.Runtime
             _commands.Add((step, command));
         }
 
-        internal void Add(int step, Action<SimulationSession> change)
-        {
-            _changes.Add((step, change));
-        }
+        internal void Add(int step, Action<SimulationSession> change) => _changes.Add((step, change));
 
         /// <summary>Begins to play it.</summary>
         internal void Rewind()
@@ -59,9 +56,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Gives the next change before a step, or null.</summary>
-        internal Action<SimulationSession>? ChangeAt(int step)
-        {
-            return _change < _changes.Count && _changes[_change].Step <= step ? _changes[_change++].Change : null;
-        }
+        internal Action<SimulationSession>? ChangeAt(int step) =>
+            _change < _changes.Count && _changes[_change].Step <= step ? _changes[_change++].Change : null;
     }
 }

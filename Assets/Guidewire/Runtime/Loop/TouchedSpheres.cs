@@ -9,10 +9,7 @@ namespace Guidewire.Runtime
         private bool[] _touched = Array.Empty<bool>();
 
         /// <summary>None is touched; for another wire.</summary>
-        public void Begin(int spheres)
-        {
-            _touched = new bool[spheres];
-        }
+        public void Begin(int spheres) => _touched = new bool[spheres];
 
         /// <summary>Takes over a step.</summary>
         /// <param name="forces">Of the walls on each sphere; empty without walls.</param>

@@ -158,10 +158,7 @@ namespace Guidewire.Runtime
 
         /// <summary>Takes the newest state.</summary>
         /// <returns>False where there is none since the last.</returns>
-        public bool Take()
-        {
-            return _opened != null && _opened.Take(_exchange!);
-        }
+        public bool Take() => _opened != null && _opened.Take(_exchange!);
 
         /// <summary>Does one piece of work.</summary>
         /// <returns>False where there is nothing to do until the host asks for more.</returns>
@@ -216,10 +213,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Waits until it has ended: whoever writes to the same log begins after that.</summary>
-        public void WaitForEnd()
-        {
-            _thread?.Join();
-        }
+        public void WaitForEnd() => _thread?.Join();
 
         private void WorkUntilStopped()
         {

@@ -64,10 +64,7 @@ namespace Guidewire.Runtime
         public int Count => _drawn.Count;
 
         /// <summary>The tube of a catheter as it was last drawn.</summary>
-        public TubeMesh TubeOf(int catheter)
-        {
-            return _drawn[catheter].Tube;
-        }
+        public TubeMesh TubeOf(int catheter) => _drawn[catheter].Tube;
 
         /// <summary>Makes the meshes of another run.</summary>
         public void Build(SimulationParameters parameters, IReadOnlyList<CatheterState> catheters)

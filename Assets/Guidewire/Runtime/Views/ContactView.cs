@@ -69,10 +69,7 @@ namespace Guidewire.Runtime
             }
         }
 
-        private Material Yellow()
-        {
-            return _yellow ? _yellow! : _yellow = LitMaterial.Create(new Color(1f, 0.85f, 0.1f));
-        }
+        private Material Yellow() => _yellow ? _yellow! : _yellow = LitMaterial.Create(new Color(1f, 0.85f, 0.1f));
 
         private void DrawPoints(WireState state, float radius, Material material)
         {

@@ -73,10 +73,7 @@ namespace Guidewire.Runtime
             Text = _builder.ToString();
         }
 
-        private void OnEnable()
-        {
-            _input = HostInput.Find();
-        }
+        private void OnEnable() => _input = HostInput.Find();
 
         private void Update()
         {

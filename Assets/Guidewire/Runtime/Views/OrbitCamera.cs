@@ -43,10 +43,7 @@ namespace Guidewire.Runtime
             set => _distance = value;
         }
 
-        private void OnEnable()
-        {
-            _input = HostInput.Find();
-        }
+        private void OnEnable() => _input = HostInput.Find();
 
         private void LateUpdate()
         {

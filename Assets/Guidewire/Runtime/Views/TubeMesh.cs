@@ -61,19 +61,14 @@ namespace Guidewire.Runtime
         public int[] Triangles { get; }
 
         /// <summary>Gives the index of the first vertex of the ring around a sphere.</summary>
-        public int RingOf(int sphere)
-        {
-            return (Cap + sphere * _perElement) * _sides;
-        }
+        public int RingOf(int sphere) => (Cap + sphere * _perElement) * _sides;
 
         /// <summary>Rewrites the surface; leaves it as it is where a position is not finite.</summary>
         /// <param name="state">The wire.</param>
         /// <param name="radius">Units.</param>
         /// <param name="colours">A coordinate in the colour map for each sphere, in [0, 1].</param>
-        public bool Write(RodState state, float radius, float[] colours)
-        {
-            return Write(state.Positions, state.Orientations[0], radius, colours);
-        }
+        public bool Write(RodState state, float radius, float[] colours) =>
+            Write(state.Positions, state.Orientations[0], radius, colours);
 
         /// <summary>The same for spheres that are not a wire's.</summary>
         /// <param name="x">Where they are, units.</param>

@@ -98,10 +98,7 @@ namespace Guidewire.Runtime
         internal CatheterTubes Catheters => _catheters;
 
         /// <summary>Shows the next of plain, stretch, bending, twist.</summary>
-        public void NextColouring()
-        {
-            _colouring = (Colouring)(((int)_colouring + 1) % 4);
-        }
+        public void NextColouring() => _colouring = (Colouring)(((int)_colouring + 1) % 4);
 
         /// <summary>Draws the wire as this frame has it.</summary>
         public void Draw()
@@ -144,10 +141,7 @@ namespace Guidewire.Runtime
             _catheters.Draw(state.Catheters, radius, Place, _catheterMaterial, gameObject.layer);
         }
 
-        private void LateUpdate()
-        {
-            Draw();
-        }
+        private void LateUpdate() => Draw();
 
         private void OnDestroy()
         {

@@ -64,10 +64,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Runs to its end.</summary>
-        public static Simulation Run(SimulationParameters parameters)
-        {
-            return Run(Simulation.Create(parameters));
-        }
+        public static Simulation Run(SimulationParameters parameters) => Run(Simulation.Create(parameters));
 
         /// <summary>Goes on to the run's end.</summary>
         /// <param name="afterStep">Called after every step.</param>
@@ -82,10 +79,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Runs to its end, which must be that of its last step.</summary>
-        public static Simulation Finish(SimulationParameters parameters)
-        {
-            return Finish(Simulation.Create(parameters));
-        }
+        public static Simulation Finish(SimulationParameters parameters) => Finish(Simulation.Create(parameters));
 
         /// <summary>Goes on to the run's end, which must be that of its last step.</summary>
         /// <param name="afterStep">Called after every step.</param>
@@ -162,10 +156,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The largest distance between spheres of the same index.</summary>
-        public static double Distance(RodState a, RodState b)
-        {
-            return Distance(a.Positions, b.Positions);
-        }
+        public static double Distance(RodState a, RodState b) => Distance(a.Positions, b.Positions);
 
         /// <summary>The largest distance between points of the same index.</summary>
         public static double Distance(Vector3d[] a, Vector3d[] b)

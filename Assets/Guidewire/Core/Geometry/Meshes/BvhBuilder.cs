@@ -164,15 +164,10 @@ namespace Guidewire.Core
             return first + count / 2;
         }
 
-        private static int Bin(in Box box, int axis, double from, double width)
-        {
-            return Math.Min(Bins - 1, (int)(Bins * ((Component(box.Middle, axis) - from) / width)));
-        }
+        private static int Bin(in Box box, int axis, double from, double width) =>
+            Math.Min(Bins - 1, (int)(Bins * ((Component(box.Middle, axis) - from) / width)));
 
-        private static double Component(in Vector3d v, int axis)
-        {
-            return axis == 0 ? v.X : axis == 1 ? v.Y : v.Z;
-        }
+        private static double Component(in Vector3d v, int axis) => axis == 0 ? v.X : axis == 1 ? v.Y : v.Z;
 
         // Around a triangle, units.
         private struct Box

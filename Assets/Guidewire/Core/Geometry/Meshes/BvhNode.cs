@@ -86,15 +86,11 @@ namespace Guidewire.Core
                 && Math.Abs(Centre.Z - other.Centre.Z) <= Extent.Z + other.Extent.Z;
         }
 
-        public static Vector3d Min(in Vector3d a, in Vector3d b)
-        {
-            return new Vector3d(Math.Min(a.X, b.X), Math.Min(a.Y, b.Y), Math.Min(a.Z, b.Z));
-        }
+        public static Vector3d Min(in Vector3d a, in Vector3d b) =>
+            new Vector3d(Math.Min(a.X, b.X), Math.Min(a.Y, b.Y), Math.Min(a.Z, b.Z));
 
-        public static Vector3d Max(in Vector3d a, in Vector3d b)
-        {
-            return new Vector3d(Math.Max(a.X, b.X), Math.Max(a.Y, b.Y), Math.Max(a.Z, b.Z));
-        }
+        public static Vector3d Max(in Vector3d a, in Vector3d b) =>
+            new Vector3d(Math.Max(a.X, b.X), Math.Max(a.Y, b.Y), Math.Max(a.Z, b.Z));
 
         // Middle and half edge round; the border of some units in the last place makes up for it, or a triangle that
         // fills its box could be left out of a search.

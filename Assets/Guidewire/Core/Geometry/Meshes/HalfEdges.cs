@@ -7,10 +7,7 @@ namespace Guidewire.Core
     internal static class HalfEdges
     {
         /// <summary>Gives the next half-edge around the same triangle.</summary>
-        public static int Next(int halfEdge)
-        {
-            return halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
-        }
+        public static int Next(int halfEdge) => halfEdge % 3 == 2 ? halfEdge - 2 : halfEdge + 1;
 
         /// <summary>Gives for each half-edge the other one of its edge, -1 where there is none.</summary>
         /// <param name="triangles">Three vertices a triangle.</param>
@@ -66,10 +63,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>The vertex of lower valence of two, the lower index where they are equal.</summary>
-        public static int LowerValence(int[] valence, int i, int j)
-        {
-            return valence[i] < valence[j] || (valence[i] == valence[j] && i < j) ? i : j;
-        }
+        public static int LowerValence(int[] valence, int i, int j) =>
+            valence[i] < valence[j] || (valence[i] == valence[j] && i < j) ? i : j;
 
         /// <summary>Gives an array of -1.</summary>
         public static int[] Unset(int count)

@@ -121,10 +121,7 @@ namespace Guidewire.Core
             }
         }
 
-        private int VertexOf(int halfEdge)
-        {
-            return _mesh.Corners.Length + _mesh.VertexAt(halfEdge);
-        }
+        private int VertexOf(int halfEdge) => _mesh.Corners.Length + _mesh.VertexAt(halfEdge);
 
         private void Count(int feature, int weight)
         {

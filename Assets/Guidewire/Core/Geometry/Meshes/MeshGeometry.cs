@@ -66,42 +66,24 @@ namespace Guidewire.Core
 
         /// <summary>The vertex at which a half-edge starts: half-edge 3 t + k starts at corner k of triangle
         /// t.</summary>
-        public int VertexAt(int halfEdge)
-        {
-            return _triangles[halfEdge];
-        }
+        public int VertexAt(int halfEdge) => _triangles[halfEdge];
 
         /// <summary>The first half-edge that starts at a vertex.</summary>
-        public int HalfEdgeOfVertex(int vertex)
-        {
-            return _halfEdgeOfVertex[vertex];
-        }
+        public int HalfEdgeOfVertex(int vertex) => _halfEdgeOfVertex[vertex];
 
         /// <summary>Is true for a vertex of an open rim.</summary>
-        public bool IsRimVertex(int vertex)
-        {
-            return _isRimVertex[vertex];
-        }
+        public bool IsRimVertex(int vertex) => _isRimVertex[vertex];
 
         /// <summary>The edge of a half-edge, by the lower of the two half-edges at which its two triangles have
         /// it.</summary>
-        public int EdgeOf(int halfEdge)
-        {
-            return _twin[halfEdge] < 0 ? halfEdge : Math.Min(halfEdge, _twin[halfEdge]);
-        }
+        public int EdgeOf(int halfEdge) => _twin[halfEdge] < 0 ? halfEdge : Math.Min(halfEdge, _twin[halfEdge]);
 
         /// <summary>Is true for an edge of an open rim.</summary>
-        public bool IsRimEdge(int edge)
-        {
-            return _twin[edge] < 0;
-        }
+        public bool IsRimEdge(int edge) => _twin[edge] < 0;
 
         /// <summary>Gives the unit normal of an edge: the sum of its faces' normals, of a rim's edge that of its one
         /// face.</summary>
-        public Vector3d NormalOfEdge(int edge)
-        {
-            return FeatureNormal(edge / 3, ClosestPoints.Edge + edge % 3, out _);
-        }
+        public Vector3d NormalOfEdge(int edge) => FeatureNormal(edge / 3, ClosestPoints.Edge + edge % 3, out _);
 
         /// <summary>Corners of an edge's two ends, that of the lower vertex first, so that the edge has one direction
         /// whatever its triangles do.</summary>
@@ -187,10 +169,8 @@ namespace Guidewire.Core
             }
         }
 
-        private static double Angle(in Vector3d u, in Vector3d v)
-        {
-            return Math.Atan2(Vector3d.Cross(u, v).Length, Vector3d.Dot(u, v));
-        }
+        private static double Angle(in Vector3d u, in Vector3d v) =>
+            Math.Atan2(Vector3d.Cross(u, v).Length, Vector3d.Dot(u, v));
 
         private static void AddFan(List<Vector3d> vertices, List<int> triangles, int[] rim)
         {

@@ -64,10 +64,7 @@ namespace Guidewire.Core
 
         /// <summary>The same wall for the next run, with a friction coefficient of its own. Both share what is computed
         /// from the triangles, so placing one places the other, and only one may be queried at a time.</summary>
-        public MeshShape ForNextRun()
-        {
-            return new MeshShape(this);
-        }
+        public MeshShape ForNextRun() => new MeshShape(this);
 
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
@@ -123,10 +120,7 @@ namespace Guidewire.Core
         /// <summary>Finds edges that bulge into the lumen, and those of open rims; see <see
         /// cref="MeshEdges"/>.</summary>
         internal override void FindEdgeContacts(in Vector3d a, in Vector3d b, double range, FeatureRange features,
-            StructList<EdgeContact> edgeContacts)
-        {
-            EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
-        }
+            StructList<EdgeContact> edgeContacts) => EdgeContacts.Find(a, b, range, Nearby, features, edgeContacts);
 
         /// <summary>A point against the triangles, a segment against the convex edges.</summary>
         internal override double ConservativeTimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1,
@@ -146,10 +140,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         internal override bool MayMeet(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1, double distance,
-            ref int hint)
-        {
-            return _wall.Tree.MayMeet(new SweptSegment(a0, b0, a1, b1, distance));
-        }
+            ref int hint) => _wall.Tree.MayMeet(new SweptSegment(a0, b0, a1, b1, distance));
 
         private MeshEdges EdgeContacts => _derived.EdgeContacts ??= new MeshEdges(_wall);
 
@@ -179,10 +170,8 @@ namespace Guidewire.Core
         }
 
         private protected override double TimeOfImpact(in Vector3d a0, in Vector3d b0, in Vector3d a1, in Vector3d b1,
-            double clearance, double resolution, int hint)
-        {
-            return _wall.Tree.TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
-        }
+            double clearance, double resolution, int hint) =>
+            _wall.Tree.TimeOfImpact(a0, b0, a1, b1, clearance, resolution, hint);
 
         // What follows from the triangles where they are, each computed when it is first asked for.
         private sealed class Derived

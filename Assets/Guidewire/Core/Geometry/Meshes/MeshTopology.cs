@@ -84,10 +84,8 @@ namespace Guidewire.Core
             }
         }
 
-        private static double LargestCoordinate(in Vector3d vertex)
-        {
-            return Math.Max(Math.Abs(vertex.X), Math.Max(Math.Abs(vertex.Y), Math.Abs(vertex.Z)));
-        }
+        private static double LargestCoordinate(in Vector3d vertex) =>
+            Math.Max(Math.Abs(vertex.X), Math.Max(Math.Abs(vertex.Y), Math.Abs(vertex.Z)));
 
         private void Weld()
         {
@@ -139,15 +137,11 @@ namespace Guidewire.Core
             }
         }
 
-        private static bool AreCorners(List<int> triangles, int at, int i, int j, int k)
-        {
-            return Has(triangles, at, i) && Has(triangles, at, j) && Has(triangles, at, k);
-        }
+        private static bool AreCorners(List<int> triangles, int at, int i, int j, int k) =>
+            Has(triangles, at, i) && Has(triangles, at, j) && Has(triangles, at, k);
 
-        private static bool Has(List<int> triangles, int at, int vertex)
-        {
-            return triangles[at] == vertex || triangles[at + 1] == vertex || triangles[at + 2] == vertex;
-        }
+        private static bool Has(List<int> triangles, int at, int vertex) =>
+            triangles[at] == vertex || triangles[at + 1] == vertex || triangles[at + 2] == vertex;
 
         private int[] JoinEdges()
         {
@@ -257,9 +251,7 @@ namespace Guidewire.Core
             return least;
         }
 
-        private void Turn(int triangle)
-        {
+        private void Turn(int triangle) =>
             (Triangles[triangle + 1], Triangles[triangle + 2]) = (Triangles[triangle + 2], Triangles[triangle + 1]);
-        }
     }
 }

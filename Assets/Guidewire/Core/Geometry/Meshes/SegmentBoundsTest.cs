@@ -64,10 +64,8 @@ namespace Guidewire.Core
 
         /// <summary>Gives a field of eight children.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Vector256<float> Bounds(ref float bounds, int field)
-        {
-            return Vector256.LoadUnsafe(ref Unsafe.Add(ref bounds, 8 * field));
-        }
+        public static Vector256<float> Bounds(ref float bounds, int field) =>
+            Vector256.LoadUnsafe(ref Unsafe.Add(ref bounds, 8 * field));
     }
 }
 #endif

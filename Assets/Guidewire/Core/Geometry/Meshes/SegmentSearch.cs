@@ -38,10 +38,7 @@ namespace Guidewire.Core
 
         /// <summary>The square of a range, a little larger: a search finds what is nearer than this, and so also a
         /// triangle exactly at the range.</summary>
-        public static double Square(double range)
-        {
-            return range * range * (1.0 + 1e-15);
-        }
+        public static double Square(double range) => range * range * (1.0 + 1e-15);
 
         /// <summary>True for a segment of no length: a sphere's centre.</summary>
         public readonly bool IsPoint => _inverseLengthSquared == 0.0;

@@ -57,10 +57,7 @@ namespace Guidewire.Core
         /// <summary>False where nothing in a node comes within the distance: the boxes are apart, or all four corners
         /// of the motion, and so all that they span, are on one side of the node's slab.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public bool MayMeet(in BvhNode node)
-        {
-            return _box.Overlaps(node) && !IsInRange(node.Normal, node.Low, node.High);
-        }
+        public bool MayMeet(in BvhNode node) => _box.Overlaps(node) && !IsInRange(node.Normal, node.Low, node.High);
 
         /// <summary>Whether the motion stays, by more than the distance, on one side of all that lies between two
         /// parallel planes.</summary>

@@ -124,9 +124,7 @@ namespace Guidewire.Core
             return sum / 6.0;
         }
 
-        private static double Determinant(in Vector3d a, in Vector3d b, in Vector3d c)
-        {
-            return Vector3d.Dot(a, Vector3d.Cross(b, c));
-        }
+        private static double Determinant(in Vector3d a, in Vector3d b, in Vector3d c) =>
+            Vector3d.Dot(a, Vector3d.Cross(b, c));
     }
 }

@@ -58,10 +58,8 @@ namespace Guidewire.Core
 
         /// <summary>Lower bound of a triangle's distance from a point, units; negative where none is known.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public double MinDistance(in Vector3d x, int triangle)
-        {
-            return (Math.Sqrt(SquaredBound(x, triangle)) - _rounding) / RoundedUp;
-        }
+        public double MinDistance(in Vector3d x, int triangle) =>
+            (Math.Sqrt(SquaredBound(x, triangle)) - _rounding) / RoundedUp;
 
         /// <summary>False where a point that moves in a straight line stays beyond one of a triangle's planes by more
         /// than a distance, units.</summary>

@@ -73,16 +73,10 @@ namespace Guidewire.Core
 
         /// <summary>What sums of lengths may be off by, units.</summary>
         /// <param name="distance">The largest of what is compared with nodes, from the origin, units.</param>
-        public double Slack(double distance)
-        {
-            return Rounding * distance + _slack;
-        }
+        public double Slack(double distance) => Rounding * distance + _slack;
 
         /// <summary>Gives the upper bound of a vector's length, without a square root.</summary>
-        public static double LengthBound(in Vector3d of)
-        {
-            return Math.Abs(of.X) + Math.Abs(of.Y) + Math.Abs(of.Z);
-        }
+        public static double LengthBound(in Vector3d of) => Math.Abs(of.X) + Math.Abs(of.Y) + Math.Abs(of.Z);
 
         /// <summary>Takes over the boxes and slabs of the binary nodes.</summary>
         public void Refit(BvhNode[] nodes)

@@ -143,16 +143,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the sum of N on an element, N.</summary>
-        public double LoadOn(int element)
-        {
-            return _force[element];
-        }
+        public double LoadOn(int element) => _force[element];
 
         /// <summary>Gives N of an instrument before the chain, N.</summary>
-        public double LeadForceOf(int instrument)
-        {
-            return _leadForce[instrument];
-        }
+        public double LeadForceOf(int instrument) => _leadForce[instrument];
 
         /// <summary>The sum of these, N.</summary>
         public double LeadLoad
@@ -197,10 +191,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the rest length of element j of the chain, m.</summary>
-        public double RestLengthOf(int j)
-        {
-            return _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j];
-        }
+        public double RestLengthOf(int j) =>
+            _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j];
 
         /// <summary>Takes the directions of the loads.</summary>
         /// <returns>The largest change of what an element is longer by, m.</returns>

@@ -41,10 +41,7 @@ namespace Guidewire.Core
         public CoaxialJoints Joints => _joints;
 
         /// <summary>How far an inner instrument has slid out of the outermost one since the step's start, m.</summary>
-        public double SlideOf(int instrument)
-        {
-            return _startLead[instrument] - _joints.LeadOf(instrument);
-        }
+        public double SlideOf(int instrument) => _startLead[instrument] - _joints.LeadOf(instrument);
 
         /// <summary>Angle from the frame before joint 0 to each hub, radians, without limit; 0 of the first one, but in
         /// a sheath, where that frame is held.</summary>
@@ -118,16 +115,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void BeginStep(RodShape shape, double dt)
-        {
-            SetIdleTwists(shape);
-        }
+        public override void BeginStep(RodShape shape, double dt) => SetIdleTwists(shape);
 
         /// <inheritdoc/>
-        public override void Remesh()
-        {
-            _winding.Set(0.0);
-        }
+        public override void Remesh() => _winding.Set(0.0);
 
         /// <summary>Joint 0 in a sheath is measured from where it is in this shape once it is far from its
         /// winding.</summary>
@@ -144,10 +135,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double AnchoredValue(double before)
-        {
-            return before + _rewound;
-        }
+        public override double AnchoredValue(double before) => before + _rewound;
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
@@ -159,10 +147,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void DropGeometricStiffness(bool isOn)
-        {
-            _rows.DropsGeometricStiffness = isOn;
-        }
+        public override void DropGeometricStiffness(bool isOn) => _rows.DropsGeometricStiffness = isOn;
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
@@ -303,10 +288,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public override void MeasureRates(RodShape shape, Vector3d[] spins, in Vector3d proximal, in Vector3d distal,
-            Vector3d[] rates)
-        {
-            throw new NotSupportedException("coaxial instruments have no damping of their strains");
-        }
+            Vector3d[] rates) => throw new NotSupportedException("coaxial instruments have no damping of their strains");
 
         /// <inheritdoc/>
         public override double TurnCouple(RodShape shape, int instrument = 0)
@@ -326,10 +308,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override Vector3d DistalCouple(RodShape shape)
-        {
-            return Vector3d.Zero;
-        }
+        public override Vector3d DistalCouple(RodShape shape) => Vector3d.Zero;
 
         /// <inheritdoc/>
         public override void Evaluate(RodShape shape, int k, out CoaxialJointState s)
@@ -374,15 +353,9 @@ namespace Guidewire.Core
         }
 
         // Joint k stands between elements k - 1 and k: a range has those after its elements, the first that at the hub.
-        private static int FirstJoint(int from)
-        {
-            return from == 0 ? 0 : from + 1;
-        }
+        private static int FirstJoint(int from) => from == 0 ? 0 : from + 1;
 
-        private int EndJoint(int to)
-        {
-            return Math.Min(to + 1, _joints.ElementCount);
-        }
+        private int EndJoint(int to) => Math.Min(to + 1, _joints.ElementCount);
 
         private Quaterniond Relative(RodShape shape, int k)
         {
@@ -400,10 +373,7 @@ namespace Guidewire.Core
             return _law.Value(s.Joint, s.Relative) + s.Held;
         }
 
-        private static Quaterniond Turned(double angle)
-        {
-            return Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
-        }
+        private static Quaterniond Turned(double angle) => Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
 
         private void SetAngles(RodShape shape, int k, int carrier, int frame, int instrument,
             ref CoaxialPartState part, double frameBefore)

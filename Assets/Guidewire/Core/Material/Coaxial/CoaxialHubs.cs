@@ -29,10 +29,8 @@ namespace Guidewire.Core
         public HubMotion[] Inner { get; }
 
         /// <summary>Gives the distance of one behind the outermost one at a time, m.</summary>
-        public double LeadAt(int instrument, double time)
-        {
-            return Vector3d.Dot(_hub[0].PositionAt(time) - _hub[instrument].PositionAt(time), _axis);
-        }
+        public double LeadAt(int instrument, double time) =>
+            Vector3d.Dot(_hub[0].PositionAt(time) - _hub[instrument].PositionAt(time), _axis);
 
         /// <summary>Sets the distance of all behind the outermost one at a time, m.</summary>
         public void SetLeads(double[] leads, double time)
@@ -44,17 +42,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the axial speed of one relative to another, m/s.</summary>
-        public double SlideOf(int instrument, int other)
-        {
-            return Vector3d.Dot(_hub[instrument].Velocity - _hub[other].Velocity, _axis);
-        }
+        public double SlideOf(int instrument, int other) =>
+            Vector3d.Dot(_hub[instrument].Velocity - _hub[other].Velocity, _axis);
 
         /// <summary>Gives the distance of the outermost one from the exit of a sheath at a time, m; 0 without
         /// one.</summary>
-        public double SheathedAt(double time)
-        {
-            return _sheath == null ? 0.0 : Math.Max(0.0, -_sheath.Outside(Outer.PositionAt(time)));
-        }
+        public double SheathedAt(double time) =>
+            _sheath == null ? 0.0 : Math.Max(0.0, -_sheath.Outside(Outer.PositionAt(time)));
 
         /// <summary>Turn of an element of the outermost instrument against its hub's frame at time 0, radians: all
         /// turns of the joints before it.</summary>
@@ -71,9 +65,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the rotation of one relative to the outermost one, radians.</summary>
-        public double TwistAt(int instrument, double time)
-        {
-            return _hub[instrument].TurnAt(time) - _hub[0].TurnAt(time);
-        }
+        public double TwistAt(int instrument, double time) => _hub[instrument].TurnAt(time) - _hub[0].TurnAt(time);
     }
 }

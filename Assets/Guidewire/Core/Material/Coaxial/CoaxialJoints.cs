@@ -134,28 +134,17 @@ namespace Guidewire.Core
         public ref readonly CoaxialJoint this[int k] => ref _joint[k];
 
         /// <summary>Gives the outermost instrument on an element.</summary>
-        public int CarrierOf(int element)
-        {
-            return _carrier[element];
-        }
+        public int CarrierOf(int element) => _carrier[element];
 
         /// <summary>Gives the outermost instrument at a node, one of whose own nodes it is.</summary>
-        public int CarrierAt(int node)
-        {
-            return node <= OuterCount ? 0 : _carrier[node - 1];
-        }
+        public int CarrierAt(int node) => node <= OuterCount ? 0 : _carrier[node - 1];
 
         /// <summary>The instrument on whose frame the joint at node k stands.</summary>
-        public int FrameOf(int k)
-        {
-            return _carrier[Math.Min(k, ElementCount - 1)];
-        }
+        public int FrameOf(int k) => _carrier[Math.Min(k, ElementCount - 1)];
 
         /// <summary>Sums over pieces of these instruments.</summary>
-        public CoaxialPieces CreatePieces()
-        {
-            return new CoaxialPieces(Array.ConvertAll(_instrument, instrument => instrument.Profile));
-        }
+        public CoaxialPieces CreatePieces() =>
+            new CoaxialPieces(Array.ConvertAll(_instrument, instrument => instrument.Profile));
 
         /// <summary>Adds what is on both sides of the joint at node k, no end of the chain.</summary>
         public void AddSides(int k, CoaxialPieces sides)
@@ -166,22 +155,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the nodes of an instrument in the chain, from its tip on.</summary>
-        public int BeyondOf(int instrument)
-        {
-            return _beyond[instrument];
-        }
+        public int BeyondOf(int instrument) => _beyond[instrument];
 
         /// <summary>The last node of an instrument in the chain, or that where its tip is inside.</summary>
-        public int TipOf(int instrument)
-        {
-            return _tip[instrument];
-        }
+        public int TipOf(int instrument) => _tip[instrument];
 
         /// <summary>Gives the distance of an instrument's hub behind the outermost one's, m.</summary>
-        public double LeadOf(int instrument)
-        {
-            return Hubs.Leads[instrument];
-        }
+        public double LeadOf(int instrument) => Hubs.Leads[instrument];
 
         /// <summary>Where a node of an inner instrument is, m along the chain.</summary>
         /// <param name="fromTip">0 at its tip.</param>
@@ -192,22 +172,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the distance of an instrument's tip beyond that of another, m; negative inside.</summary>
-        public double ExtensionOf(int instrument, int outer)
-        {
-            return _instrument[instrument].Profile.Length - Hubs.Leads[instrument] - Hubs.Ends[outer];
-        }
+        public double ExtensionOf(int instrument, int outer) =>
+            _instrument[instrument].Profile.Length - Hubs.Leads[instrument] - Hubs.Ends[outer];
 
         /// <summary>Elements, from the first on, where the twist angle of an inner instrument is unknown.</summary>
-        public int ActiveCountOf(int instrument)
-        {
-            return _active[instrument];
-        }
+        public int ActiveCountOf(int instrument) => _active[instrument];
 
         /// <summary>Compliance along the axis of an instrument in an element, m/N, as far as it is in it.</summary>
-        public double StretchOf(int instrument, int element)
-        {
-            return _stretch[instrument * ElementCount + element];
-        }
+        public double StretchOf(int instrument, int element) => _stretch[instrument * ElementCount + element];
 
         /// <summary>The same of all before the chain and after the outermost hub, held together, m/N.</summary>
         public double LeadAxial { get; private set; }
@@ -224,31 +196,19 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the same of its length before the chain.</summary>
-        public double LeadStretchOf(int instrument)
-        {
-            return _leadStretch[instrument];
-        }
+        public double LeadStretchOf(int instrument) => _leadStretch[instrument];
 
         /// <summary>Whether node k is the tip of an instrument with another one going on beyond it.</summary>
-        public bool IsTip(int k)
-        {
-            return k > 0 && k < ElementCount && _carrier[k] != _carrier[k - 1];
-        }
+        public bool IsTip(int k) => k > 0 && k < ElementCount && _carrier[k] != _carrier[k - 1];
 
         /// <summary>Whether several instruments are in the last half element.</summary>
         public bool HasLast => _carrier[ElementCount - 1] < InnerCount && ActiveCount == ElementCount;
 
         /// <summary>The length of the chain that the joint at node k stands for, m.</summary>
-        public double LengthOf(int k)
-        {
-            return 0.5 * (_station[Math.Min(k + 1, ElementCount)] - _station[Math.Max(k - 1, 0)]);
-        }
+        public double LengthOf(int k) => 0.5 * (_station[Math.Min(k + 1, ElementCount)] - _station[Math.Max(k - 1, 0)]);
 
         /// <summary>The fraction of that, weighted by the joint's hat function, that is not in a sheath.</summary>
-        public double FractionOutside(int k)
-        {
-            return Hubs.FractionOutside(k, _station, ElementCount);
-        }
+        public double FractionOutside(int k) => Hubs.FractionOutside(k, _station, ElementCount);
 
         /// <summary>The next position along the chain after one, m, up to which forces at a border are linear: a node
         /// or a border of an instrument.</summary>
@@ -274,17 +234,12 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether an instrument is where the chain begins: its tip is not before that.</summary>
-        public bool IsAtStart(int instrument)
-        {
-            return Hubs.Ends[instrument] > _station[0];
-        }
+        public bool IsAtStart(int instrument) => Hubs.Ends[instrument] > _station[0];
 
         /// <summary>What an instrument is made of where the chain begins; where a border is there, what is before
         /// it.</summary>
-        public ref readonly CrossSection PieceAtHub(int instrument)
-        {
-            return ref _instrument[instrument].Profile.PieceUpTo(_station[0], Hubs.Leads[instrument]);
-        }
+        public ref readonly CrossSection PieceAtHub(int instrument) =>
+            ref _instrument[instrument].Profile.PieceUpTo(_station[0], Hubs.Leads[instrument]);
 
         /// <summary>The inner hubs are this far behind the outermost one, and that one this far in a sheath.</summary>
         /// <param name="leads">m, of all instruments; 0 for the outermost one.</param>
@@ -414,10 +369,8 @@ namespace Guidewire.Core
             }
         }
 
-        private void AddSide(ref CoaxialJoint joint, int k, int other, int frame, CoaxialPieces side)
-        {
+        private void AddSide(ref CoaxialJoint joint, int k, int other, int frame, CoaxialPieces side) =>
             side.AddSide(ref joint, _station[k], _station[other], _carrier[Math.Min(k, other)], frame, Hubs);
-        }
 
         // Of all instruments before the chain.
         private void SetLeads()

@@ -37,10 +37,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives its turn under a torque, N m, radians: at rest where it ends before the joint.</summary>
-        public readonly double TurnBy(double torque)
-        {
-            return Twist == 0.0 ? RestTwist : torque / Twist + RestTwist;
-        }
+        public readonly double TurnBy(double torque) => Twist == 0.0 ? RestTwist : torque / Twist + RestTwist;
 
         /// <summary>C cos t + S sin t, J, which is its second derivative's negative, and minus its first.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

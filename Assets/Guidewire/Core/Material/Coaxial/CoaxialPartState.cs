@@ -15,9 +15,6 @@ namespace Guidewire.Core
 
         /// <summary>Gives the mean angle t.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public readonly double Mean(in CoaxialPart part)
-        {
-            return (1.0 - part.Weight) * Before + part.Weight * After;
-        }
+        public readonly double Mean(in CoaxialPart part) => (1.0 - part.Weight) * Before + part.Weight * After;
     }
 }

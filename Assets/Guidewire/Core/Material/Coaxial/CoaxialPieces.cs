@@ -237,10 +237,7 @@ namespace Guidewire.Core
                 + piece.BendStiffness2 * curvature.Y * curvature.Y);
         }
 
-        private ref readonly CrossSection PieceOf(int instrument)
-        {
-            return ref _pieces[instrument][_piece[instrument]];
-        }
+        private ref readonly CrossSection PieceOf(int instrument) => ref _pieces[instrument][_piece[instrument]];
 
         private void AddBend(ref CoaxialJoint joint, double lambda, int frame)
         {

@@ -166,15 +166,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the next instrument around one on an element.</summary>
-        public int AroundOf(int instrument, int element)
-        {
-            return instrument == 2 && element < Joints.ActiveCountOf(1) ? 1 : Joints.CarrierOf(element);
-        }
+        public int AroundOf(int instrument, int element) =>
+            instrument == 2 && element < Joints.ActiveCountOf(1) ? 1 : Joints.CarrierOf(element);
 
-        private MaterialRod Carrier(int j)
-        {
-            return _instrument[Joints.CarrierOf(j)].Rod;
-        }
+        private MaterialRod Carrier(int j) => _instrument[Joints.CarrierOf(j)].Rod;
 
         // Of the outermost instrument there.
         private int OwnElement(int j)

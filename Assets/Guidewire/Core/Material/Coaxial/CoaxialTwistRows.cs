@@ -199,25 +199,16 @@ namespace Guidewire.Core
             }
         }
 
-        private ref TwistRow Row(int element, int instrument)
-        {
-            return ref element < 0 ? ref _clamp : ref Rows[(instrument - 1) * Count + element];
-        }
+        private ref TwistRow Row(int element, int instrument) =>
+            ref element < 0 ? ref _clamp : ref Rows[(instrument - 1) * Count + element];
 
         // Where they are to be positive, at least as much as all of them together have.
-        private double Kept(double second, double mixed)
-        {
-            return DropsGeometricStiffness ? Math.Max(second, 0.0) + Math.Abs(mixed) : second;
-        }
+        private double Kept(double second, double mixed) =>
+            DropsGeometricStiffness ? Math.Max(second, 0.0) + Math.Abs(mixed) : second;
 
-        private double Unkept(double mixed)
-        {
-            return DropsGeometricStiffness ? 0.0 : mixed;
-        }
+        private double Unkept(double mixed) => DropsGeometricStiffness ? 0.0 : mixed;
 
-        private static Vector3d Turned(in Vector3d v, double c, double s)
-        {
-            return new Vector3d(c * v.X - s * v.Y, s * v.X + c * v.Y, v.Z);
-        }
+        private static Vector3d Turned(in Vector3d v, double c, double s) =>
+            new Vector3d(c * v.X - s * v.Y, s * v.X + c * v.Y, v.Z);
     }
 }

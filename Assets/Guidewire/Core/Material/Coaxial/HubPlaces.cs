@@ -22,10 +22,8 @@ namespace Guidewire.Core
         /// <summary>Sets where an instrument ends, m. A tip that only rounding takes from the outer instrument's last
         /// node is there, so that rounding does not choose the side of it.</summary>
         /// <param name="node">That node, m from the outermost hub.</param>
-        public void SetEnd(int instrument, double end, double node)
-        {
+        public void SetEnd(int instrument, double end, double node) =>
             Ends[instrument] = Math.Abs(end - node) <= Rounding * node ? node : end;
-        }
 
         /// <summary>Where the sheath ends, m from the outermost hub.</summary>
         public double Sheathed { get; set; }

@@ -35,10 +35,7 @@ namespace Guidewire.Core
 
         /// <summary>The inner instrument has slid.</summary>
         /// <param name="slide">Towards its tip against the outer one, m.</param>
-        public void Slide(double slide)
-        {
-            _used = Math.Max(-1.0, Math.Min(1.0, _used + slide / _elasticSlip));
-        }
+        public void Slide(double slide) => _used = Math.Max(-1.0, Math.Min(1.0, _used + slide / _elasticSlip));
 
         /// <summary>What the hub has to push with in addition to its force without friction, N.</summary>
         /// <param name="force">The latter, N, a thrust positive.</param>

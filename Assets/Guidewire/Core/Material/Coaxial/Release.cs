@@ -78,10 +78,7 @@ namespace Guidewire.Core
         public double SheathForceAtStart { get; private set; }
 
         /// <summary>A step begins.</summary>
-        public void BeginStep(RodShape shape)
-        {
-            SheathForceAtStart = SheathForce(shape);
-        }
+        public void BeginStep(RodShape shape) => SheathForceAtStart = SheathForce(shape);
 
         /// <summary>Work of the outer hub, J, against what drives all out, while the exit goes along the chain from one
         /// position to another, by the moments of a shape.</summary>

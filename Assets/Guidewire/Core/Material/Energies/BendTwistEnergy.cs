@@ -57,10 +57,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double TurnCouple(RodShape shape, int instrument = 0)
-        {
-            return _joint[0].Twist * (_joint[0].Rest.Z - TurnOf(shape, 0).Z);
-        }
+        public override double TurnCouple(RodShape shape, int instrument = 0) =>
+            _joint[0].Twist * (_joint[0].Rest.Z - TurnOf(shape, 0).Z);
 
         /// <summary>Joint 0, if it winds, is measured from where it is in this shape once it is far from its winding:
         /// no iteration turns it by as much as is left until pi.</summary>
@@ -81,10 +79,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double AnchoredValue(double before)
-        {
-            return before + _rewound;
-        }
+        public override double AnchoredValue(double before) => before + _rewound;
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
@@ -172,10 +167,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Leaves the part of the second derivatives out that goes with the couples.</summary>
-        public override void DropGeometricStiffness(bool isOn)
-        {
-            _dropsGeometricStiffness = isOn;
-        }
+        public override void DropGeometricStiffness(bool isOn) => _dropsGeometricStiffness = isOn;
 
         /// <inheritdoc/>
         public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
@@ -362,17 +354,11 @@ namespace Guidewire.Core
             }
         }
 
-        private Quaterniond FirstRelative(RodShape shape)
-        {
-            return _winding.Wound(shape.ProximalFrame).Conjugate * shape.Q[0];
-        }
+        private Quaterniond FirstRelative(RodShape shape) => _winding.Wound(shape.ProximalFrame).Conjugate * shape.Q[0];
 
         private static bool HasLanes => typeof(TLaw) == typeof(RotationVectorLaw);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Quaterniond Relative(RodShape shape, int j)
-        {
-            return shape.Q[j].Conjugate * shape.Q[j + 1];
-        }
+        private static Quaterniond Relative(RodShape shape, int j) => shape.Q[j].Conjugate * shape.Q[j + 1];
     }
 }

@@ -9,10 +9,7 @@ namespace Guidewire.Core
     internal readonly struct DarbouxLaw : IJointLaw
     {
         /// <inheritdoc/>
-        public Vector3d Measure(in Quaterniond relative)
-        {
-            return Strain(default, relative, out _, out _);
-        }
+        public Vector3d Measure(in Quaterniond relative) => Strain(default, relative, out _, out _);
 
         /// <inheritdoc/>
         /// <remarks>A after - A^T before.</remarks>
@@ -90,10 +87,8 @@ namespace Guidewire.Core
             return 2.0 * v - joint.Rest;
         }
 
-        private static Vector3d Scale(in Joint joint, in Vector3d v)
-        {
-            return new Vector3d(joint.Bend1 * v.X, joint.Bend2 * v.Y, joint.Twist * v.Z);
-        }
+        private static Vector3d Scale(in Joint joint, in Vector3d v) =>
+            new Vector3d(joint.Bend1 * v.X, joint.Bend2 * v.Y, joint.Twist * v.Z);
 
         private static void AddCouple(in Vector3d m, in Vector3d v, double w, ref RodVector a, ref RodVector b)
         {

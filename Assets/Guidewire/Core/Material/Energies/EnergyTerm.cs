@@ -20,10 +20,7 @@ namespace Guidewire.Core
         public abstract double Value(RodShape shape);
 
         /// <summary>Of the value, J, what the shape stores.</summary>
-        public virtual double Stored(RodShape shape)
-        {
-            return Value(shape);
-        }
+        public virtual double Stored(RodShape shape) => Value(shape);
 
         /// <summary>Adds the gradient of what belongs to indices from (inclusive) to to (exclusive).</summary>
         /// <param name="measured">Takes what the term finds in passing.</param>
@@ -56,10 +53,7 @@ namespace Guidewire.Core
         /// <summary>The value in the shape in which the term was anchored last, J, after it was asked for the value
         /// there.</summary>
         /// <param name="before">That value.</param>
-        public virtual double AnchoredValue(double before)
-        {
-            return before;
-        }
+        public virtual double AnchoredValue(double before) => before;
 
         /// <summary>Takes this shape as the point from which work is counted; nothing to do for a true
         /// energy.</summary>
@@ -98,10 +92,7 @@ namespace Guidewire.Core
         /// <summary>How far a step may go: the largest fraction, above 0 and at most 1, of <paramref name="scale"/>
         /// times <paramref name="direction"/> that leaves the term's energy finite on the whole path, which is that of
         /// <see cref="RodStep.Apply"/>.</summary>
-        public virtual double MaxStep(RodShape shape, RodVector[] direction, double scale)
-        {
-            return 1.0;
-        }
+        public virtual double MaxStep(RodShape shape, RodVector[] direction, double scale) => 1.0;
 
         /// <summary>Writes into a snapshot, or restores from one, the term's state between steps.</summary>
         public virtual void Serialize(Snapshot snapshot)

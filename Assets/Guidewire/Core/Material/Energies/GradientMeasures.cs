@@ -10,9 +10,6 @@ namespace Guidewire.Core
         public double LargestForce;
 
         /// <summary>Takes in the largest force that one term found in one range, N.</summary>
-        public void IncludeForce(double force)
-        {
-            LargestForce = Math.Max(LargestForce, force);
-        }
+        public void IncludeForce(double force) => LargestForce = Math.Max(LargestForce, force);
     }
 }

@@ -16,10 +16,7 @@ namespace Guidewire.Core
         public double Turn { get; private set; }
 
         /// <summary>Gives a frame turned by w.</summary>
-        public Quaterniond Wound(in Quaterniond frame)
-        {
-            return frame * _wound;
-        }
+        public Quaterniond Wound(in Quaterniond frame) => frame * _wound;
 
         /// <summary>w is this from now on, radians.</summary>
         public void Set(double turn)
@@ -29,15 +26,9 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether a joint is so far beyond w, radians, that it has to be moved.</summary>
-        public static bool IsFar(double beyond)
-        {
-            return Math.Abs(beyond) > MaxWound;
-        }
+        public static bool IsFar(double beyond) => Math.Abs(beyond) > MaxWound;
 
         /// <summary>Writes or restores w.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            Set(snapshot.Serialize(Turn));
-        }
+        public void Serialize(Snapshot snapshot) => Set(snapshot.Serialize(Turn));
     }
 }

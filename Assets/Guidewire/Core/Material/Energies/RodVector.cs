@@ -62,9 +62,7 @@ namespace Guidewire.Core
 
         /// <summary>Takes the scalar product a . b.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static double Dot(in RodVector a, in RodVector b)
-        {
-            return a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;
-        }
+        public static double Dot(in RodVector a, in RodVector b) =>
+            a.X1 * b.X1 + a.X2 * b.X2 + a.X3 * b.X3 + a.T1 * b.T1 + a.T2 * b.T2 + a.T3 * b.T3;
     }
 }

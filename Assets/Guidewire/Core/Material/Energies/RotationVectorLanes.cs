@@ -173,16 +173,12 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Quaterniond4 Relative(RodShape shape, int j)
-        {
-            return Quaterniond4.Load(ref shape.Q[j]).Conjugate * Quaterniond4.Load(ref shape.Q[j + 1]);
-        }
+        private static Quaterniond4 Relative(RodShape shape, int j) =>
+            Quaterniond4.Load(ref shape.Q[j]).Conjugate * Quaterniond4.Load(ref shape.Q[j + 1]);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector3d4 Couple(Stiffness k, Vector3d4 strain)
-        {
-            return new Vector3d4(k.Bend * strain.X, k.Bend * strain.Y, k.Twist * strain.Z);
-        }
+        private static Vector3d4 Couple(Stiffness k, Vector3d4 strain) =>
+            new Vector3d4(k.Bend * strain.X, k.Bend * strain.Y, k.Twist * strain.Z);
 
         // RotationVectorLaw.AddCouple.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

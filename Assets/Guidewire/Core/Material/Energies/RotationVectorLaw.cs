@@ -15,10 +15,7 @@ namespace Guidewire.Core
     internal readonly struct RotationVectorLaw : IJointLaw
     {
         /// <inheritdoc/>
-        public Vector3d Measure(in Quaterniond relative)
-        {
-            return RotationVector.Log(relative);
-        }
+        public Vector3d Measure(in Quaterniond relative) => RotationVector.Log(relative);
 
         /// <inheritdoc/>
         /// <remarks>T after - T^T before.</remarks>
@@ -33,10 +30,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public Quaterniond AtRest(in Joint joint)
-        {
-            return RotationVector.Exp(joint.Rest);
-        }
+        public Quaterniond AtRest(in Joint joint) => RotationVector.Exp(joint.Rest);
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]

@@ -24,10 +24,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void Remesh()
-        {
-            Cut(_rod.Joints.ElementCount);
-        }
+        public override void Remesh() => Cut(_rod.Joints.ElementCount);
 
         /// <inheritdoc/>
         public override void SetTime(double time)
@@ -50,10 +47,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Energy of what is kept straight, J, all that is still in the sheath among it.</summary>
-        public override double Value(RodShape shape)
-        {
-            return _held;
-        }
+        public override double Value(RodShape shape) => _held;
 
         /// <inheritdoc/>
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,

@@ -32,10 +32,7 @@ namespace Guidewire.Core
 
         /// <summary>Leaves the part of compressed elements' second derivatives out that goes with their force, which
         /// is not positive.</summary>
-        public override void DropGeometricStiffness(bool isOn)
-        {
-            _dropsGeometricStiffness = isOn;
-        }
+        public override void DropGeometricStiffness(bool isOn) => _dropsGeometricStiffness = isOn;
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
@@ -169,10 +166,8 @@ namespace Guidewire.Core
         private bool HasLanes => _rest == null && Rows4.IsSupported;
 #endif
 
-        private Vector3d StressFrom(in Vector3d rest, in Vector3d p, int j)
-        {
-            return new Vector3d(_shear[j] * (p.X - rest.X), _shear[j] * (p.Y - rest.Y), _stretch[j] * (p.Z - rest.Z));
-        }
+        private Vector3d StressFrom(in Vector3d rest, in Vector3d p, int j) =>
+            new Vector3d(_shear[j] * (p.X - rest.X), _shear[j] * (p.Y - rest.Y), _stretch[j] * (p.Z - rest.Z));
 
         /// <summary>What (x+, theta) = R M has more where an element is sheared at rest, s = GA p_rest: a third column
         /// s2 d1 - s1 d2, and -s2 d3 and s1 d3 in the first and second.</summary>

@@ -23,10 +23,7 @@ namespace Guidewire.Core
         public override bool HasPotential => Force == Vector3d.Zero && !Varies;
 
         /// <summary>Gives 0: no work yet.</summary>
-        public override double AnchoredValue(double before)
-        {
-            return 0.0;
-        }
+        public override double AnchoredValue(double before) => 0.0;
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
@@ -81,9 +78,6 @@ namespace Guidewire.Core
             third = Quaterniond.Rotate(q, 0.5 * Vector3d.Cross(Force, Vector3d.UnitZ));
         }
 
-        private Vector3d Along(RodShape shape)
-        {
-            return Quaterniond.Rotate(shape.Q[shape.ElementCount - 1], Force);
-        }
+        private Vector3d Along(RodShape shape) => Quaterniond.Rotate(shape.Q[shape.ElementCount - 1], Force);
     }
 }

@@ -21,16 +21,10 @@ namespace Guidewire.Core
         public override bool HasPotential => Moment == Vector3d.Zero && !Varies;
 
         /// <summary>Gives 0: no work yet.</summary>
-        public override double AnchoredValue(double before)
-        {
-            return 0.0;
-        }
+        public override double AnchoredValue(double before) => 0.0;
 
         /// <inheritdoc/>
-        public override void Anchor(RodShape shape)
-        {
-            _anchor = shape.Q[shape.ElementCount - 1];
-        }
+        public override void Anchor(RodShape shape) => _anchor = shape.Q[shape.ElementCount - 1];
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)

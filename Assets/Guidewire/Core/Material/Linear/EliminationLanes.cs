@@ -103,16 +103,10 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Load(ref double first)
-        {
-            return Vector256.LoadUnsafe(ref first);
-        }
+        private static Vector256<double> Load(ref double first) => Vector256.LoadUnsafe(ref first);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Of(double value)
-        {
-            return Vector256.Create(value);
-        }
+        private static Vector256<double> Of(double value) => Vector256.Create(value);
 
         // The three columns of a 3x3 matrix, rows in lanes 0 to 2.
         private readonly struct Columns
@@ -131,10 +125,8 @@ namespace Guidewire.Core
 
             // This less W U^T.
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
-            public Columns Less(Columns w, Columns u)
-            {
-                return new Columns(One - Product(w, u, 0x00), Two - Product(w, u, 0x55), Three - Product(w, u, 0xAA));
-            }
+            public Columns Less(Columns w, Columns u) =>
+                new Columns(One - Product(w, u, 0x00), Two - Product(w, u, 0x55), Three - Product(w, u, 0xAA));
 
             // Columns in memory less W U^T.
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -187,17 +179,12 @@ namespace Guidewire.Core
 
             // B L^-T.
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
-            public Columns Reduce(Columns b)
-            {
-                return new Columns(b.One, b.Two - b.One * Of(L21), b.Three - b.Two * Of(L32) + b.One * Of(L31));
-            }
+            public Columns Reduce(Columns b) =>
+                new Columns(b.One, b.Two - b.One * Of(L21), b.Three - b.Two * Of(L32) + b.One * Of(L31));
 
             // W D^-1.
             [MethodImpl(MethodImplOptions.AggressiveInlining)]
-            public Columns Divide(Columns w)
-            {
-                return new Columns(w.One * Of(D1), w.Two * Of(D2), w.Three * Of(D3));
-            }
+            public Columns Divide(Columns w) => new Columns(w.One * Of(D1), w.Two * Of(D2), w.Three * Of(D3));
 
             // Into the columns of a lower triangle that begin there.
             [MethodImpl(MethodImplOptions.AggressiveInlining)]

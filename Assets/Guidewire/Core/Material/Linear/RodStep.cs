@@ -66,10 +66,7 @@ namespace Guidewire.Core
         }
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector3d Move(in RodVector d, double scale)
-        {
-            return scale * d.X;
-        }
+        private static Vector3d Move(in RodVector d, double scale) => scale * d.X;
 
         /// <summary>The same with positions on straight lines, on which gaps to walls are bounded
         /// (<see cref="BarrierEnergy"/>).</summary>

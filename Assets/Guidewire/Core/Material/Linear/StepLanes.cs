@@ -93,29 +93,21 @@ namespace Guidewire.Core
 
         // Each lane's vector in the lane after it, the entering one in lane 0.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector3d4 Before(Vector3d4 v, in Vector3d entering)
-        {
-            return new Vector3d4(Before(v.X, entering.X), Before(v.Y, entering.Y), Before(v.Z, entering.Z));
-        }
+        private static Vector3d4 Before(Vector3d4 v, in Vector3d entering) =>
+            new Vector3d4(Before(v.X, entering.X), Before(v.Y, entering.Y), Before(v.Z, entering.Z));
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Before(Vector256<double> v, double entering)
-        {
-            return Avx.Blend(Avx2.Permute4x64(v, 0b10_01_00_00), Vector256.Create(entering), 0b0001);
-        }
+        private static Vector256<double> Before(Vector256<double> v, double entering) =>
+            Avx.Blend(Avx2.Permute4x64(v, 0b10_01_00_00), Vector256.Create(entering), 0b0001);
 
         // Each lane's move in the lane before it, that of the direction in lane 3.
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector3d4 Next(Vector3d4 v, double scale, in RodVector last)
-        {
-            return new Vector3d4(Next(v.X, scale * last.X1), Next(v.Y, scale * last.X2), Next(v.Z, scale * last.X3));
-        }
+        private static Vector3d4 Next(Vector3d4 v, double scale, in RodVector last) =>
+            new Vector3d4(Next(v.X, scale * last.X1), Next(v.Y, scale * last.X2), Next(v.Z, scale * last.X3));
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        private static Vector256<double> Next(Vector256<double> v, double entering)
-        {
-            return Avx.Blend(Avx2.Permute4x64(v, 0b11_11_10_01), Vector256.Create(entering), 0b1000);
-        }
+        private static Vector256<double> Next(Vector256<double> v, double entering) =>
+            Avx.Blend(Avx2.Permute4x64(v, 0b11_11_10_01), Vector256.Create(entering), 0b1000);
 #endif
     }
 }

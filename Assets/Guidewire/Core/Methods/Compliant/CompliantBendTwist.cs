@@ -26,16 +26,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Sets the multipliers to 0.</summary>
-        public void Reset()
-        {
-            Array.Clear(_multiplier, 0, _multiplier.Length);
-        }
+        public void Reset() => Array.Clear(_multiplier, 0, _multiplier.Length);
 
         /// <summary>Writes or restores the multipliers.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            snapshot.Serialize(_multiplier);
-        }
+        public void Serialize(Snapshot snapshot) => snapshot.Serialize(_multiplier);
 
         /// <summary>Adds the motion that the multipliers make in this shape.</summary>
         /// <param name="shape">The wire, not moved.</param>
@@ -142,9 +136,6 @@ namespace Guidewire.Core
             b = Quaterniond.Normalize(b * RotationVector.Exp(turnB));
         }
 
-        private static Vector3d Scaled(in Vector3d a, in Vector3d b)
-        {
-            return new Vector3d(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
-        }
+        private static Vector3d Scaled(in Vector3d a, in Vector3d b) => new Vector3d(a.X * b.X, a.Y * b.Y, a.Z * b.Z);
     }
 }

@@ -393,16 +393,11 @@ namespace Guidewire.Core
             public Vector3d Slip;
 
             /// <summary>r f x n along the axes of an element of this orientation: the couple of f, kg m^2.</summary>
-            public readonly Vector3d Couple(in Quaterniond q)
-            {
-                return Couple(q, FrictionImpulse);
-            }
+            public readonly Vector3d Couple(in Quaterniond q) => Couple(q, FrictionImpulse);
 
             /// <summary>Gives the same for another f.</summary>
-            public readonly Vector3d Couple(in Quaterniond q, in Vector3d friction)
-            {
-                return Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(friction, Normal));
-            }
+            public readonly Vector3d Couple(in Quaterniond q, in Vector3d friction) =>
+                Quaterniond.Rotate(q.Conjugate, Radius * Vector3d.Cross(friction, Normal));
         }
     }
 }

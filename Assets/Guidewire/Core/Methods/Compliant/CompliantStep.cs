@@ -93,10 +93,7 @@ namespace Guidewire.Core
         protected override double Time => _time;
 
         /// <inheritdoc/>
-        public override void AddWarnings(List<RunWarning> warnings)
-        {
-            _convergence.AddWarnings(warnings);
-        }
+        public override void AddWarnings(List<RunWarning> warnings) => _convergence.AddWarnings(warnings);
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts => _walls?.Record;

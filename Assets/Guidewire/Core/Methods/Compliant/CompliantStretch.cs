@@ -30,22 +30,14 @@ namespace Guidewire.Core
         }
 
         /// <summary>Sets the multipliers to 0.</summary>
-        public void Reset()
-        {
-            System.Array.Clear(_multiplier, 0, _multiplier.Length);
-        }
+        public void Reset() => System.Array.Clear(_multiplier, 0, _multiplier.Length);
 
         /// <summary>Writes or restores the multipliers.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            snapshot.Serialize(_multiplier);
-        }
+        public void Serialize(Snapshot snapshot) => snapshot.Serialize(_multiplier);
 
         /// <summary>What element 0 gives node 1, and takes from node 0, in this shape, kg m.</summary>
-        public Vector3d FirstMultiplier(RodShape shape)
-        {
-            return (1.0 / _length[0]) * Quaterniond.Rotate(shape.Q[0], _multiplier[0]);
-        }
+        public Vector3d FirstMultiplier(RodShape shape) =>
+            (1.0 / _length[0]) * Quaterniond.Rotate(shape.Q[0], _multiplier[0]);
 
         /// <summary>Adds the motion that the multipliers make in this shape.</summary>
         /// <param name="shape">The wire, not moved.</param>

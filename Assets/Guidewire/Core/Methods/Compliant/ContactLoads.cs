@@ -32,10 +32,7 @@ namespace Guidewire.Core
         public override bool StoresEnergy => false;
 
         /// <inheritdoc/>
-        public override double Value(RodShape shape)
-        {
-            return 0.0;
-        }
+        public override double Value(RodShape shape) => 0.0;
 
         /// <inheritdoc/>
         public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,

@@ -124,14 +124,8 @@ namespace Guidewire.Core
             return worst;
         }
 
-        private double Error(int kind)
-        {
-            return _largest[kind] / Scale(kind);
-        }
+        private double Error(int kind) => _largest[kind] / Scale(kind);
 
-        private double Scale(int kind)
-        {
-            return Math.Max(_peak[kind], Floor);
-        }
+        private double Scale(int kind) => Math.Max(_peak[kind], Floor);
     }
 }

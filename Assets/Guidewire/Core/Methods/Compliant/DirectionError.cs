@@ -35,10 +35,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes the prediction, before any multiplier has moved it.</summary>
-        public void Begin(RodShape shape)
-        {
-            _predicted.CopyFrom(shape);
-        }
+        public void Begin(RodShape shape) => _predicted.CopyFrom(shape);
 
         /// <summary>Adds the angles of all joints, after the iterations.</summary>
         public void Add(RodShape shape, double substep, ref IterationResidual sum)

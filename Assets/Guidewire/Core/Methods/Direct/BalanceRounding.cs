@@ -111,9 +111,6 @@ namespace Guidewire.Core
         }
 
         // Of element j's force, N.
-        private double Of(int j)
-        {
-            return _ofMass + _distance * _factor * _rod.StretchStiffness[j] / _rod.Length[j];
-        }
+        private double Of(int j) => _ofMass + _distance * _factor * _rod.StretchStiffness[j] / _rod.Length[j];
     }
 }

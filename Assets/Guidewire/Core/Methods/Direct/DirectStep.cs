@@ -85,67 +85,37 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes the wire as it is into a state.</summary>
-        public virtual void Write(RodState state)
-        {
-            Rod.Write(state);
-        }
+        public virtual void Write(RodState state) => Rod.Write(state);
 
         /// <summary>Gives the force of a hub on its instrument, N: of the outermost one first, of the wire
         /// last.</summary>
-        public virtual double ForceOf(int hub)
-        {
-            return Hub()!.Force;
-        }
+        public virtual double ForceOf(int hub) => Hub()!.Force;
 
         /// <inheritdoc/>
-        public override void AddWarnings(List<RunWarning> warnings)
-        {
-            Rod.AddWarnings(warnings);
-        }
+        public override void AddWarnings(List<RunWarning> warnings) => Rod.AddWarnings(warnings);
 
         /// <inheritdoc/>
-        public override HubRecord? Hub()
-        {
-            return Rod.Hub();
-        }
+        public override HubRecord? Hub() => Rod.Hub();
 
         /// <summary>Strains, forces and couples of the wire, and energies of all.</summary>
-        public override StressRecord Stress()
-        {
-            return Rod.Stress();
-        }
+        public override StressRecord Stress() => Rod.Stress();
 
         /// <inheritdoc/>
-        public override SolverReport? Report()
-        {
-            return Rod.Report();
-        }
+        public override SolverReport? Report() => Rod.Report();
 
         /// <inheritdoc/>
-        public override void Serialize(Snapshot snapshot)
-        {
-            Rod.Serialize(snapshot);
-        }
+        public override void Serialize(Snapshot snapshot) => Rod.Serialize(snapshot);
 
         /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.</summary>
-        public virtual void SerializeStep(Snapshot snapshot)
-        {
-            Rod.SerializeStep(snapshot);
-        }
+        public virtual void SerializeStep(Snapshot snapshot) => Rod.SerializeStep(snapshot);
 
         /// <summary>Moves the hubs, as far as they may go.</summary>
-        protected virtual void BeginStep()
-        {
-            Drives[0].Prepare(Dynamics.Shape, Dynamics.Time);
-        }
+        protected virtual void BeginStep() => Drives[0].Prepare(Dynamics.Shape, Dynamics.Time);
 
         /// <summary>Takes in and leaves out nodes.</summary>
         /// <param name="left">Of the step, s.</param>
         /// <returns>How long no other ones come or go, at most what is left, s.</returns>
-        protected virtual double BeginPart(double left)
-        {
-            return left;
-        }
+        protected virtual double BeginPart(double left) => left;
 
         /// <summary>Takes what a step has come to.</summary>
         protected virtual void Take()

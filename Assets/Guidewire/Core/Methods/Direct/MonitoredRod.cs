@@ -365,10 +365,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes it as it is into a state.</summary>
-        public void Write(RodState state)
-        {
-            _scene.Write(state, Shape, Velocities, Spins);
-        }
+        public void Write(RodState state) => _scene.Write(state, Shape, Velocities, Spins);
 
         /// <summary>Writes or restores all that the next step depends on.</summary>
         public void Serialize(Snapshot snapshot)
@@ -438,9 +435,6 @@ namespace Guidewire.Core
             _dynamics.SerializeHistory(snapshot, _timeStep);
         }
 
-        private void FollowEnds()
-        {
-            _ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);
-        }
+        private void FollowEnds() => _ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);
     }
 }

@@ -277,16 +277,11 @@ namespace Guidewire.Core
 
         /// <summary>Gives the size of the direction: radians, or displacement over L.</summary>
         /// <param name="relative">The largest turn of one element against the next, radians.</param>
-        public double Size(out double relative)
-        {
-            return RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative, System.VectorCount);
-        }
+        public double Size(out double relative) =>
+            RodStep.Size(Direction, _rod.ElementCount, _totalLength, out relative, System.VectorCount);
 
         /// <summary>Writes or restores what the next stage depends on.</summary>
-        public void SerializeShift(Snapshot snapshot)
-        {
-            snapshot.Serialize(ref _shift);
-        }
+        public void SerializeShift(Snapshot snapshot) => snapshot.Serialize(ref _shift);
 
         /// <summary>Writes or restores the counts that a run reports, and between walls what serves a rod of other
         /// elements too.</summary>
@@ -438,9 +433,6 @@ namespace Guidewire.Core
         /// <summary>Of the energy along the direction, J.</summary>
         public double Slope => RodVectors.Dot(Gradient, Direction, System.VectorCount);
 
-        private static string Text(double value)
-        {
-            return value.ToString("G3", CultureInfo.InvariantCulture);
-        }
+        private static string Text(double value) => value.ToString("G3", CultureInfo.InvariantCulture);
     }
 }

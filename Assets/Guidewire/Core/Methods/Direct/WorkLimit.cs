@@ -51,22 +51,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>What the step takes from now on is counted.</summary>
-        public void Count()
-        {
-            _isCounted = true;
-        }
+        public void Count() => _isCounted = true;
 
         /// <summary>Takes iterations that were made.</summary>
-        public void Take(long iterations)
-        {
-            _left -= _isCounted ? iterations : 0;
-        }
+        public void Take(long iterations) => _left -= _isCounted ? iterations : 0;
 
         /// <summary>Writes or restores what is left.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            snapshot.Serialize(ref _left);
-        }
+        public void Serialize(Snapshot snapshot) => snapshot.Serialize(ref _left);
 
         private long Max => (long)AtOnce * _times * _maxIterations;
     }

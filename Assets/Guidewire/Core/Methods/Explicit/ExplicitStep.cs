@@ -149,10 +149,7 @@ namespace Guidewire.Core
             return (isCurved ? 1.0 : 2.0) / Math.Sqrt(largest);
         }
 
-        private static double Stiffer(in Joint joint)
-        {
-            return Math.Max(joint.Bend1, joint.Bend2);
-        }
+        private static double Stiffer(in Joint joint) => Math.Max(joint.Bend1, joint.Bend2);
 
         // Line density behind the lighter node of element j: a node has half of each element beside it.
         private static double MinDensity(MaterialRod rod, int j)
@@ -164,10 +161,8 @@ namespace Guidewire.Core
             return 0.5 * (rod.LineDensity[j] + lighter / rod.Length[j]);
         }
 
-        private string Text(string format)
-        {
-            return string.Format(CultureInfo.InvariantCulture, format, TimeStep / _substeps, _stable);
-        }
+        private string Text(string format) =>
+            string.Format(CultureInfo.InvariantCulture, format, TimeStep / _substeps, _stable);
 
         private void Drift(double h, double time)
         {

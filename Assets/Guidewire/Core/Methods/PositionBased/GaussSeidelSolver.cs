@@ -33,9 +33,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Serialize(Snapshot snapshot)
-        {
-            snapshot.OptionalSection(ContactSolver.SectionKey, null);
-        }
+        public void Serialize(Snapshot snapshot) => snapshot.OptionalSection(ContactSolver.SectionKey, null);
     }
 }

@@ -20,10 +20,7 @@ namespace Guidewire.Io
         public static IReadOnlyList<Solver> Walls { get; } = Where(method => method.MeetsWalls);
 
         /// <summary>Gives these methods.</summary>
-        public static IReadOnlyList<Solver> Only(params Solver[] methods)
-        {
-            return methods;
-        }
+        public static IReadOnlyList<Solver> Only(params Solver[] methods) => methods;
 
         private static List<Solver> Where(Predicate<MethodTraits> takes)
         {

@@ -79,10 +79,7 @@ namespace Guidewire.Core.Tests
             return x;
         }
 
-        private static Vector3d[] Moved(Vector3d[] from, Vector3d by)
-        {
-            return Array.ConvertAll(from, x => x + by);
-        }
+        private static Vector3d[] Moved(Vector3d[] from, Vector3d by) => Array.ConvertAll(from, x => x + by);
 
         private static bool Meets(in Vector3d a, in Vector3d b)
         {
@@ -106,10 +103,7 @@ namespace Guidewire.Core.Tests
 
             public double Radius => 0.01;
 
-            public double ClearanceOf(int w, int j)
-            {
-                return 0.0;
-            }
+            public double ClearanceOf(int w, int j) => 0.0;
         }
     }
 }

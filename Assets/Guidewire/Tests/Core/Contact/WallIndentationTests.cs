@@ -73,10 +73,7 @@ namespace Guidewire.Core.Tests
             Assert.That(rigid.Vertices, Is.EqualTo(rest));
         }
 
-        private static WallIndentation Of(Vector3d[] vertices)
-        {
-            return Of(vertices, new WallSoftness("wall", 1e5));
-        }
+        private static WallIndentation Of(Vector3d[] vertices) => Of(vertices, new WallSoftness("wall", 1e5));
 
         private static WallIndentation Of(Vector3d[] vertices, WallSoftness? softness)
         {

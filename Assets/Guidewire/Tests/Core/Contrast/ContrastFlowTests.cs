@@ -209,10 +209,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static double[] PartsOf(ContrastFlow flow)
-        {
-            return Enumerable.Range(0, flow.Count).Select(cell => flow.Parts[cell]).ToArray();
-        }
+        private static double[] PartsOf(ContrastFlow flow) =>
+            Enumerable.Range(0, flow.Count).Select(cell => flow.Parts[cell]).ToArray();
 
         private static (double Mean, double Variance) Moments(ContrastFlow flow)
         {

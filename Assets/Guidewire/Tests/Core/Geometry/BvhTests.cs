@@ -9,10 +9,8 @@ namespace Guidewire.Core.Tests
         private const double Tolerance = 1e-9;
 
         [Test]
-        public void Nearest_AgreesWithTheLoopOverAllTriangles()
-        {
+        public void Nearest_AgreesWithTheLoopOverAllTriangles() =>
             Compare(TestMeshes.Ball(12, 0.2).Corners, new RandomGeometry(21), RandomGeometry.Cases(2_500));
-        }
 
         [Test]
         public void Nearest_AgreesWithTheLoop_OnLooseTrianglesAndNeedles()
@@ -288,10 +286,8 @@ namespace Guidewire.Core.Tests
             return wanted;
         }
 
-        private static void Compare(Vector3d[] corners, RandomGeometry random, int all)
-        {
+        private static void Compare(Vector3d[] corners, RandomGeometry random, int all) =>
             Compare(new Bvh(corners), corners, random, RandomGeometry.Cases(all));
-        }
 
         private static void Compare(Bvh tree, Vector3d[] corners, RandomGeometry random, int cases)
         {

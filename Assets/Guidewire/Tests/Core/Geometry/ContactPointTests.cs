@@ -178,10 +178,8 @@ namespace Guidewire.Core.Tests
         }
 
         // Distance of the point from the centre of its stronger curvature.
-        private static double Radius(in ContactPoint place)
-        {
-            return 1.0 / Math.Max(Math.Abs(place.Curvature), Math.Abs(place.CrossCurvature));
-        }
+        private static double Radius(in ContactPoint place) =>
+            1.0 / Math.Max(Math.Abs(place.Curvature), Math.Abs(place.CrossCurvature));
 
         // The same place a little farther on: curved alike, at a point that has hardly moved. Where the nearest place
         // has just gone over to another face or edge there is none.

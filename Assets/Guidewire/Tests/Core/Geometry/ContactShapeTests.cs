@@ -334,10 +334,8 @@ namespace Guidewire.Core.Tests
             return contact.Distance;
         }
 
-        private static double Slope(ContactShape shape, in Vector3d x, in Vector3d axis)
-        {
-            return (At(shape, x + Step * axis).Distance - At(shape, x - Step * axis).Distance) / (2.0 * Step);
-        }
+        private static double Slope(ContactShape shape, in Vector3d x, in Vector3d axis) =>
+            (At(shape, x + Step * axis).Distance - At(shape, x - Step * axis).Distance) / (2.0 * Step);
 
         private static bool FreeSegment(ContactShape shape, RandomGeometry random, out Vector3d a, out Vector3d b)
         {

@@ -104,10 +104,8 @@ namespace Guidewire.Core.Tests
             Assert.That(shorter, Is.GreaterThan(10), "cases in which the way out of the whole segment is longer");
         }
 
-        private static double[] PlaneDistances(in Vector3d p, in Vector3d half)
-        {
-            return new[] { p.X - half.X, -p.X - half.X, p.Y - half.Y, -p.Y - half.Y, p.Z - half.Z, -p.Z - half.Z };
-        }
+        private static double[] PlaneDistances(in Vector3d p, in Vector3d half) =>
+            new[] { p.X - half.X, -p.X - half.X, p.Y - half.Y, -p.Y - half.Y, p.Z - half.Z, -p.Z - half.Z };
 
         private static double Highest(double[] from, double[] to, double fraction)
         {

@@ -106,9 +106,6 @@ namespace Guidewire.Core.Tests
             return sum;
         }
 
-        private static Quaterniond RandomTurn(int seed)
-        {
-            return RotationVector.Exp(2.0 * new RandomGeometry(seed).Point());
-        }
+        private static Quaterniond RandomTurn(int seed) => RotationVector.Exp(2.0 * new RandomGeometry(seed).Point());
     }
 }

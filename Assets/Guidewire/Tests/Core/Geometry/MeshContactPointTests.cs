@@ -134,10 +134,8 @@ namespace Guidewire.Core.Tests
         }
 
         // Within 0.4 of the cube's bottom and farther than that from its sides.
-        private static Vector3d NearTheBottom(RandomGeometry random)
-        {
-            return new Vector3d(random.Number(-0.5, 0.5), random.Number(-0.5, 0.5), random.Number(-0.99, -0.7));
-        }
+        private static Vector3d NearTheBottom(RandomGeometry random) =>
+            new Vector3d(random.Number(-0.5, 0.5), random.Number(-0.5, 0.5), random.Number(-0.99, -0.7));
 
         private static TestMeshes Make(string name)
         {

@@ -37,10 +37,8 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void EvenTube_IsAsNarrowAsItsRadius()
-        {
+        public void EvenTube_IsAsNarrowAsItsRadius() =>
             Assert.That(Width(Tube(_ => 1.0), 0.9), Is.EqualTo(Math.Cos(Math.PI / Around)).Within(0.02));
-        }
 
         /// <summary>Every corner off the wall by up to 2 %: folds of up to half a radian, in which small balls fit that
         /// touch two faces, and none of them is a bottleneck.</summary>
@@ -105,10 +103,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static double Distance(TestMeshes vessel, double radius)
-        {
-            return Math.Min(0.3, Math.Max(0.01, 0.5 * (Width(vessel, radius, 7.5) - radius) / radius));
-        }
+        private static double Distance(TestMeshes vessel, double radius) =>
+            Math.Min(0.3, Math.Max(0.01, 0.5 * (Width(vessel, radius, 7.5) - radius) / radius));
 
         // Every corner off the wall by up to a fraction, by chance.
         private static TestMeshes Rough(TestMeshes even, double fraction, int seed)
@@ -145,10 +141,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static double Bell(double z)
-        {
-            return Math.Exp(-z * z);
-        }
+        private static double Bell(double z) => Math.Exp(-z * z);
 
         // Each triangle in three at a place by chance, some of them within 1/200 of a side.
         private static TestMeshes Shattered(TestMeshes mesh, int seed)
@@ -171,10 +164,7 @@ namespace Guidewire.Core.Tests
             return cut;
         }
 
-        private static TestMeshes Tube(Func<double, double> radius)
-        {
-            return TestMeshes.Tube(Around, Rows, Length, radius);
-        }
+        private static TestMeshes Tube(Func<double, double> radius) => TestMeshes.Tube(Around, Rows, Length, radius);
 
         private static double Width(TestMeshes tube, double above, double length = Length)
         {

@@ -16,10 +16,8 @@ namespace Guidewire.Core.Tests
 
         /// <summary>How many cases to try: all of them when the environment variable GUIDEWIRE_ALL is set, otherwise
         /// one of so many, by default of ten.</summary>
-        public static int Cases(int all, int oneOf = 10)
-        {
-            return string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL")) ? all / oneOf : all;
-        }
+        public static int Cases(int all, int oneOf = 10) =>
+            string.IsNullOrEmpty(Environment.GetEnvironmentVariable("GUIDEWIRE_ALL")) ? all / oneOf : all;
 
         /// <summary>The first of so many cases to try of all, each day the next ones: the environment variable
         /// GUIDEWIRE_DAY is the number of the day.</summary>
@@ -42,21 +40,12 @@ namespace Guidewire.Core.Tests
             Assert.That(worst, Is.LessThan(tolerance));
         }
 
-        public double Number(double from, double to)
-        {
-            return from + (to - from) * _random.NextDouble();
-        }
+        public double Number(double from, double to) => from + (to - from) * _random.NextDouble();
 
-        public int Index(int count)
-        {
-            return _random.Next(count);
-        }
+        public int Index(int count) => _random.Next(count);
 
         /// <summary>A point in the cube from -1 to 1.</summary>
-        public Vector3d Point()
-        {
-            return new Vector3d(Number(-1.0, 1.0), Number(-1.0, 1.0), Number(-1.0, 1.0));
-        }
+        public Vector3d Point() => new Vector3d(Number(-1.0, 1.0), Number(-1.0, 1.0), Number(-1.0, 1.0));
 
         public Vector3d Direction()
         {
@@ -70,10 +59,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        public Quaterniond Orientation()
-        {
-            return Quaterniond.FromAxisAngle(Direction(), Number(0.0, 2.0 * Math.PI));
-        }
+        public Quaterniond Orientation() => Quaterniond.FromAxisAngle(Direction(), Number(0.0, 2.0 * Math.PI));
 
         /// <summary>A triangle; one in four is a needle, down to a height of 1e-12.</summary>
         public Vector3d[] Triangle()

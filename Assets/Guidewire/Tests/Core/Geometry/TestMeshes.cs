@@ -66,10 +66,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>A tube of radius 1 along z from 0 to <paramref name="length"/>, open at both ends.</summary>
-        public static TestMeshes Tube(int around, int rows, double length)
-        {
-            return Tube(around, rows, length, z => 1.0);
-        }
+        public static TestMeshes Tube(int around, int rows, double length) => Tube(around, rows, length, z => 1.0);
 
         /// <summary>A tube along z from 0 to <paramref name="length"/>, open at both ends, with a radius that depends
         /// on z.</summary>
@@ -146,10 +143,7 @@ namespace Guidewire.Core.Tests
             return _vertices.Count - 1;
         }
 
-        public void Remove(int triangle)
-        {
-            _triangles.RemoveRange(3 * triangle, 3);
-        }
+        public void Remove(int triangle) => _triangles.RemoveRange(3 * triangle, 3);
 
         public void Turn(int triangle)
         {
@@ -158,10 +152,7 @@ namespace Guidewire.Core.Tests
             _triangles[3 * triangle + 1] = i;
         }
 
-        public TriangleMesh Build(params Vector3d[] rims)
-        {
-            return TriangleMesh.Create(Vertices, Triangles, rims);
-        }
+        public TriangleMesh Build(params Vector3d[] rims) => TriangleMesh.Create(Vertices, Triangles, rims);
 
         /// <summary>How often the closed surface winds around a point: the sum of the solid angles of its triangles
         /// (Van Oosterom and Strackee 1983) over 4 pi.</summary>

@@ -33,10 +33,8 @@ namespace Guidewire.Core.Tests
             yield return Named("mirrored mesh", new MeshShape(box, mirrored), 0.0);
         }
 
-        private static TestCaseData Named(string name, ContactShape shape, double facets)
-        {
-            return new TestCaseData(shape, facets).SetName("Surface_LiesOnTheWallAndLooksAtTheWire(" + name + ")");
-        }
+        private static TestCaseData Named(string name, ContactShape shape, double facets) =>
+            new TestCaseData(shape, facets).SetName("Surface_LiesOnTheWallAndLooksAtTheWire(" + name + ")");
 
         /// <param name="shape">The wall.</param>
         /// <param name="facets">Units by which a flat facet misses a round wall; 0 for flat walls.</param>

@@ -178,10 +178,8 @@ namespace Guidewire.Core.Tests
 
         private static int Middle => Pixels / 2 * Pixels + Pixels / 2;
 
-        private static ImagedInstrument Wire(Vector3d from, Vector3d to)
-        {
-            return new ImagedInstrument(new[] { from, to }, new[] { 3.0 }, new[] { 0.0 }, new[] { 0.1 });
-        }
+        private static ImagedInstrument Wire(Vector3d from, Vector3d to) =>
+            new ImagedInstrument(new[] { from, to }, new[] { 3.0 }, new[] { 0.0 }, new[] { 0.1 });
 
         // Along z from -20 to 20, of radius 8.
         private static List<WallSurface> Tube()
@@ -192,10 +190,7 @@ namespace Guidewire.Core.Tests
         }
 
         private static byte[] Draw(List<WallSurface> vessels, FluoroscopySettings settings,
-            params ImagedInstrument[] wires)
-        {
-            return Draw(vessels, settings, 0.0, wires);
-        }
+            params ImagedInstrument[] wires) => Draw(vessels, settings, 0.0, wires);
 
         private static byte[] Draw(List<WallSurface> vessels, FluoroscopySettings settings, double cranial,
             params ImagedInstrument[] wires)

@@ -30,10 +30,8 @@ namespace Guidewire.Core.Tests
         [TestCase("LLS")]
         [TestCase("LP")]
         [TestCase("lps")]
-        public void LeftHandedAxesAndOtherWords_AreNone(string letters)
-        {
+        public void LeftHandedAxesAndOtherWords_AreNone(string letters) =>
             Assert.That(PatientAxes.Named(letters), Is.Null);
-        }
 
         [Test]
         public void AxesOfAVessel_TurnWithIt()

@@ -69,10 +69,8 @@ namespace Guidewire.Core.Tests
             "catheters[0].instrument = \"workhorse-0.014\" is not allowed: needs a catheter")]
         [TestCase("0.00083, \"lumenRadius\": 0.0006", "0.0005, \"instrument\": \"catheter-angled-5f\"",
             "catheter-angled-5f.json: catheters[0].lumenRadius = 0.00055 is not allowed: needs less than wireRadius")]
-        public void BadInput_IsOneLine(string part, string other, string expected)
-        {
+        public void BadInput_IsOneLine(string part, string other, string expected) =>
             Assert.That(Refusal.Of(() => Load(Good.Replace(part, other))), Does.Contain(expected));
-        }
 
         [TestCase("solver", "\"xpbd\"", "solver direct")]
         [TestCase("sheath", "{}", "sheath")]
@@ -84,10 +82,8 @@ namespace Guidewire.Core.Tests
         [TestCase("tipMoment", "[0, 0, 1]", "no tipMoment")]
         [TestCase("distalEnd", "\"clamped\"", "distalEnd")]
         [TestCase("displacementDirection", "[0, 1, 0]", "displacementDirection")]
-        public void KeyThatDoesNotGoWithACatheter_IsRefused(string key, string value, string expected)
-        {
+        public void KeyThatDoesNotGoWithACatheter_IsRefused(string key, string value, string expected) =>
             Assert.That(Refusal.Of(() => Load(Good, (key, value))), Does.Contain(expected));
-        }
 
         [Test]
         public void ThreeCatheters_AreRefused()
@@ -114,10 +110,8 @@ namespace Guidewire.Core.Tests
         [TestCase("\"start\": 110", "\"start\": 10", "catheters[1].start = 100 is not allowed: needs at most 10 units")]
         [TestCase("\"start\": 110", "\"start\": 245", "start = 100 is not allowed: needs at least 103 units")]
         [TestCase("0.001,", "0.0008,", "needs more than 0.00083 m, the inner catheter's own largest radius")]
-        public void OuterCatheterThatDoesNotFit_IsRefused(string part, string other, string expected)
-        {
+        public void OuterCatheterThatDoesNotFit_IsRefused(string part, string other, string expected) =>
             Assert.That(Refusal.Of(() => Load(Outer.Replace(part, other) + ", " + Good)), Does.Contain(expected));
-        }
 
         [Test]
         public void SessionOfThree_HoldsEachHub()
@@ -162,10 +156,8 @@ namespace Guidewire.Core.Tests
             Assert.That(session.Simulation.Coaxial()!.Turn, Is.EqualTo(0.2).Within(1e-12));
         }
 
-        private static ParameterHandler Load(string catheters, params (string Key, string Value)[] others)
-        {
-            return ParameterHandler.Load(null, Given(catheters, others));
-        }
+        private static ParameterHandler Load(string catheters, params (string Key, string Value)[] others) =>
+            ParameterHandler.Load(null, Given(catheters, others));
 
         private static List<KeyValuePair<string, JToken>> Given(string catheters,
             params (string Key, string Value)[] others)

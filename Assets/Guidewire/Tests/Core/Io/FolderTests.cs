@@ -18,9 +18,6 @@ namespace Guidewire.Core.Tests
         }
 
         [TearDown]
-        public void RemoveFolder()
-        {
-            Directory.Delete(Folder, true);
-        }
+        public void RemoveFolder() => Directory.Delete(Folder, true);
     }
 }

@@ -11,10 +11,8 @@ namespace Guidewire.Core.Tests
         public static readonly KeyValuePair<string, JToken>[] None = Array.Empty<KeyValuePair<string, JToken>>();
 
         /// <summary>Keys with their values.</summary>
-        public static List<KeyValuePair<string, JToken>> Of(params (string Key, JToken Value)[] given)
-        {
-            return Of(given, value => value);
-        }
+        public static List<KeyValuePair<string, JToken>> Of(params (string Key, JToken Value)[] given) =>
+            Of(given, value => value);
 
         /// <summary>Keys whose values are made from something else, such as their JSON text.</summary>
         public static List<KeyValuePair<string, JToken>> Of<T>(IEnumerable<(string Key, T Value)> given,

@@ -161,10 +161,7 @@ namespace Guidewire.Core.Tests
             Assert.That(Refusal.Of(() => Load(scene)), Does.StartWith(file).And.Contains("no anatomy"));
         }
 
-        private static ParameterHandler Load(string file)
-        {
-            return ParameterHandler.Load(file, GivenKeys.None);
-        }
+        private static ParameterHandler Load(string file) => ParameterHandler.Load(file, GivenKeys.None);
 
         private static Vector3d Tip(JObject summary)
         {
@@ -220,10 +217,8 @@ namespace Guidewire.Core.Tests
         [TestCase("'end': 'rim 2', 'wallStiffness': 5e3, 'modulus': 5e5",
             "regions[0].modulus = 500000.0 is not allowed: needs no wallStiffness beside it")]
         [TestCase("'end': 'rim 2', 'wallStiffness': 1e-3", "needs more than 39.76 Pa: the weight alone")]
-        public void BadRegion_IsOneLine(string region, string line)
-        {
+        public void BadRegion_IsOneLine(string region, string line) =>
             Assert.That(Refusal.Of(() => Load(WithRegion(region))), Does.Contain(line));
-        }
 
         private string WithRegion(string region)
         {

@@ -257,10 +257,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private IReadOnlyList<WireSection> Sections(string keys)
-        {
-            return Load(keys).Values.Simulation.Material.Sections;
-        }
+        private IReadOnlyList<WireSection> Sections(string keys) => Load(keys).Values.Simulation.Material.Sections;
 
         private ParameterHandler Load(string keys)
         {
@@ -268,14 +265,9 @@ namespace Guidewire.Core.Tests
             return ParameterHandler.Load(Scene, new Dictionary<string, JToken>());
         }
 
-        private void Write(string name, string text)
-        {
+        private void Write(string name, string text) =>
             File.WriteAllText(Path.Combine(Folder, "instruments", name + ".json"), Quoted(text));
-        }
 
-        private static string Quoted(string text)
-        {
-            return text.Replace('\'', '"');
-        }
+        private static string Quoted(string text) => text.Replace('\'', '"');
     }
 }

@@ -71,10 +71,8 @@ namespace Guidewire.Core.Tests
         }
 
         // A wire that is pressed against a wall in its sheath takes seconds a step.
-        private static IEnumerable<TestCaseData> QuickScenes()
-        {
-            return Scenes().Where(scene => !((string)scene.Arguments[1]!).Contains("sheath"));
-        }
+        private static IEnumerable<TestCaseData> QuickScenes() =>
+            Scenes().Where(scene => !((string)scene.Arguments[1]!).Contains("sheath"));
 
         private static TestCaseData Scene(string solver, string keys)
         {
@@ -84,10 +82,7 @@ namespace Guidewire.Core.Tests
             return new TestCaseData(solver, scene);
         }
 
-        private static Solver TakerOf(string solver)
-        {
-            return (Solver)Enum.Parse(typeof(Solver), solver, true);
-        }
+        private static Solver TakerOf(string solver) => (Solver)Enum.Parse(typeof(Solver), solver, true);
 
         private SimulationSession Open(string scene)
         {

@@ -32,10 +32,8 @@ namespace Guidewire.Core.Tests
             return new LumenPlaces(path, anatomy.Ends, vessel);
         }
 
-        private static Vector3d[] Wire(double tip)
-        {
-            return Enumerable.Range(-20, 21).Select(k => new Vector3d(0.1, 0.0, tip + 2.0 * k)).ToArray();
-        }
+        private static Vector3d[] Wire(double tip) =>
+            Enumerable.Range(-20, 21).Select(k => new Vector3d(0.1, 0.0, tip + 2.0 * k)).ToArray();
 
         [Test]
         public void TipInTheLumen_IsWhereItIs()

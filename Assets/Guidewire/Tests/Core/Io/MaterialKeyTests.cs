@@ -165,9 +165,7 @@ namespace Guidewire.Core.Tests
                 Throws.TypeOf<ParameterException>().With.Message.Contains("wireSections"));
         }
 
-        private static RunParameters Load(params (string Key, JToken Value)[] given)
-        {
-            return ParameterHandler.Load(null, GivenKeys.Of(given)).Values;
-        }
+        private static RunParameters Load(params (string Key, JToken Value)[] given) =>
+            ParameterHandler.Load(null, GivenKeys.Of(given)).Values;
     }
 }

@@ -121,10 +121,7 @@ namespace Guidewire.Core.Tests
             return file;
         }
 
-        private static byte[] Text(string text)
-        {
-            return Encoding.ASCII.GetBytes(text);
-        }
+        private static byte[] Text(string text) => Encoding.ASCII.GetBytes(text);
 
         private static byte[] Obj(TestMeshes mesh)
         {

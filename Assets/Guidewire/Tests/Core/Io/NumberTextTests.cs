@@ -122,9 +122,7 @@ namespace Guidewire.Core.Tests
         [TestCase(1e16, "10000000000000000")]
         [TestCase(1e17, "1E+17")]
         [TestCase(123456789012345.6, "123456789012345.6")]
-        public void Text(double number, string expected)
-        {
+        public void Text(double number, string expected) =>
             Assert.That(NumberText.Shortest(number), Is.EqualTo(expected));
-        }
     }
 }

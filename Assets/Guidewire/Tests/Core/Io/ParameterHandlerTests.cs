@@ -48,10 +48,8 @@ namespace Guidewire.Core.Tests
 
         [TestCase("{\"VerletIntegration\": false}", Integrator.Euler)]
         [TestCase("{\"VerletIntegration\": true, \"integrator\": \"verlet\"}", Integrator.Verlet)]
-        public void OlderWords_SayTheSameAsTheNewer(string text, Integrator expected)
-        {
+        public void OlderWords_SayTheSameAsTheNewer(string text, Integrator expected) =>
             Assert.That(Load(text).Values.Simulation.Method.Integrator, Is.EqualTo(expected));
-        }
 
         [TestCase("seed")]
         [TestCase("thesis")]
@@ -126,10 +124,8 @@ namespace Guidewire.Core.Tests
         [TestCase("{timeStep: 0.1}", "not JSON")]
         [TestCase("[1, 2]", "needs one JSON object")]
         [TestCase("", "not JSON")]
-        public void WhatIsNotAllowed_IsOneLineThatNamesFileAndKey(string text, string expected)
-        {
+        public void WhatIsNotAllowed_IsOneLineThatNamesFileAndKey(string text, string expected) =>
             Assert.That(Refusal.Of(() => Load(text)), Does.Contain(expected).And.Contains("wire.json"));
-        }
 
         [Test]
         public void Override_CountsInsteadOfTheFilesOlderWord()

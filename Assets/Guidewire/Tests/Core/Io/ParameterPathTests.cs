@@ -17,10 +17,7 @@ namespace Guidewire.Core.Tests
         private string SceneFile => Path.Combine(Folder, "scene.json");
 
         [SetUp]
-        public void WriteScene()
-        {
-            File.WriteAllText(SceneFile, Scene);
-        }
+        public void WriteScene() => File.WriteAllText(SceneFile, Scene);
 
         [TestCase("vessel.radius", "2.5", "vessel.radius")]
         [TestCase("vessel.frictionCoefficient", "0.2", "vessel.frictionCoefficient")]
@@ -87,10 +84,8 @@ namespace Guidewire.Core.Tests
         [TestCase("vessel]x", "3", "unknown key 'vessel]x'")]
         [TestCase("obstacles[1.5]", "3", "unknown key 'obstacles[1.5]'")]
         [TestCase("vessel..radius", "3", "unknown key 'vessel..radius'")]
-        public void PartThatCannotBe_IsRefusedInALineThatNamesIt(string path, string value, string said)
-        {
+        public void PartThatCannotBe_IsRefusedInALineThatNamesIt(string path, string value, string said) =>
             Assert.That(Refusal.Of(() => Load((path, value))), Does.StartWith("command line: ").And.Contains(said));
-        }
 
         [Test]
         public void WhatTheFileSays_IsTheFilesFault_BesideAPartOfTheCommandLine()
@@ -119,9 +114,7 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(value.EndsWith("obj") ? JTokenType.String : JTokenType.Float));
         }
 
-        private ParameterHandler Load(params (string Key, string Value)[] given)
-        {
-            return ParameterHandler.Load(SceneFile, GivenKeys.Of(given, JToken.Parse));
-        }
+        private ParameterHandler Load(params (string Key, string Value)[] given) =>
+            ParameterHandler.Load(SceneFile, GivenKeys.Of(given, JToken.Parse));
     }
 }

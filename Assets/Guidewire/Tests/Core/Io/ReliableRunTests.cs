@@ -23,10 +23,7 @@ namespace Guidewire.Core.Tests
             return (Read("summary.json"), Read("positions.json"), result);
         }
 
-        private JObject Read(string name)
-        {
-            return JObject.Parse(File.ReadAllText(Path.Combine(Folder, "out", name)));
-        }
+        private JObject Read(string name) => JObject.Parse(File.ReadAllText(Path.Combine(Folder, "out", name)));
 
         [Test]
         public void RunThatDidWhatItWasAskedFor_IsReliable()

@@ -204,14 +204,9 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private JObject Read(string name)
-        {
-            return JObject.Parse(File.ReadAllText(Path.Combine(Results, name)));
-        }
+        private JObject Read(string name) => JObject.Parse(File.ReadAllText(Path.Combine(Results, name)));
 
-        private static ParameterHandler Load(params (string Key, JToken Value)[] overrides)
-        {
-            return ParameterHandler.Load(null, GivenKeys.Of(overrides));
-        }
+        private static ParameterHandler Load(params (string Key, JToken Value)[] overrides) =>
+            ParameterHandler.Load(null, GivenKeys.Of(overrides));
     }
 }

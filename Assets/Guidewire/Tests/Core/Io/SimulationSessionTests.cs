@@ -19,15 +19,11 @@ namespace Guidewire.Core.Tests
             File.WriteAllText(_file, "{\"constraintSolverSteps\": 20, \"deltaThreshold\": 0}");
         }
 
-        private SimulationSession Open(string log, bool isSteered, params string[] overrides)
-        {
-            return SimulationSession.Open(_file, overrides, log, isSteered);
-        }
+        private SimulationSession Open(string log, bool isSteered, params string[] overrides) =>
+            SimulationSession.Open(_file, overrides, log, isSteered);
 
-        private static JObject Summary(string folder)
-        {
-            return JObject.Parse(File.ReadAllText(Path.Combine(folder, "summary.json")));
-        }
+        private static JObject Summary(string folder) =>
+            JObject.Parse(File.ReadAllText(Path.Combine(folder, "summary.json")));
 
         [Test]
         public void Set_ChangesOneValueAndKeepsTheOthers()
@@ -173,9 +169,7 @@ namespace Guidewire.Core.Tests
         [TestCase("timeStep")]
         [TestCase("=3")]
         [TestCase("timestep=0.01")]
-        public void Override_ThatCannotBeRead_IsRefused(string line)
-        {
+        public void Override_ThatCannotBeRead_IsRefused(string line) =>
             Assert.Throws<ParameterException>(() => Open("", false, line));
-        }
     }
 }

@@ -56,10 +56,8 @@ namespace Guidewire.Core.Tests
         [TestCase("'modulus': 5e5, 'wallStiffness': 1e5", "vessel.modulus = 500000.0 is not allowed: needs no wall")]
         [TestCase("'modulus': -1, 'wallThickness': 1e-3, 'lumenRadius': 3e-3, 'surroundingModulus': 1e4",
             "vessel.modulus = -1 is not allowed: needs a number > 0 (Pa)")]
-        public void BadTissue_IsOneLine(string keys, string line)
-        {
+        public void BadTissue_IsOneLine(string keys, string line) =>
             Assert.That(Refusal.Of(() => Load(Tube + ", " + keys + "}")), Does.Contain(line));
-        }
 
         [Test]
         public void Stiffness_OfTissue_IsThatOfAThinRingInIt()

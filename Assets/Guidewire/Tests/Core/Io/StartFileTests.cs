@@ -27,10 +27,7 @@ namespace Guidewire.Core.Tests
             };
         }
 
-        private static JArray Numbers(in Quaterniond q)
-        {
-            return new JArray(q.X, q.Y, q.Z, q.W);
-        }
+        private static JArray Numbers(in Quaterniond q) => new JArray(q.X, q.Y, q.Z, q.W);
 
         private ParameterHandler Load(JObject start, string keys)
         {

@@ -112,9 +112,6 @@ namespace Guidewire.Core.Tests
             return ParameterHandler.Load(Scene, new Dictionary<string, JToken>());
         }
 
-        private static string Word(Solver method)
-        {
-            return method.ToString().ToLowerInvariant();
-        }
+        private static string Word(Solver method) => method.ToString().ToLowerInvariant();
     }
 }

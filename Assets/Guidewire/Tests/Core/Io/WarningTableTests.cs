@@ -97,10 +97,8 @@ namespace Guidewire.Core.Tests
         };
 
         [Test]
-        public void EveryWarning_HasARunHere()
-        {
+        public void EveryWarning_HasARunHere() =>
             Assert.That(Runs.Keys, Is.EqualTo(WarningTable.All.Select(kind => kind.Name)));
-        }
 
         [Test]
         public void RunWithAWarning_IsAsReliableAsTheTableSays([ValueSource(nameof(Names))] string name)
@@ -137,10 +135,7 @@ namespace Guidewire.Core.Tests
             Assert.That(() => WarningTable.Penetration.Text(1.0, 2.0, 3.0), Throws.ArgumentException);
         }
 
-        private static Dictionary<string, string>.KeyCollection Names()
-        {
-            return Runs.Keys;
-        }
+        private static Dictionary<string, string>.KeyCollection Names() => Runs.Keys;
 
         private static string PatternOf(WarningKind kind)
         {

@@ -152,10 +152,8 @@ namespace Guidewire.Core.Tests
             Assert.That(second.State.Positions[N].Y, Is.EqualTo(-fall).Within(1e-9 * fall));
         }
 
-        private static double Step(Solver solver)
-        {
-            return solver == Solver.Direct ? 1e-3 : solver == Solver.Xpbd ? 1e-4 : 1e-5;
-        }
+        private static double Step(Solver solver) =>
+            solver == Solver.Direct ? 1e-3 : solver == Solver.Xpbd ? 1e-4 : 1e-5;
 
         private static SimulationParameters Parameters(Solver solver, Integrator scheme, string scene)
         {

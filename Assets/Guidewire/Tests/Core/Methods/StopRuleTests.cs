@@ -19,10 +19,8 @@ namespace Guidewire.Core.Tests
 
         [TestCase(1.98, 0.1)]
         [TestCase(0.1, 10.0)]
-        public void GainWithinItsLimit_IsNotDiverged(double stretch, double bend)
-        {
+        public void GainWithinItsLimit_IsNotDiverged(double stretch, double bend) =>
             Assert.That(RunOf(stretch, bend).Outcome, Is.EqualTo(Outcome.Finished));
-        }
 
         private static Simulation RunOf(double stretch, double bend)
         {

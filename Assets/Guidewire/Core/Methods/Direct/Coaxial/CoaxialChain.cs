@@ -240,10 +240,8 @@ namespace Guidewire.Core
             }
         }
 
-        private RodShape CreateShape()
-        {
-            return new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount, Rod.Joints.Capacity);
-        }
+        private RodShape CreateShape() =>
+            new RodShape(Rod.Joints.ElementCount, Rod.Joints.InnerCount, Rod.Joints.Capacity);
 
         // In a sheath the chain winds up against its frame, which does not turn with the hub.
         private void HoldFrame(RodShape shape)

@@ -20,10 +20,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Of the old chain nothing goes on.</summary>
-        public void Forget()
-        {
-            Array.Fill(Node, -1);
-        }
+        public void Forget() => Array.Fill(Node, -1);
 
         /// <summary>The chain was another one.</summary>
         /// <param name="isOther">Which instruments are not those of the old chain; null: none.</param>

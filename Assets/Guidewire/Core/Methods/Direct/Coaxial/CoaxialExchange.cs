@@ -52,10 +52,8 @@ namespace Guidewire.Core
         }
 
         // m from the outermost hub.
-        private static double TipOf(CoaxialSetup setup, CoaxialHubs hubs, int instrument, double time)
-        {
-            return setup.Instruments[instrument].Rod.TotalLength - hubs.LeadAt(instrument, time);
-        }
+        private static double TipOf(CoaxialSetup setup, CoaxialHubs hubs, int instrument, double time) =>
+            setup.Instruments[instrument].Rod.TotalLength - hubs.LeadAt(instrument, time);
 
         private static string NameOf(CoaxialSetup setup, int instrument)
         {

@@ -65,10 +65,7 @@ namespace Guidewire.Core
         protected InnerInstrument Wire => Chain.Wire;
 
         /// <inheritdoc/>
-        public override void Write(RodState state)
-        {
-            Setup.Wire.Write(state, Wire.Shape, Wire.Velocities, Wire.Spins);
-        }
+        public override void Write(RodState state) => Setup.Wire.Write(state, Wire.Shape, Wire.Velocities, Wire.Spins);
 
         /// <inheritdoc/>
         public override HubRecord Hub()
@@ -128,10 +125,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The wire's hub without what is out of a sheath.</summary>
-        protected virtual HubRecord OwnHub()
-        {
-            return Rod.Hub()!;
-        }
+        protected virtual HubRecord OwnHub() => Rod.Hub()!;
 
         /// <inheritdoc/>
         protected override void BeginStep()
@@ -146,16 +140,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        protected override double BeginPart(double left)
-        {
-            return Chain.BeginPart(left);
-        }
+        protected override double BeginPart(double left) => Chain.BeginPart(left);
 
         /// <inheritdoc/>
-        protected override void Take()
-        {
-            TakeMoment();
-        }
+        protected override void Take() => TakeMoment();
 
         /// <summary>Takes where the instruments are and what touches them.</summary>
         protected virtual void TakeMoment()

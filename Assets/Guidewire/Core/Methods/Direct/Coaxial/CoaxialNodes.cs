@@ -90,10 +90,7 @@ namespace Guidewire.Core
         }
 
         // The last instrument around one that is the outermost one anywhere.
-        private static int AroundOf(int instrument, int[] beyond)
-        {
-            return instrument == 2 && beyond[1] > 0 ? 1 : 0;
-        }
+        private static int AroundOf(int instrument, int[] beyond) => instrument == 2 && beyond[1] > 0 ? 1 : 0;
 
         // How far beyond the tip around it the end of an element comes in, m.
         private double Reached(int instrument, int around, int element)

@@ -237,10 +237,8 @@ namespace Guidewire.Core
         public WorkLimit Work { get; }
 
         /// <summary>Gives the motion of all.</summary>
-        public RodDynamics Dynamics(MaterialScene scene, RodTerms terms)
-        {
-            return DirectSetup.DynamicsOf(_parameters, scene, terms, Work);
-        }
+        public RodDynamics Dynamics(MaterialScene scene, RodTerms terms) =>
+            DirectSetup.DynamicsOf(_parameters, scene, terms, Work);
 
         /// <summary>Finds the rest shape of all. Along the axis loads have the directions of a shape: so it is found
         /// again until both agree.</summary>
@@ -377,20 +375,13 @@ namespace Guidewire.Core
         }
 
         // EA, N.
-        private double StretchAtHub(int instrument)
-        {
-            return Instruments[instrument].Profile.Pieces[0].StretchStiffness;
-        }
+        private double StretchAtHub(int instrument) => Instruments[instrument].Profile.Pieces[0].StretchStiffness;
 
-        private static string Text(string format, params object[] numbers)
-        {
-            return string.Format(CultureInfo.InvariantCulture, format, numbers);
-        }
+        private static string Text(string format, params object[] numbers) =>
+            string.Format(CultureInfo.InvariantCulture, format, numbers);
 
-        private static MaterialScene SceneOf(SimulationParameters parameters)
-        {
-            return new MaterialScene(parameters, new Scene(parameters));
-        }
+        private static MaterialScene SceneOf(SimulationParameters parameters) =>
+            new MaterialScene(parameters, new Scene(parameters));
 
         private static InstrumentProfile ProfileOf(SimulationParameters parameters, double metres)
         {

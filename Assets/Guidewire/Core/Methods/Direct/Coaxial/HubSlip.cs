@@ -50,10 +50,7 @@ namespace Guidewire.Core
         public bool IsLimited => _limit < double.PositiveInfinity;
 
         /// <summary>A step begins with what was found in the one before.</summary>
-        public void BeginStep()
-        {
-            _found = _foundBefore;
-        }
+        public void BeginStep() => _found = _foundBefore;
 
         /// <summary>Trials begin: of a step, or of another displacement of what is around it.</summary>
         /// <param name="asked">What the hub is to go, m.</param>

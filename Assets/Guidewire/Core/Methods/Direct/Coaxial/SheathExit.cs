@@ -10,10 +10,8 @@ namespace Guidewire.Core
 
         /// <summary>The exit, m.</summary>
         /// <exception cref="ArgumentException">One from which the wire cannot be fed into the vessel.</exception>
-        public static Vector3d Find(Sheath sheath, MaterialScene whole)
-        {
-            return whole.ExitOfSheath ?? whole.Metres * FindInUnits(sheath, whole);
-        }
+        public static Vector3d Find(Sheath sheath, MaterialScene whole) =>
+            whole.ExitOfSheath ?? whole.Metres * FindInUnits(sheath, whole);
 
         private static Vector3d FindInUnits(Sheath sheath, MaterialScene whole)
         {
@@ -117,9 +115,7 @@ namespace Guidewire.Core
             return Array.TrueForAll(whole.Walls, wall => wall.IsWithin(position));
         }
 
-        private static string Text(in Vector3d v)
-        {
-            return string.Format(CultureInfo.InvariantCulture, "[{0:G6}, {1:G6}, {2:G6}]", v.X, v.Y, v.Z);
-        }
+        private static string Text(in Vector3d v) =>
+            string.Format(CultureInfo.InvariantCulture, "[{0:G6}, {1:G6}, {2:G6}]", v.X, v.Y, v.Z);
     }
 }

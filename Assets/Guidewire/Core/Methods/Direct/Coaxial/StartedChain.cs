@@ -90,10 +90,8 @@ namespace Guidewire.Core
             return null;
         }
 
-        private int NodeOf(int instrument, int node)
-        {
-            return _setup.Scenes[instrument].Shape.ElementCount - (_joints.TipOf(instrument) - node);
-        }
+        private int NodeOf(int instrument, int node) =>
+            _setup.Scenes[instrument].Shape.ElementCount - (_joints.TipOf(instrument) - node);
 
         // Of an instrument's own element, m along the chain.
         private double MiddleOf(int instrument, int element)
@@ -164,9 +162,7 @@ namespace Guidewire.Core
                 : shape.Twist[(carrier - 1) * shape.ElementCount + element - 1];
         }
 
-        private static double Nearest(double angle, double other)
-        {
-            return angle + 2.0 * Math.PI * Math.Round((other - angle) / (2.0 * Math.PI));
-        }
+        private static double Nearest(double angle, double other) =>
+            angle + 2.0 * Math.PI * Math.Round((other - angle) / (2.0 * Math.PI));
     }
 }

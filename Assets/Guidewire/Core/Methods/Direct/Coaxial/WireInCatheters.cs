@@ -30,10 +30,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double ForceOf(int hub)
-        {
-            return Coaxial()!.ForceOf(hub);
-        }
+        public override double ForceOf(int hub) => Coaxial()!.ForceOf(hub);
 
         /// <inheritdoc/>
         public override StressRecord Stress()
@@ -81,10 +78,8 @@ namespace Guidewire.Core
 
         /// <summary>Why an instrument cannot be exchanged where it is, in one phrase, or null.</summary>
         /// <param name="instrument">0 the outermost one.</param>
-        public string? FindInVessel(int instrument)
-        {
-            return CoaxialExchange.FindInVessel(Setup, Hubs, instrument, Dynamics.Time);
-        }
+        public string? FindInVessel(int instrument) =>
+            CoaxialExchange.FindInVessel(Setup, Hubs, instrument, Dynamics.Time);
 
         /// <summary>Goes on from where other instruments were: hubs with the insertion that they had, the rest where it
         /// was.</summary>
@@ -183,9 +178,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        protected override void SerializeRecords(Snapshot snapshot)
-        {
-            _records.Serialize(snapshot);
-        }
+        protected override void SerializeRecords(Snapshot snapshot) => _records.Serialize(snapshot);
     }
 }

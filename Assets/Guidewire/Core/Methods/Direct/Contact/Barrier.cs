@@ -33,16 +33,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>So many times as stiff.</summary>
-        public Barrier Times(double factor)
-        {
-            return new Barrier(Distance, factor * Stiffness, factor * Spring, Onset);
-        }
+        public Barrier Times(double factor) => new Barrier(Distance, factor * Stiffness, factor * Spring, Onset);
 
         /// <summary>How far the spring is pressed, m; 0 before it acts.</summary>
-        public double Pressed(double gap)
-        {
-            return Math.Max(0.0, Distance - gap - Onset);
-        }
+        public double Pressed(double gap) => Math.Max(0.0, Distance - gap - Onset);
 
         /// <summary>b(g), J, with its first and second derivatives; infinite for a gap that is closed.</summary>
         public double At(double gap, out double slope, out double curvature)

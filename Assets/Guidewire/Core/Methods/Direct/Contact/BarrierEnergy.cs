@@ -105,16 +105,10 @@ namespace Guidewire.Core
         /// <summary>Follows the elements of a rod whose barriers are set.</summary>
         /// <param name="entered">Of those that came in before the first one, where all others are as they were; null:
         /// what is near is looked for anew.</param>
-        public void FollowElements(int? entered)
-        {
-            _near.Remesh(_rod.ElementCount, entered);
-        }
+        public void FollowElements(int? entered) => _near.Remesh(_rod.ElementCount, entered);
 
         /// <summary>Leaves out the part of elements' contacts that is proportional to their force.</summary>
-        public override void DropGeometricStiffness(bool isOn)
-        {
-            _hasBending = !isOn;
-        }
+        public override void DropGeometricStiffness(bool isOn) => _hasBending = !isOn;
 
         /// <summary>The walls, in units.</summary>
         public ContactShape[] Walls => _walls;
@@ -151,20 +145,14 @@ namespace Guidewire.Core
         public double UnitsPerMetre => _units;
 
         /// <summary>Radius of element j, m.</summary>
-        public double RadiusOf(int j)
-        {
-            return _elementRadius[j];
-        }
+        public double RadiusOf(int j) => _elementRadius[j];
 
         /// <summary>Force of each wall on the wire, N, in the shape last evaluated.</summary>
         public Vector3d[] Resultants => _resultant;
 
         /// <summary>Lower bound of the distance of element j from all walls in the shape last evaluated,
         /// units.</summary>
-        public double ClearanceOf(int j)
-        {
-            return _near.ClearanceOf(_x, j);
-        }
+        public double ClearanceOf(int j) => _near.ClearanceOf(_x, j);
 
         /// <inheritdoc/>
         public override void BeginStep(RodShape shape, double dt)
@@ -205,10 +193,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the energy without what dashpots add to it in a stage, J.</summary>
-        public override double Stored(RodShape shape)
-        {
-            return _lag == null ? Value(shape) : Evaluate(shape) + _lag.Stored();
-        }
+        public override double Stored(RodShape shape) => _lag == null ? Value(shape) : Evaluate(shape) + _lag.Stored();
 
         // As if walls gave way at once.
         private double Evaluate(RodShape shape)
@@ -277,21 +262,12 @@ namespace Guidewire.Core
 
         /// <summary>Gives the gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
         /// distance.</summary>
-        public double NodeGap(int w, int i)
-        {
-            return _nodeGap[w * (_rod.ElementCount + 1) + i];
-        }
+        public double NodeGap(int w, int i) => _nodeGap[w * (_rod.ElementCount + 1) + i];
 
         /// <summary>Gives the same between the interior of element j and convex edges of the wall.</summary>
-        public double EdgeGap(int w, int j)
-        {
-            return _edgeGap[w * _rod.ElementCount + j];
-        }
+        public double EdgeGap(int w, int j) => _edgeGap[w * _rod.ElementCount + j];
 
-        private void Update(RodShape shape)
-        {
-            Update(shape, 0, _rod.ElementCount + 1);
-        }
+        private void Update(RodShape shape) => Update(shape, 0, _rod.ElementCount + 1);
 
         // Evaluates the shape, unless these of its nodes, without the last, are those of the last call.
         private void Update(RodShape shape, int from, int to)

@@ -45,16 +45,10 @@ namespace Guidewire.Core
         public bool HasEstimates => _estimated.Count > 0;
 
         /// <summary>What the second derivative by node i changes by, N/m.</summary>
-        public ref readonly Symmetric3 OwnOf(int i)
-        {
-            return ref _own[i];
-        }
+        public ref readonly Symmetric3 OwnOf(int i) => ref _own[i];
 
         /// <summary>Gives that by nodes j + 1 and j, N/m.</summary>
-        public ref readonly Symmetric3 CouplingOf(int j)
-        {
-            return ref _coupling[j];
-        }
+        public ref readonly Symmetric3 CouplingOf(int j) => ref _coupling[j];
 
         /// <summary>Removes all contacts, but not the estimates.</summary>
         public void Clear()
@@ -184,10 +178,7 @@ namespace Guidewire.Core
             return (1.0 - contact.Position) * MoveOf(direction, j) + contact.Position * MoveOf(direction, j + 1);
         }
 
-        private Vector3d MoveOf(RodVector[] direction, int i)
-        {
-            return i == _held ? Vector3d.Zero : direction[i].X;
-        }
+        private Vector3d MoveOf(RodVector[] direction, int i) => i == _held ? Vector3d.Zero : direction[i].X;
 
         private struct Contact
         {

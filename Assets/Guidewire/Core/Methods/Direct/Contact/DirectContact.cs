@@ -4,9 +4,6 @@ namespace Guidewire.Core
     internal static class DirectContact
     {
         /// <summary>What walls add to the energy; null without walls. Only the direct solver adds such terms.</summary>
-        public static WallTerms? Walls(this RodTerms terms)
-        {
-            return (WallTerms?)terms.Contact;
-        }
+        public static WallTerms? Walls(this RodTerms terms) => (WallTerms?)terms.Contact;
     }
 }

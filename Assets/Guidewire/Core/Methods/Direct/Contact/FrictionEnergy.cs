@@ -67,10 +67,8 @@ namespace Guidewire.Core
         /// <summary>Elements from one up to another are an instrument's with a coefficient of its own on all
         /// walls.</summary>
         /// <param name="coefficient">NaN: those of the walls.</param>
-        public void SetCoefficient(int from, int to, double coefficient)
-        {
+        public void SetCoefficient(int from, int to, double coefficient) =>
             Array.Fill(_coefficient, coefficient, from, to - from);
-        }
 
         /// <summary>s by rule, m: a hundredth of the thinnest element's radius, by which a surface turns about the
         /// wire's axis by 0.01 rad.</summary>
@@ -237,10 +235,8 @@ namespace Guidewire.Core
         }
 
         // z, and phi.
-        private Vector3d Displacement(RodShape shape, in FrictionContact contact, out Vector3d turn)
-        {
-            return contact.Start + Slip(shape, contact, out turn);
-        }
+        private Vector3d Displacement(RodShape shape, in FrictionContact contact, out Vector3d turn) =>
+            contact.Start + Slip(shape, contact, out turn);
 
         // u, and phi.
         private Vector3d Slip(RodShape shape, in FrictionContact contact, out Vector3d turn)

@@ -105,10 +105,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Keeps the ranges, which are about to change.</summary>
-        public void KeepRanges()
-        {
-            Array.Copy(_range, _formerRange, _count);
-        }
+        public void KeepRanges() => Array.Copy(_range, _formerRange, _count);
 
         private static void Move(Neighbour[] of, int to, int from)
         {
@@ -171,10 +168,7 @@ namespace Guidewire.Core
 
         /// <summary>Whether wall w may be within the range of element j.</summary>
         /// <param name="x">Nodes of the wire.</param>
-        public bool MayBeInRange(int w, int j, Vector3d[] x)
-        {
-            return IsNear(w, j) && MayBeInRange(w, j, x, _range[j]);
-        }
+        public bool MayBeInRange(int w, int j, Vector3d[] x) => IsNear(w, j) && MayBeInRange(w, j, x, _range[j]);
 
         /// <summary>Whether wall w may be within a range, units, of element j.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -203,10 +197,8 @@ namespace Guidewire.Core
         /// <summary>Whether wall w may be within a range, units, of a position of node i, by where it was last asked
         /// for there.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public bool NodeMayBeInRange(int w, int i, in Vector3d x, double range)
-        {
-            return _node[w * (_count + 1) + i].FirstMayBeInRange(x, range);
-        }
+        public bool NodeMayBeInRange(int w, int i, in Vector3d x, double range) =>
+            _node[w * (_count + 1) + i].FirstMayBeInRange(x, range);
 
         /// <summary>Takes note that wall w is not nearer to a position of node i than this, units.</summary>
         public void SetDistanceOfNode(int w, int i, in Vector3d x, double distance)
@@ -220,10 +212,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Features of wall w about element j, if they are known where its nodes are.</summary>
-        public FeatureRange FeaturesOf(int w, int j, in Vector3d a, in Vector3d b)
-        {
-            return _element[w * _count + j].Features(_features, a, b);
-        }
+        public FeatureRange FeaturesOf(int w, int j, in Vector3d a, in Vector3d b) =>
+            _element[w * _count + j].Features(_features, a, b);
 
         /// <summary>The same about node i; where the wall has none of points, those of an element beside it that is
         /// near.</summary>
@@ -256,10 +246,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Where element j was nearest to wall w, for <see cref="ContactShape.Nearest"/>.</summary>
-        public ref int HintOf(int w, int j)
-        {
-            return ref _hint[w * _count + j];
-        }
+        public ref int HintOf(int w, int j) => ref _hint[w * _count + j];
 
         /// <summary>Lower bound of the distance of element j from all walls.</summary>
         /// <param name="x">Nodes of the wire.</param>
@@ -310,15 +297,10 @@ namespace Guidewire.Core
             }
         }
 
-        private double RangeOfNode(int i)
-        {
-            return RangeOfNode(_range, i, _count);
-        }
+        private double RangeOfNode(int i) => RangeOfNode(_range, i, _count);
 
-        private static double RangeOfNode(double[] range, int i, int count)
-        {
-            return Math.Max(range[Math.Max(i - 1, 0)], range[Math.Min(i, count - 1)]);
-        }
+        private static double RangeOfNode(double[] range, int i, int count) =>
+            Math.Max(range[Math.Max(i - 1, 0)], range[Math.Min(i, count - 1)]);
 
         // Whether one of two queries is valid between a and b: it is then the last; else the older one is, to be made
         // again.

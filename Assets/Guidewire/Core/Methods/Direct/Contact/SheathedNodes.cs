@@ -47,17 +47,11 @@ namespace Guidewire.Core
         public bool HasBuckled { get; set; }
 
         /// <summary>How many nodes of a shape, from its first on, are in the sheath.</summary>
-        public int Inside(RodShape shape)
-        {
-            return _sheath == null ? 0 : _sheath.NodesInside(shape);
-        }
+        public int Inside(RodShape shape) => _sheath == null ? 0 : _sheath.NodesInside(shape);
 
         /// <summary>A node as walls meet it, units.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public Vector3d Place(in Vector3d x, bool isInside)
-        {
-            return _units * (isInside ? _sheath!.Exit : x);
-        }
+        public Vector3d Place(in Vector3d x, bool isInside) => _units * (isInside ? _sheath!.Exit : x);
 
         /// <summary>The nodes of a shape as walls meet them, units.</summary>
         /// <param name="x">Receives them.</param>

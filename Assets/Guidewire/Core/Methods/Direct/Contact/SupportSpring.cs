@@ -65,24 +65,17 @@ namespace Guidewire.Core
 
         /// <summary>Distance of node 0 behind its support on a spring that is soft along the axis, m; 0 on a stiff
         /// one.</summary>
-        public Vector3d LagOf(RodShape shape)
-        {
-            return _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Position - shape.X[0], Axis) * Axis;
-        }
+        public Vector3d LagOf(RodShape shape) =>
+            _axial == _stiffness ? Vector3d.Zero : Vector3d.Dot(Position - shape.X[0], Axis) * Axis;
 
         /// <summary>Where the hub has the wire, m: node 0, or the end of what is before it, as long as it is under the
         /// force.</summary>
-        public Vector3d HeldPosition(RodShape shape)
-        {
-            return Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
-        }
+        public Vector3d HeldPosition(RodShape shape) =>
+            Position - (Vector3d.Dot(Force(shape), Axis) / _stiffness) * Axis;
 
         /// <summary>By how much along the axis, m, the support would have to move back for the axial force to be no
         /// more than the hub's.</summary>
-        public double SlipOf(RodShape shape)
-        {
-            return Excess(shape) / _axial;
-        }
+        public double SlipOf(RodShape shape) => Excess(shape) / _axial;
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
@@ -132,10 +125,8 @@ namespace Guidewire.Core
         }
 
         // What node 0 is behind where it would be without force, m.
-        private Vector3d Behind(RodShape shape)
-        {
-            return _before == 0.0 ? Position - shape.X[0] : Position + _before * Axis - shape.X[0];
-        }
+        private Vector3d Behind(RodShape shape) =>
+            _before == 0.0 ? Position - shape.X[0] : Position + _before * Axis - shape.X[0];
 
         // Excess of the axial force over the limit, N, with its sign.
         private double Excess(RodShape shape)

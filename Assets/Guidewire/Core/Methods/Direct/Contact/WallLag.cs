@@ -54,10 +54,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Says whether wall w follows with a delay.</summary>
-        public bool IsOf(int w)
-        {
-            return _time[w] > 0.0;
-        }
+        public bool IsOf(int w) => _time[w] > 0.0;
 
         /// <summary>A step of dt, s, begins in the shape evaluated last.</summary>
         public void BeginStep(double dt)
@@ -77,10 +74,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The shape evaluated last was the reference.</summary>
-        public void TakeReference()
-        {
-            Array.Copy(_now, _from, Count);
-        }
+        public void TakeReference() => Array.Copy(_now, _from, Count);
 
         /// <summary>A shape is evaluated as if walls gave way at once.</summary>
         public void Begin()
@@ -90,10 +84,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>It has been.</summary>
-        public void End()
-        {
-            _isAtOnce = false;
-        }
+        public void End() => _isAtOnce = false;
 
         /// <summary>Delays the springs of node i.</summary>
         /// <param name="w">Which wall.</param>

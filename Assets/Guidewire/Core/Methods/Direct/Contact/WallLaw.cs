@@ -137,16 +137,10 @@ namespace Guidewire.Core
         public bool IsSoft { get; }
 
         /// <summary>Distance of node i from the wall at which its gap is 0, m.</summary>
-        public double RadiusOfNode(int i)
-        {
-            return _nodeRadius[i];
-        }
+        public double RadiusOfNode(int i) => _nodeRadius[i];
 
         /// <summary>Gives the same of element j.</summary>
-        public double RadiusOf(int j)
-        {
-            return _elementRadius[j];
-        }
+        public double RadiusOf(int j) => _elementRadius[j];
 
         /// <summary>Widens ranges, by element in units, to where the wall is felt by it or its nodes.</summary>
         public void AddRanges(double units, double[] range)
@@ -160,22 +154,13 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the barrier of the gap of node i.</summary>
-        public ref readonly Barrier OfNode(int i)
-        {
-            return ref _current[i];
-        }
+        public ref readonly Barrier OfNode(int i) => ref _current[i];
 
         /// <summary>Of the gap of element j, but for how stiff it is.</summary>
-        public ref readonly Barrier BarrierOf(int j)
-        {
-            return ref _element[j];
-        }
+        public ref readonly Barrier BarrierOf(int j) => ref _element[j];
 
         /// <summary>Gives the range of the gap of element j, m.</summary>
-        public double DistanceOf(int j)
-        {
-            return _element[j].Distance;
-        }
+        public double DistanceOf(int j) => _element[j].Distance;
 
         /// <summary>Gives the range of the gap of a contact, m: of a soft wall its limit there.</summary>
         public double DistanceAt(in WallContact contact)
@@ -185,28 +170,18 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the barrier of the gap of element j at an edge of the wall.</summary>
-        public Barrier OfEdge(int j, in EdgeContact edge)
-        {
-            return IsSoft ? _element[j].Times(_factor[j] * edge.TurnUnder(_length[j])) : _element[j];
-        }
+        public Barrier OfEdge(int j, in EdgeContact edge) =>
+            IsSoft ? _element[j].Times(_factor[j] * edge.TurnUnder(_length[j])) : _element[j];
 
         /// <summary>What a step leaves of a gap of element j, units.</summary>
-        public double LeftOf(int j, double gap)
-        {
-            return Math.Min(LeftOfGap * gap, MaxLeft * _units * _element[j].Distance);
-        }
+        public double LeftOf(int j, double gap) => Math.Min(LeftOfGap * gap, MaxLeft * _units * _element[j].Distance);
 
         /// <summary>The most that a step leaves of the distance of element j, units.</summary>
-        public double MaxClearance(int j)
-        {
-            return _units * (_elementRadius[j] + MaxLeft * _element[j].Distance);
-        }
+        public double MaxClearance(int j) => _units * (_elementRadius[j] + MaxLeft * _element[j].Distance);
 
         /// <summary>Approaches of a step that are ignored, units.</summary>
-        public static double Resolution(double radius, double gap, double left)
-        {
-            return Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
-        }
+        public static double Resolution(double radius, double gap, double left) =>
+            Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
 
         /// <summary>Takes the stiffness of the wall where the nodes are: it stays that for a step.</summary>
         /// <returns>Whether the wall has regions.</returns>
@@ -221,10 +196,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>By how much the wall is displaced at a gap, m.</summary>
-        public double DisplacementAt(double gap, double distance)
-        {
-            return IsSoft ? Math.Max(0.0, distance - gap) : 0.0;
-        }
+        public double DisplacementAt(double gap, double distance) => IsSoft ? Math.Max(0.0, distance - gap) : 0.0;
 
         /// <summary>Sets the gaps of all nodes, and of all elements, to those from which on nothing is felt.</summary>
         /// <param name="w">Number of the wall.</param>

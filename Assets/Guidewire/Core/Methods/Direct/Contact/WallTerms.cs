@@ -71,16 +71,10 @@ namespace Guidewire.Core
         public override double FrictionStored => Friction == null ? 0.0 : Friction.Anchors.StoredEnergy;
 
         /// <inheritdoc/>
-        public override double StoredEnergy(RodShape shape)
-        {
-            return Barrier.Stored(shape);
-        }
+        public override double StoredEnergy(RodShape shape) => Barrier.Stored(shape);
 
         /// <inheritdoc/>
-        public override Vector3d SupportForce(RodShape shape)
-        {
-            return HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
-        }
+        public override Vector3d SupportForce(RodShape shape) => HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
 
         /// <summary>A reader between as many walls, of which one has friction, takes over what such a writer has; and
         /// how far walls lag behind, where both have such walls and as many elements.</summary>

@@ -25,16 +25,10 @@ namespace Guidewire.Core
         public bool IsComplete => _isComplete;
 
         /// <summary>The next step is the first.</summary>
-        public void Forget()
-        {
-            _isComplete = false;
-        }
+        public void Forget() => _isComplete = false;
 
         /// <summary>A step has been done: what <see cref="Prepare"/> took is its start.</summary>
-        public void Complete()
-        {
-            _isComplete = true;
-        }
+        public void Complete() => _isComplete = true;
 
         /// <summary>Sets what a step of dt has from the two steps before it, and takes its start as history.</summary>
         /// <param name="inertia">Its step has begun; receives the stage.</param>

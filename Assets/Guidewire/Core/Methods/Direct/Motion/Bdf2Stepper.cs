@@ -18,10 +18,7 @@ namespace Guidewire.Core
         public override string Key => "BDF2";
 
         /// <inheritdoc/>
-        public override void Begin()
-        {
-            _history.Forget();
-        }
+        public override void Begin() => _history.Forget();
 
         /// <inheritdoc/>
         public override string? Step(in Interval interval)

@@ -29,10 +29,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The distal frame has already made its turn of time 0.</summary>
-        public void Begin()
-        {
-            _distal = _schedule.Distal.TurnAt(0.0);
-        }
+        public void Begin() => _distal = _schedule.Distal.TurnAt(0.0);
 
         /// <summary>Whether the frames are where they should be at this time, to within an angle.</summary>
         public bool AreInPlace(double time, double angle)

@@ -177,10 +177,7 @@ namespace Guidewire.Core
             return ticks;
         }
 
-        private double LengthOf(int ticks)
-        {
-            return _length * ticks / Whole;
-        }
+        private double LengthOf(int ticks) => _length * ticks / Whole;
 
         private void Advance(in Interval interval)
         {

@@ -175,9 +175,7 @@ namespace Guidewire.Core
         }
 
         // What of a move of the last node a sliding support does not leave free.
-        private Vector3d Across(in Vector3d move)
-        {
-            return _distal == DistalEnd.Sliding ? move - Vector3d.Dot(move, _axis) * _axis : move;
-        }
+        private Vector3d Across(in Vector3d move) =>
+            _distal == DistalEnd.Sliding ? move - Vector3d.Dot(move, _axis) * _axis : move;
     }
 }

@@ -52,15 +52,9 @@ namespace Guidewire.Core
         public abstract string? Step(in Interval interval);
 
         /// <summary>Writes or restores all that an interval may touch, for a <see cref="StepStart"/>.</summary>
-        public virtual void SerializeStep(Snapshot snapshot)
-        {
-            Stage.SerializeStep(snapshot);
-        }
+        public virtual void SerializeStep(Snapshot snapshot) => Stage.SerializeStep(snapshot);
 
         /// <summary>Writes or restores, at a time, s, what went before the next step.</summary>
-        public virtual void SerializeHistory(Snapshot snapshot, double time)
-        {
-            Stage.SerializeHistory(snapshot);
-        }
+        public virtual void SerializeHistory(Snapshot snapshot, double time) => Stage.SerializeHistory(snapshot);
     }
 }

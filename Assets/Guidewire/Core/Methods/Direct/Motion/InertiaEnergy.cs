@@ -85,16 +85,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>Stores the full turns of the shape that was last evaluated.</summary>
-        public void KeepTurns()
-        {
-            Array.Copy(_countedTurn, _keptTurn, Elements);
-        }
+        public void KeepTurns() => Array.Copy(_countedTurn, _keptTurn, Elements);
 
         /// <summary>Turns are counted from those again that were kept.</summary>
-        public void RestoreTurns()
-        {
-            Array.Copy(_keptTurn, _countedTurn, Elements);
-        }
+        public void RestoreTurns() => Array.Copy(_keptTurn, _countedTurn, Elements);
 
         /// <summary>Whether a couple is kept until an element turns on: a search along the energy asks for each up to
         /// three times, a free iteration once.</summary>
@@ -209,10 +203,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>w of element j that has turned by phi.</summary>
-        private Vector3d Spin(in Vector3d turn, int j)
-        {
-            return (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
-        }
+        private Vector3d Spin(in Vector3d turn, int j) =>
+            (1.0 / StageLength) * RotationVector.TangentMap(turn, turn - TurnHistory[j]);
 
         /// <summary>Writes or restores the last stage, by which forces are told between steps.</summary>
         public override void Serialize(Snapshot snapshot)
@@ -227,10 +219,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Of the nodes alone: no work of the couples yet.</summary>
-        public override double AnchoredValue(double before)
-        {
-            return _nodes;
-        }
+        public override double AnchoredValue(double before) => _nodes;
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)

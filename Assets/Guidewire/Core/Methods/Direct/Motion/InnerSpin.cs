@@ -92,10 +92,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>A step begins in this shape.</summary>
-        public override void BeginStep(RodShape shape, double dt)
-        {
-            Array.Copy(shape.Twist, _start, Angles);
-        }
+        public override void BeginStep(RodShape shape, double dt) => Array.Copy(shape.Twist, _start, Angles);
 
         /// <summary>A stage of a Runge-Kutta scheme begins.</summary>
         /// <param name="row">a_ik; its length is the stage's index plus 1.</param>
@@ -144,10 +141,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The rates in the last stage are those at the step's end.</summary>
-        public void Accept()
-        {
-            Array.Copy(_rate[_rate.Length - 1], _twistRates, Angles);
-        }
+        public void Accept() => Array.Copy(_rate[_rate.Length - 1], _twistRates, Angles);
 
         /// <summary>The rates at a step's start are those of its explicit first stage.</summary>
         /// <param name="fromLast">Whether z'' is that of the last stage; else it is already set.</param>
@@ -243,10 +237,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double AnchoredValue(double before)
-        {
-            return 0.0;
-        }
+        public override double AnchoredValue(double before) => 0.0;
 
         /// <inheritdoc/>
         public override void Anchor(RodShape shape)
@@ -315,15 +306,9 @@ namespace Guidewire.Core
 
         private int ActiveCount => _count == 0 ? 0 : _rod.Joints.ActiveCount;
 
-        private int CountOf(int instrument)
-        {
-            return _rod.Joints.ActiveCountOf(instrument);
-        }
+        private int CountOf(int instrument) => _rod.Joints.ActiveCountOf(instrument);
 
-        private int At(int instrument, int element)
-        {
-            return (instrument - 1) * _rod.Joints.ElementCount + element;
-        }
+        private int At(int instrument, int element) => (instrument - 1) * _rod.Joints.ElementCount + element;
 
         // Drag of the innermost instrument in one that has an angle of its own there.
         private double Between(int element)

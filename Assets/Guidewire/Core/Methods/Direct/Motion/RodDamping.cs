@@ -152,16 +152,12 @@ namespace Guidewire.Core
 
         /// <summary>What the damping adds to the couple of the proximal clamp on the rod, N m, along the world's axes.
         /// </summary>
-        public Vector3d ProximalCouple(RodShape shape)
-        {
-            return _ofMaterial > 0.0 ? _bending.ProximalCouple(shape) : Vector3d.Zero;
-        }
+        public Vector3d ProximalCouple(RodShape shape) =>
+            _ofMaterial > 0.0 ? _bending.ProximalCouple(shape) : Vector3d.Zero;
 
         /// <summary>Gives the same for the distal clamp.</summary>
-        public Vector3d DistalCouple(RodShape shape)
-        {
-            return _ofMaterial > 0.0 ? _bending.DistalCouple(shape) : Vector3d.Zero;
-        }
+        public Vector3d DistalCouple(RodShape shape) =>
+            _ofMaterial > 0.0 ? _bending.DistalCouple(shape) : Vector3d.Zero;
 
         /// <inheritdoc/>
         public override double Value(RodShape shape)
@@ -244,10 +240,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override double AnchoredValue(double before)
-        {
-            return _bending.AnchoredValue(before);
-        }
+        public override double AnchoredValue(double before) => _bending.AnchoredValue(before);
 
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)

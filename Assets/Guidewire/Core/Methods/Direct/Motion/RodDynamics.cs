@@ -138,10 +138,7 @@ namespace Guidewire.Core
                 : InnerSpin.KineticEnergy(_terms.Supports.Coaxial, Spins, TwistRates));
 
         /// <summary>Force of the supports on a node as the rod is now, N.</summary>
-        public Vector3d ReactionAt(int node)
-        {
-            return Reactions.At(node, Time);
-        }
+        public Vector3d ReactionAt(int node) => Reactions.At(node, Time);
 
         /// <summary>Makes one step.</summary>
         /// <param name="dt">s.</param>
@@ -181,10 +178,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Goes back to the start of the interval without a solution.</summary>
-        public void GoBack()
-        {
-            _start.Restore();
-        }
+        public void GoBack() => _start.Restore();
 
         /// <summary>Writes or restores where the rod is and how it moves: what a motion by any scheme goes on
         /// from.</summary>
@@ -235,9 +229,6 @@ namespace Guidewire.Core
             _stepper.SerializeStep(snapshot);
         }
 
-        private void SerializeStages(Snapshot snapshot)
-        {
-            _stepper.SerializeHistory(snapshot, Time);
-        }
+        private void SerializeStages(Snapshot snapshot) => _stepper.SerializeHistory(snapshot, Time);
     }
 }

@@ -50,16 +50,10 @@ namespace Guidewire.Core
         public StageForces Mean => _mean;
 
         /// <summary>The rod has other elements and has not stepped.</summary>
-        public void Remesh()
-        {
-            (_end, _mean, _hasStepped) = (default, default, false);
-        }
+        public void Remesh() => (_end, _mean, _hasStepped) = (default, default, false);
 
         /// <summary>A step begins.</summary>
-        public void BeginStep()
-        {
-            _mean = default;
-        }
+        public void BeginStep() => _mean = default;
 
         /// <summary>Takes the forces of a stage that is solved.</summary>
         public void TakeStage()
@@ -104,10 +98,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds impulses, N s, over a step of dt, s.</summary>
-        public void AddImpulse(in StageForces impulses, double dt)
-        {
-            _mean.Add(1.0 / dt, impulses);
-        }
+        public void AddImpulse(in StageForces impulses, double dt) => _mean.Add(1.0 / dt, impulses);
 
         /// <summary>Sum of the forces of all loads, N, whose time has been set.</summary>
         public Vector3d LoadSum()

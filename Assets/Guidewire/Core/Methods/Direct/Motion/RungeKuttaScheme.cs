@@ -71,10 +71,7 @@ namespace Guidewire.Core
         public int EmbeddedOrder { get; private set; }
 
         /// <summary>Gives backward Euler, order 1.</summary>
-        public static RungeKuttaScheme ImplicitEuler()
-        {
-            return new RungeKuttaScheme(new[] { new[] { 1.0 } }, null);
-        }
+        public static RungeKuttaScheme ImplicitEuler() => new RungeKuttaScheme(new[] { new[] { 1.0 } }, null);
 
         /// <summary>Two implicit stages, order 2, gamma = 1 - 1/sqrt(2) (Alexander 1977): takes nothing from the rates
         /// at the step's start, so a motion may begin with it far from balance.</summary>

@@ -41,10 +41,7 @@ namespace Guidewire.Core
         public long StepsAbove { get; private set; }
 
         /// <summary>Forgets how long the next step was to be.</summary>
-        public void Forget()
-        {
-            _length = 0.0;
-        }
+        public void Forget() => _length = 0.0;
 
         /// <summary>Gives the length of the next step, s.</summary>
         /// <param name="left">What is left until a jump or the end of the logged step, s.</param>
@@ -85,9 +82,6 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or restores the length of the next step.</summary>
-        public void SerializeLength(Snapshot snapshot)
-        {
-            snapshot.Serialize(ref _length);
-        }
+        public void SerializeLength(Snapshot snapshot) => snapshot.Serialize(ref _length);
     }
 }

@@ -43,10 +43,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>The rod has other elements.</summary>
-        public void Remesh()
-        {
-            _tangent.Remesh();
-        }
+        public void Remesh() => _tangent.Remesh();
 
         /// <summary>Moves <paramref name="shape"/> to the rest shape that it creeps to, and checks whether it is
         /// stable.</summary>

@@ -60,10 +60,7 @@ namespace Guidewire.Core
         public double Radius { get; private set; }
 
         /// <inheritdoc/>
-        public double ClearanceOf(int w, int j)
-        {
-            return _clearance[j];
-        }
+        public double ClearanceOf(int w, int j) => _clearance[j];
 
         /// <summary>A step begins in this shape.</summary>
         public void BeginStep(RodShape shape)
@@ -145,10 +142,7 @@ namespace Guidewire.Core
         }
 
         /// <summary>Writes or restores the passages so far.</summary>
-        public void Serialize(Snapshot snapshot)
-        {
-            _passages.Serialize(snapshot);
-        }
+        public void Serialize(Snapshot snapshot) => _passages.Serialize(snapshot);
 
         private void TakeForces(RodShape shape, ContactRecord record)
         {
@@ -165,9 +159,6 @@ namespace Guidewire.Core
             record.WallForces = _barrier.Resultants;
         }
 
-        private void SetUnits(RodShape shape, Vector3d[] x)
-        {
-            _barrier.Nodes.Set(shape, x);
-        }
+        private void SetUnits(RodShape shape, Vector3d[] x) => _barrier.Nodes.Set(shape, x);
     }
 }

@@ -61,17 +61,13 @@ namespace Guidewire.Core
 
         /// <summary>Adds the contact of a sphere.</summary>
         public void AddSphere(int sphere, in SurfaceContact contact, double clearance, double gain,
-            double friction = 0.0)
-        {
+            double friction = 0.0) =>
             Add(sphere, sphere, 0.0, _inverseMasses[sphere], contact, clearance, gain, friction);
-        }
 
         /// <summary>Adds the contact of an element.</summary>
         public void AddElement(int element, in SurfaceContact contact, double clearance, double gain,
-            double friction = 0.0)
-        {
+            double friction = 0.0) =>
             Add(element, element + 1, contact.Position, 1.0, contact, clearance, gain, friction);
-        }
 
         /// <summary>The spheres that contact k moves.</summary>
         public void SpheresOf(int k, out int first, out int last)

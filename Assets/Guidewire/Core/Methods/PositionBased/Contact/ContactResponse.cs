@@ -54,10 +54,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Stop(StructList<WireContact> impacts)
-        {
-            Add(impacts, _sphereStops, _elementStops, _stop, 1.0);
-        }
+        public void Stop(StructList<WireContact> impacts) => Add(impacts, _sphereStops, _elementStops, _stop, 1.0);
 
         /// <inheritdoc/>
         public void Iterate(Vector3d[] x)
@@ -76,17 +73,11 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void SpheresOf(int k, out int first, out int last)
-        {
-            At(ref k).SpheresOf(k, out first, out last);
-        }
+        public void SpheresOf(int k, out int first, out int last) => At(ref k).SpheresOf(k, out first, out last);
 
         /// <inheritdoc/>
         [MethodImpl(Compiled.AtOnce)]
-        public bool Project(int k, Vector3d[] x)
-        {
-            return At(ref k).Project(k, x);
-        }
+        public bool Project(int k, Vector3d[] x) => At(ref k).Project(k, x);
 
         /// <inheritdoc/>
         public void AddImpulses(Vector3d[] impulses)

@@ -59,10 +59,8 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Stop(StructList<WireContact> impacts)
-        {
+        public void Stop(StructList<WireContact> impacts) =>
             throw new InvalidOperationException("the published rule has no swept test");
-        }
 
         /// <inheritdoc/>
         public void IterateStops(Vector3d[] x)
@@ -79,10 +77,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void SpheresOf(int k, out int first, out int last)
-        {
-            first = last = _sphere[k];
-        }
+        public void SpheresOf(int k, out int first, out int last) => first = last = _sphere[k];
 
         /// <inheritdoc/>
         [MethodImpl(Compiled.AtOnce)]

@@ -45,16 +45,10 @@ namespace Guidewire.Core
         }
 
         /// <summary>True where contact k has friction and a normal correction so far.</summary>
-        public bool HasFriction(int k, double correction)
-        {
-            return correction > 0.0 && _coefficient[k] > 0.0;
-        }
+        public bool HasFriction(int k, double correction) => correction > 0.0 && _coefficient[k] > 0.0;
 
         /// <summary>t of contact k in units: how far friction has moved its point in this solve.</summary>
-        public Vector3d Taken(int k)
-        {
-            return _taken[k];
-        }
+        public Vector3d Taken(int k) => _taken[k];
 
         /// <summary>Displacement of the point of contact k by friction in one iteration, units.</summary>
         /// <param name="k">The contact.</param>

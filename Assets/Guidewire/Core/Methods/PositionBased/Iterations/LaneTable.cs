@@ -59,10 +59,7 @@ namespace Guidewire.Core
             return ahead % Lag * strand + strand - 1 - ahead / Lag;
         }
 
-        private int Strand(int period)
-        {
-            return (period + Lag * (_lanes - 1) + Lag - 1) / Lag;
-        }
+        private int Strand(int period) => (period + Lag * (_lanes - 1) + Lag - 1) / Lag;
     }
 }
 #endif

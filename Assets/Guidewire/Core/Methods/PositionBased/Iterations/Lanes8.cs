@@ -26,87 +26,49 @@ namespace Guidewire.Core
         public static double TickCost => 1.8;
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator +(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(a._value + b._value);
-        }
+        public static Lanes8 operator +(Lanes8 a, Lanes8 b) => new Lanes8(a._value + b._value);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator -(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(a._value - b._value);
-        }
+        public static Lanes8 operator -(Lanes8 a, Lanes8 b) => new Lanes8(a._value - b._value);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator *(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(a._value * b._value);
-        }
+        public static Lanes8 operator *(Lanes8 a, Lanes8 b) => new Lanes8(a._value * b._value);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator /(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(a._value / b._value);
-        }
+        public static Lanes8 operator /(Lanes8 a, Lanes8 b) => new Lanes8(a._value / b._value);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator -(Lanes8 a)
-        {
-            return new Lanes8(-a._value);
-        }
+        public static Lanes8 operator -(Lanes8 a) => new Lanes8(-a._value);
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator <(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(Vector512.LessThan(a._value, b._value));
-        }
+        public static Lanes8 operator <(Lanes8 a, Lanes8 b) => new Lanes8(Vector512.LessThan(a._value, b._value));
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator >(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(Vector512.GreaterThan(a._value, b._value));
-        }
+        public static Lanes8 operator >(Lanes8 a, Lanes8 b) => new Lanes8(Vector512.GreaterThan(a._value, b._value));
 
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 operator &(Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(a._value & b._value);
-        }
+        public static Lanes8 operator &(Lanes8 a, Lanes8 b) => new Lanes8(a._value & b._value);
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 Sqrt(Lanes8 a)
-        {
-            return new Lanes8(Vector512.Sqrt(a._value));
-        }
+        public static Lanes8 Sqrt(Lanes8 a) => new Lanes8(Vector512.Sqrt(a._value));
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 Select(Lanes8 mask, Lanes8 a, Lanes8 b)
-        {
-            return new Lanes8(Vector512.ConditionalSelect(mask._value, a._value, b._value));
-        }
+        public static Lanes8 Select(Lanes8 mask, Lanes8 a, Lanes8 b) =>
+            new Lanes8(Vector512.ConditionalSelect(mask._value, a._value, b._value));
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 Fill(double value)
-        {
-            return new Lanes8(Vector512.Create(value));
-        }
+        public static Lanes8 Fill(double value) => new Lanes8(Vector512.Create(value));
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static Lanes8 Load(ref double first)
-        {
-            return new Lanes8(Vector512.LoadUnsafe(ref first));
-        }
+        public static Lanes8 Load(ref double first) => new Lanes8(Vector512.LoadUnsafe(ref first));
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static void Store(Lanes8 a, ref double first)
-        {
-            a._value.StoreUnsafe(ref first);
-        }
+        public static void Store(Lanes8 a, ref double first) => a._value.StoreUnsafe(ref first);
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
@@ -118,10 +80,7 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
-        public static double Last(Lanes8 a)
-        {
-            return a._value.GetElement(7);
-        }
+        public static double Last(Lanes8 a) => a._value.GetElement(7);
     }
 }
 #endif

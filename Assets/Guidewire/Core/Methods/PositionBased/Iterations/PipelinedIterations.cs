@@ -113,10 +113,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double Cost(int iterations)
-        {
-            return T.TickCost * Ticks(iterations) + CopyCost * _elements;
-        }
+        public double Cost(int iterations) => T.TickCost * Ticks(iterations) + CopyCost * _elements;
 
         // The joint's block has the lines of BendTwistConstraint.Iterate, the element's those of
         // StretchConstraint.Iterate. A frame rests one slot between the two, so that at one slot neither waits for the
@@ -311,10 +308,7 @@ namespace Guidewire.Core
             return rounds * _period + Lag * (T.Count - 1) + 1;
         }
 
-        private int Next(int slot)
-        {
-            return slot + 1 == _period ? 0 : slot + 1;
-        }
+        private int Next(int slot) => slot + 1 == _period ? 0 : slot + 1;
 
         private static double[] Marks(int count)
         {

@@ -40,9 +40,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public double Cost(int iterations)
-        {
-            return (double)_elements.Length * iterations;
-        }
+        public double Cost(int iterations) => (double)_elements.Length * iterations;
     }
 }

@@ -33,9 +33,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Serialize(Snapshot snapshot, double timeStep)
-        {
-            snapshot.Section("Euler", _ => { });
-        }
+        public void Serialize(Snapshot snapshot, double timeStep) => snapshot.Section("Euler", _ => { });
     }
 }

@@ -16,9 +16,6 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Serialize(Snapshot snapshot, double timeStep)
-        {
-            snapshot.Section("Euler, orientations", _ => { });
-        }
+        public void Serialize(Snapshot snapshot, double timeStep) => snapshot.Section("Euler, orientations", _ => { });
     }
 }

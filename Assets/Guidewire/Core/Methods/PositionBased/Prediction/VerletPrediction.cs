@@ -38,9 +38,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public void Serialize(Snapshot snapshot, double timeStep)
-        {
+        public void Serialize(Snapshot snapshot, double timeStep) =>
             snapshot.Section("Verlet", history => history.Serialize(ref _started), timeStep);
-        }
     }
 }

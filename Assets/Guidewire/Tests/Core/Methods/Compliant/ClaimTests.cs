@@ -13,16 +13,10 @@ namespace Guidewire.Core.Tests
         private const double Settled = 14.0; // a critically damped motion is over after so many 1/omega: 15 exp(-14)
 
         [Test]
-        public void RunThatClaimsConvergence_EndsInTheRestShape()
-        {
-            Campaign(11, 3, true, ErrorAtRest);
-        }
+        public void RunThatClaimsConvergence_EndsInTheRestShape() => Campaign(11, 3, true, ErrorAtRest);
 
         [Test]
-        public void RunThatClaimsConvergence_MovesAsImplicitEuler()
-        {
-            Campaign(12, 8, false, ErrorInMotion);
-        }
+        public void RunThatClaimsConvergence_MovesAsImplicitEuler() => Campaign(12, 8, false, ErrorInMotion);
 
         private static void Campaign(int seed, int few, bool damped,
             Func<SimulationParameters, Simulation, double> go)

@@ -308,10 +308,7 @@ namespace Guidewire.Core.Tests
             return scene;
         }
 
-        private static Vector3d Slope(in Vector3d down)
-        {
-            return (Gravity / Math.Sqrt(1.09)) * (0.3 * down - Vector3d.UnitY);
-        }
+        private static Vector3d Slope(in Vector3d down) => (Gravity / Math.Sqrt(1.09)) * (0.3 * down - Vector3d.UnitY);
 
         // Of the middle node in the second half of the run, m/s^2.
         private static double Acceleration(SimulationParameters scene, in Vector3d down, out Simulation run)

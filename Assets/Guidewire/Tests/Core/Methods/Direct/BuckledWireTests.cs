@@ -9,10 +9,7 @@ namespace Guidewire.Core.Tests
     {
         // The chain's own dispersion: a thrust P bends it in waves of k with 2 (1 - cos k l)/l^2 = P/EI, which is k^2
         // (1 - (k l)^2/12) where the elastica has k^2; with k = 2 pi/L.
-        private static double Dispersion(int n)
-        {
-            return -Math.Pow(2.0 * Math.PI / n, 2) / 12.0;
-        }
+        private static double Dispersion(int n) => -Math.Pow(2.0 * Math.PI / n, 2) / 12.0;
 
         [TestCase(20, 0.001)]
         [TestCase(20, 0.01)]

@@ -27,10 +27,8 @@ namespace Guidewire.Core.Tests
 
         [TestCase(ClampRule.FourthOrder, 10)]
         [TestCase(ClampRule.FourthOrder, 31)]
-        public void FourthOrderClamp_IsExactUnderATipLoad(ClampRule rule, int n)
-        {
+        public void FourthOrderClamp_IsExactUnderATipLoad(ClampRule rule, int n) =>
             Row.Holds("tip load, Gregory's weights: compliance, 3 EI/L³", TipCompliance(n, rule), 1.0, Rounding);
-        }
 
         [Test]
         public void HalfElementClamp_IsOfOrderTwo()
@@ -134,9 +132,6 @@ namespace Guidewire.Core.Tests
             return (shape.X[n].Y - shear) / (Small * Rods.Length) - 1.0;
         }
 
-        private static double Order(double coarse, double fine)
-        {
-            return Math.Log(Math.Abs(coarse / fine)) / Math.Log(2.0);
-        }
+        private static double Order(double coarse, double fine) => Math.Log(Math.Abs(coarse / fine)) / Math.Log(2.0);
     }
 }

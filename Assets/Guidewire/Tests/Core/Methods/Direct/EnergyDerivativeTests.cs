@@ -129,10 +129,7 @@ namespace Guidewire.Core.Tests
 
         private const int Unknowns = 6 * N + 3;
 
-        private static double Along(in RodVector v, in Vector3d e)
-        {
-            return v.T1 * e.X + v.T2 * e.Y + v.T3 * e.Z;
-        }
+        private static double Along(in RodVector v, in Vector3d e) => v.T1 * e.X + v.T2 * e.Y + v.T3 * e.Z;
 
         private static EnergyTerm Create(string name, double angle, out RodShape shape)
         {

@@ -45,22 +45,16 @@ namespace Guidewire.Core.Tests
             Assert.That(worst, Is.LessThan(HessianTolerance * largest));
         }
 
-        private static double FourthOrder(Func<double, double> f)
-        {
-            return (8.0 * (f(Step) - f(-Step)) - (f(2.0 * Step) - f(-2.0 * Step))) / (12.0 * Step);
-        }
+        private static double FourthOrder(Func<double, double> f) =>
+            (8.0 * (f(Step) - f(-Step)) - (f(2.0 * Step) - f(-2.0 * Step))) / (12.0 * Step);
 
         /// <summary>Central difference of a value that a step on and back changes.</summary>
-        public static double Difference(double step, Func<double, double> value)
-        {
-            return (value(step) - value(-step)) / (2.0 * step);
-        }
+        public static double Difference(double step, Func<double, double> value) =>
+            (value(step) - value(-step)) / (2.0 * step);
 
         /// <summary>The same, of fourth order.</summary>
-        public static double FineDifference(double step, Func<double, double> value)
-        {
-            return (4.0 * Difference(step, value) - Difference(2.0 * step, value)) / 3.0;
-        }
+        public static double FineDifference(double step, Func<double, double> value) =>
+            (4.0 * Difference(step, value) - Difference(2.0 * step, value)) / 3.0;
 
         /// <summary>Elastic energy and potential of dead loads, J, of coaxial instruments with their hubs where they
         /// are now; what comes in at the outermost hub has none there.</summary>

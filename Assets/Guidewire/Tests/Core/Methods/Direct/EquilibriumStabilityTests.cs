@@ -165,10 +165,8 @@ namespace Guidewire.Core.Tests
         }
 
         // k a of x tan(x) = a/b, by bisection.
-        private static double Critical(double a, double b)
-        {
-            return Bisection.Limit(0.0, 0.5 * Math.PI, x => b * x * Math.Sin(x) < a * Math.Cos(x));
-        }
+        private static double Critical(double a, double b) =>
+            Bisection.Limit(0.0, 0.5 * Math.PI, x => b * x * Math.Sin(x) < a * Math.Cos(x));
 
         // How far the tip of the strip is from its plane at rest, over L.
         private static double Aside(MaterialRod rod, double force)

@@ -87,10 +87,7 @@ namespace Guidewire.Core.Tests
 
             public double SquaredFrequency { get; set; }
 
-            public override double Value(RodShape shape)
-            {
-                return 0.0;
-            }
+            public override double Value(RodShape shape) => 0.0;
 
             public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
                 ref GradientMeasures measured)

@@ -259,10 +259,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static double[] Moved(double[] state, double[] slope, double h)
-        {
-            return new[] { state[0] + h * slope[0], state[1] + h * slope[1], state[2] + h * slope[2] };
-        }
+        private static double[] Moved(double[] state, double[] slope, double h) =>
+            new[] { state[0] + h * slope[0], state[1] + h * slope[1], state[2] + h * slope[2] };
 
         private static double LargestDeflection(Simulation run, int from, int to)
         {

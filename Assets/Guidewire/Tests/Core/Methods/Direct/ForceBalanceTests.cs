@@ -95,10 +95,7 @@ namespace Guidewire.Core.Tests
             AssertBalanced(rod, supports, UnderWeight(), shape, scheme, 1e-3);
         }
 
-        private static RodSchedule UnderWeight()
-        {
-            return Rods.Schedule(new SceneParameters { Gravity = Gravity });
-        }
+        private static RodSchedule UnderWeight() => Rods.Schedule(new SceneParameters { Gravity = Gravity });
 
         private static void AssertBalanced(MaterialRod rod, RodSupports supports, RodSchedule schedule, RodShape shape,
             Integrator scheme, double step)

@@ -160,10 +160,8 @@ namespace Guidewire.Core.Tests
             return parameters;
         }
 
-        private static int Proposed(string reason)
-        {
-            return int.Parse(Regex.Match(reason, @"numberRodElements = (\d+) would do").Groups[1].Value);
-        }
+        private static int Proposed(string reason) =>
+            int.Parse(Regex.Match(reason, @"numberRodElements = (\d+) would do").Groups[1].Value);
 
         private static void CheckCouple(Simulation run, double turn)
         {

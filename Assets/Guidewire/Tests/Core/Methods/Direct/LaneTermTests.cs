@@ -342,10 +342,8 @@ namespace Guidewire.Core.Tests
             return gradient;
         }
 
-        private static void AssertSame(RodVector[] actual, RodVector[] expected)
-        {
+        private static void AssertSame(RodVector[] actual, RodVector[] expected) =>
             Assert.That(Bits(actual), Is.EqualTo(Bits(expected)));
-        }
 
         private static void AssertSame(RodShape actual, RodShape expected, int first, int count)
         {

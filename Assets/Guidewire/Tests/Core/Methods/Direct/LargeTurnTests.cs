@@ -132,9 +132,6 @@ namespace Guidewire.Core.Tests
             return shape;
         }
 
-        private static WireEnergy Wire(int n)
-        {
-            return new WireEnergy(n, Rods.Radius);
-        }
+        private static WireEnergy Wire(int n) => new WireEnergy(n, Rods.Radius);
     }
 }

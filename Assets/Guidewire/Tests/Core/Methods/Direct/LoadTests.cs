@@ -154,10 +154,8 @@ namespace Guidewire.Core.Tests
             Assert.That(new Scene(none).Schedule.NextJump(0.0), Is.GreaterThan(Never), "no moment");
         }
 
-        private static TimeTable JumpAt(double time)
-        {
-            return new TimeTable(new[] { 0.0, time, time }, new[] { 1.0, 1.0, -1.0 });
-        }
+        private static TimeTable JumpAt(double time) =>
+            new TimeTable(new[] { 0.0, time, time }, new[] { 1.0, 1.0, -1.0 });
 
         // How far off the tip is, mm, after a load turned back this fraction of a step after the 20th of 40.
         private static double TurnedBack(string load, double fraction)

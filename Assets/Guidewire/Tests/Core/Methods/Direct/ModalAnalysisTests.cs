@@ -41,10 +41,8 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void Gains_HaveNoModes()
-        {
+        public void Gains_HaveNoModes() =>
             Assert.That(() => ModalAnalysis.Of(new SimulationParameters(), 3), Throws.ArgumentException);
-        }
 
         private static SimulationParameters Clamped(int n, DistalEnd distal)
         {

@@ -21,10 +21,8 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The wire, straight, clamped and free, its bending in the y-z plane.</summary>
-        public static Modes Cantilever(int n, MassRule mass, ClampRule clamp)
-        {
-            return Of(Rods.Wire(n), new RodSupports { Mass = mass, Clamp = clamp });
-        }
+        public static Modes Cantilever(int n, MassRule mass, ClampRule clamp) =>
+            Of(Rods.Wire(n), new RodSupports { Mass = mass, Clamp = clamp });
 
         /// <summary>A straight rod along z, clamped at node 0 and free: bending in the y-z plane.</summary>
         public static Modes Of(MaterialRod rod, RodSupports supports)
@@ -63,10 +61,7 @@ namespace Guidewire.Core.Tests
 
         /// <summary>The first mode as a direction whose largest entry is the tip's, 1; and its circular
         /// frequency.</summary>
-        public RodVector[] First(out double omega)
-        {
-            return Mode(1, out omega);
-        }
+        public RodVector[] First(out double omega) => Mode(1, out omega);
 
         /// <summary>The mode of this number, from 1, in the same way.</summary>
         public RodVector[] Mode(int number, out double omega)

@@ -275,11 +275,9 @@ namespace Guidewire.Core.Tests
                 + RotationVector.Log(turned.Conjugate * shape.Q[0]).Length;
         }
 
-        private static double ModeError(Integrator scheme, RodVector[] mode, double omega, int n, int steps)
-        {
+        private static double ModeError(Integrator scheme, RodVector[] mode, double omega, int n, int steps) =>
             // After one period the exact factor is 1, so its logarithm is 0.
-            return Complex.Log(ModeAfter(scheme, mode, omega, n, steps, 1)).Magnitude;
-        }
+            Complex.Log(ModeAfter(scheme, mode, omega, n, steps, 1)).Magnitude;
 
         /// <summary>y + i v/omega of the tip after some periods, over that of the start.</summary>
         private static Complex ModeAfter(Integrator scheme, RodVector[] mode, double omega, int n, int steps,

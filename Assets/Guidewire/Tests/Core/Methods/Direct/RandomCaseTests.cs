@@ -148,10 +148,7 @@ namespace Guidewire.Core.Tests
         }
 
         // From 0.1 to 100.
-        private static double LogUniform(System.Random random)
-        {
-            return 0.1 * Math.Pow(100.0 / 0.1, random.NextDouble());
-        }
+        private static double LogUniform(System.Random random) => 0.1 * Math.Pow(100.0 / 0.1, random.NextDouble());
 
         private static Vector3d Direction(System.Random random)
         {

@@ -273,22 +273,15 @@ namespace Guidewire.Core.Tests
             return Vector3d.Distance(shape.X[n], Arc(theta, Rods.Length)) / Rods.Length;
         }
 
-        private static int[] Counts(Solver solver)
-        {
-            return solver == Solver.Direct ? new[] { 20, 30, 40, 80, 160 } : new[] { 30 };
-        }
+        private static int[] Counts(Solver solver) =>
+            solver == Solver.Direct ? new[] { 20, 30, 40, 80, 160 } : new[] { 30 };
 
         // What shears less is thinner, and takes shorter steps.
-        private static double Thickness(Solver solver)
-        {
-            return solver == Solver.Direct ? Rods.Radius : 1e-3;
-        }
+        private static double Thickness(Solver solver) => solver == Solver.Direct ? Rods.Radius : 1e-3;
 
         // Of the wire's first mode, rad/s.
-        private static double CantileverRate(double radius)
-        {
-            return 3.516 / (Rods.Length * Rods.Length) * 0.5 * radius * Math.Sqrt(Rods.Young / Rods.Density);
-        }
+        private static double CantileverRate(double radius) =>
+            3.516 / (Rods.Length * Rods.Length) * 0.5 * radius * Math.Sqrt(Rods.Young / Rods.Density);
 
         /// <summary>A rest shape at once, or a motion under critical damping of the slowest mode until of that
         /// 15 exp(-14) are left.</summary>

@@ -34,10 +34,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The wire in n elements.</summary>
-        public static MaterialRod Wire(int n)
-        {
-            return MaterialRod.Round(n, Length, Radius, Young, Shear, Density);
-        }
+        public static MaterialRod Wire(int n) => MaterialRod.Round(n, Length, Radius, Young, Shear, Density);
 
         /// <summary>A run of the wire in millimetres, straight along z from the origin and clamped there, with the
         /// method's default integrator; xpbd with one sweep a substep.</summary>

@@ -163,9 +163,7 @@ namespace Guidewire.Core.Tests
         }
 
         // I w' = -w x I w with I = (1, 2.5, 3.5).
-        private static Vector3d Euler(in Vector3d w)
-        {
-            return new Vector3d((2.5 - 3.5) * w.Y * w.Z, (3.5 - 1.0) / 2.5 * w.Z * w.X, (1.0 - 2.5) / 3.5 * w.X * w.Y);
-        }
+        private static Vector3d Euler(in Vector3d w) =>
+            new Vector3d((2.5 - 3.5) * w.Y * w.Z, (3.5 - 1.0) / 2.5 * w.Z * w.X, (1.0 - 2.5) / 3.5 * w.X * w.Y);
     }
 }

@@ -57,11 +57,9 @@ namespace Guidewire.Core.Tests
         [TestCase(Integrator.Trbdf2)]
         [TestCase(Integrator.Esdirk3)]
         [TestCase(Integrator.Esdirk4)]
-        public void Scheme_IsLStable(Integrator integrator)
-        {
+        public void Scheme_IsLStable(Integrator integrator) =>
             // R has its only pole at 1/gamma > 0, so |R| <= 1 in the left half-plane where it is so on its border.
             AssertLStable(DirectSetup.Scheme(integrator)!);
-        }
 
         [Test]
         public void StartOfAMotionFarFromBalance_IsLStable_AndOfOrderTwo()
@@ -144,10 +142,7 @@ namespace Guidewire.Core.Tests
             return a;
         }
 
-        private static double[] Weights(RungeKuttaScheme scheme)
-        {
-            return scheme.Rows[scheme.StageCount - 1];
-        }
+        private static double[] Weights(RungeKuttaScheme scheme) => scheme.Rows[scheme.StageCount - 1];
 
         private static double[] Times(double[,] a)
         {

@@ -141,10 +141,8 @@ namespace Guidewire.Core.Tests
             return Bisection.Limit(low, high, load => negative(load) == 0, halvings);
         }
 
-        private static int Negative(MaterialRod rod, RodSupports supports, RodShape shape)
-        {
-            return Negative(new RodTerms(rod, supports), shape);
-        }
+        private static int Negative(MaterialRod rod, RodSupports supports, RodShape shape) =>
+            Negative(new RodTerms(rod, supports), shape);
 
         private static int Negative(RodTerms terms, RodShape shape)
         {

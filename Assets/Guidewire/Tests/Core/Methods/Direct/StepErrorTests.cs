@@ -90,14 +90,12 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void WireDrivenTooFastForAStage_GoesOn([ValueSource(nameof(Schemes))] Integrator scheme)
-        {
+        public void WireDrivenTooFastForAStage_GoesOn([ValueSource(nameof(Schemes))] Integrator scheme) =>
             // A wire of 0.1 m whose base is pulled back by 0.8 mm in each step of 0.1 ms, at once: in the second step a
             // stage of order 3 has no solution that begins with the rates of the first. The wave of tension comes back
             // from the tip as a thrust that buckles the wire within a step; where it buckles to is then the scheme's
             // choice, and esdirk3's turns a joint by more than it can tell some steps after the tenth.
             Assert.That(Wires.Run(PulledBack(scheme, 1e-4, 10)).Outcome, Is.EqualTo(Outcome.Finished));
-        }
 
         private static SimulationParameters PulledBack(Integrator scheme, double step, int steps)
         {

@@ -188,10 +188,8 @@ namespace Guidewire.Core.Tests
             return (step.SerializeStep, () => step.Advance(start.State));
         }
 
-        private static MethodStart Start(SimulationParameters parameters)
-        {
-            return MethodBuilder.Build(parameters, new Scene(parameters));
-        }
+        private static MethodStart Start(SimulationParameters parameters) =>
+            MethodBuilder.Build(parameters, new Scene(parameters));
 
         private static (RodDynamics Motion, NotANumber Poison) Failing(RungeKuttaScheme? scheme)
         {
@@ -212,26 +210,15 @@ namespace Guidewire.Core.Tests
         {
             public int Evaluations { get; set; } = int.MaxValue;
 
-            public override double Value(RodShape shape)
-            {
-                return Next();
-            }
+            public override double Value(RodShape shape) => Next();
 
             public override void AddGradient(RodShape shape, RodVector[] gradient, int from, int to,
-                ref GradientMeasures measured)
-            {
-                gradient[shape.ElementCount].X1 += Next();
-            }
+                ref GradientMeasures measured) => gradient[shape.ElementCount].X1 += Next();
 
-            public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to)
-            {
+            public override void AddBlocks(RodShape shape, RodBlock[] blocks, RodVector[] gradient, int from, int to) =>
                 gradient[shape.ElementCount].X1 += Next();
-            }
 
-            private double Next()
-            {
-                return --Evaluations > 0 ? 0.0 : double.NaN;
-            }
+            private double Next() => --Evaluations > 0 ? 0.0 : double.NaN;
         }
     }
 }

@@ -65,10 +65,7 @@ namespace Guidewire.Core.Tests
             _speed = speed;
         }
 
-        public override void SetTime(double time)
-        {
-            Target[0] = (_speed * time) * Vector3d.UnitZ;
-        }
+        public override void SetTime(double time) => Target[0] = (_speed * time) * Vector3d.UnitZ;
     }
 
     /// <summary>A drag -rate m_i v_i on each node, from its place at the start of the step: c/(2 dt) |x -
@@ -111,10 +108,7 @@ namespace Guidewire.Core.Tests
         {
         }
 
-        public override void SetTime(double time)
-        {
-            _cuts = true;
-        }
+        public override void SetTime(double time) => _cuts = true;
 
         public override double MaxStep(RodShape shape, RodVector[] direction, double scale)
         {

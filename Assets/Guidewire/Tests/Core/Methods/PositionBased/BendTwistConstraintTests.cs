@@ -46,10 +46,8 @@ namespace Guidewire.Core.Tests
             Assert.That(state.Orientations[1].X, Is.LessThan(Math.Sin(0.15)));
         }
 
-        private static Vector3d DarbouxVector(RodState state)
-        {
-            return 2.0 / Length * (state.Orientations[0].Conjugate * state.Orientations[1]).Imaginary;
-        }
+        private static Vector3d DarbouxVector(RodState state) =>
+            2.0 / Length * (state.Orientations[0].Conjugate * state.Orientations[1]).Imaginary;
 
         private static RodState Bent(in Vector3d axis, double angle)
         {

@@ -69,9 +69,7 @@ namespace Guidewire.Core.Tests
             return Wires.Distance(Wires.Run(a).State, Wires.Run(b).State);
         }
 
-        private static double Turned(RodState state)
-        {
-            return RotationVector.Log(state.Orientations[0].Conjugate * state.PredictedOrientations[0]).X;
-        }
+        private static double Turned(RodState state) =>
+            RotationVector.Log(state.Orientations[0].Conjugate * state.PredictedOrientations[0]).X;
     }
 }

@@ -118,10 +118,7 @@ namespace Guidewire.Core.Tests
                 return taken;
             }
 
-            public double Cost(int iterations)
-            {
-                return _sweeps!.Cost(iterations);
-            }
+            public double Cost(int iterations) => _sweeps!.Cost(iterations);
         }
     }
 }

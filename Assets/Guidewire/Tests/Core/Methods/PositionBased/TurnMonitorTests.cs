@@ -42,15 +42,10 @@ namespace Guidewire.Core.Tests
             Assert.That(watch.Warning, Is.Null);
         }
 
-        private static RodState Straight()
-        {
-            return new RodState(3, 3.0, 1.0, 0.0);
-        }
+        private static RodState Straight() => new RodState(3, 3.0, 1.0, 0.0);
 
         // Element 2 alone: joint 1 is turned.
-        private static void TurnDistalPart(RodState state, double angle)
-        {
+        private static void TurnDistalPart(RodState state, double angle) =>
             state.Orientations[2] = state.Orientations[2] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, angle);
-        }
     }
 }

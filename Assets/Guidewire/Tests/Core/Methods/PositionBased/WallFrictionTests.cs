@@ -132,10 +132,7 @@ namespace Guidewire.Core.Tests
                 Throws.ArgumentException.With.Message.Contains("elementContact").And.Message.Contains("frictionC"));
         }
 
-        private static Vector3d Along(in Vector3d motion, in Vector3d n)
-        {
-            return motion - Vector3d.Dot(motion, n) * n;
-        }
+        private static Vector3d Along(in Vector3d motion, in Vector3d n) => motion - Vector3d.Dot(motion, n) * n;
 
         // How far each sphere is moved by a fraction of mu times the weight, put on slowly: what is put on at once
         // swings to twice its force.
@@ -185,10 +182,7 @@ namespace Guidewire.Core.Tests
             return p.Method.Damping * p.Pbd.TotalMass * ConservativeTimeOfImpact * speed / p.Method.TimeStep;
         }
 
-        private static double Weight(SimulationParameters p)
-        {
-            return p.Pbd.TotalMass * -p.Scene.Gravity.Y;
-        }
+        private static double Weight(SimulationParameters p) => p.Pbd.TotalMass * -p.Scene.Gravity.Y;
 
         private static SimulationParameters LyingWire(ElementContact rule, double gain)
         {

@@ -111,16 +111,11 @@ namespace Guidewire.Core.Tests
         // Work of the hubs by their forces at each step's end; nodes come in and go, at each tip.
         [Test]
         public void EnergyIsNeverGained_AtAnySpeed(
-            [Values(0.03, 0.1, 0.31, 1.3, 3.7, -0.31, -1.3)] double perStep)
-        {
-            AssertNothingIsGained(2, perStep);
-        }
+            [Values(0.03, 0.1, 0.31, 1.3, 3.7, -0.31, -1.3)] double perStep) => AssertNothingIsGained(2, perStep);
 
         [Test]
-        public void EnergyOfThreeIsNeverGained_AtAnySpeed([Values(0.03, 0.15, -0.15, -1.3)] double perStep)
-        {
+        public void EnergyOfThreeIsNeverGained_AtAnySpeed([Values(0.03, 0.15, -0.15, -1.3)] double perStep) =>
             AssertNothingIsGained(3, perStep);
-        }
 
         private static void AssertNothingIsGained(int instruments, double perStep)
         {
@@ -218,10 +213,7 @@ namespace Guidewire.Core.Tests
         }
 
         // Of the wire's hub, m.
-        private static double Asked(DirectStep run)
-        {
-            return run.Coaxial()!.WireCommandedDisplacement;
-        }
+        private static double Asked(DirectStep run) => run.Coaxial()!.WireCommandedDisplacement;
 
         // J, by the forces of now.
         private static double WorkOf(Hub[] now, Hub[] old)
@@ -268,10 +260,7 @@ namespace Guidewire.Core.Tests
             return CoaxialScenes.CycleWork(parameters, perStep, out peak);
         }
 
-        private static CoaxialRod RodOf(DirectStep run)
-        {
-            return run.Dynamics.Terms.Supports.Coaxial!;
-        }
+        private static CoaxialRod RodOf(DirectStep run) => run.Dynamics.Terms.Supports.Coaxial!;
 
         // All hubs move and turn in steps in which the instruments swing.
         private static DirectStep Swinging(int instruments, double perStep, out SimulationParameters parameters,

@@ -261,14 +261,10 @@ namespace Guidewire.Core.Tests
             return next;
         }
 
-        private static void Refused(Simulation run, SimulationParameters next, string expected)
-        {
+        private static void Refused(Simulation run, SimulationParameters next, string expected) =>
             Assert.That(() => run.Continue(next), Throws.ArgumentException.With.Message.EqualTo(expected));
-        }
 
-        private static double Largest(Vector3d[] one, Vector3d[] other)
-        {
-            return one.Zip(other, (a, b) => (a - b).Length).Max();
-        }
+        private static double Largest(Vector3d[] one, Vector3d[] other) =>
+            one.Zip(other, (a, b) => (a - b).Length).Max();
     }
 }

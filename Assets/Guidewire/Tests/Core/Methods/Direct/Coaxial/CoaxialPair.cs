@@ -88,10 +88,8 @@ namespace Guidewire.Core.Tests
         /// <summary>A new number of nodes beyond the outer tip, or lead, with the shape as it is: inner nodes come in
         /// after the tip or go there.</summary>
         /// <param name="sheathed">Length in a sheath, m.</param>
-        public void Build(int beyond, double lead, double sheathed = 0.0)
-        {
+        public void Build(int beyond, double lead, double sheathed = 0.0) =>
             Build(new[] { 0, beyond }, new[] { 0.0, lead }, sheathed);
-        }
 
         /// <summary>The same for all.</summary>
         public void Build(int[] beyond, double[] leads, double sheathed = 0.0)
@@ -113,10 +111,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>The rest shape at an angle of the inner hub; throws where there is none.</summary>
-        public void Solve(double hubTwist)
-        {
-            Solve(new[] { 0.0, hubTwist });
-        }
+        public void Solve(double hubTwist) => Solve(new[] { 0.0, hubTwist });
 
         /// <summary>The same at angles of all hubs against the outermost one.</summary>
         public void Solve(double[] hubTwists)
@@ -135,10 +130,7 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>Whether the shape with this angle of the inner instrument all along is stable.</summary>
-        public bool IsStable(double hubTwist)
-        {
-            return IsStable(new[] { 0.0, hubTwist });
-        }
+        public bool IsStable(double hubTwist) => IsStable(new[] { 0.0, hubTwist });
 
         /// <summary>The same with angles of all.</summary>
         public bool IsStable(double[] hubTwists)

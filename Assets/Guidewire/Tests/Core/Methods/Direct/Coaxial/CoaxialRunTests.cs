@@ -128,10 +128,7 @@ namespace Guidewire.Core.Tests
             Assert.That(with, Is.GreaterThan(70));
         }
 
-        private static double WireShortfall(Simulation run, double asked)
-        {
-            return Math.Abs(asked - run.Hub()!.Insertion);
-        }
+        private static double WireShortfall(Simulation run, double asked) => Math.Abs(asked - run.Hub()!.Insertion);
 
         [Test]
         public void RestShape_HasThePlayOfItsOverlap()

@@ -11,10 +11,8 @@ namespace Guidewire.Core.Tests
         private const string Unstable = "two tubes at a twist of pi: sqrt(c) L where it is unstable, straight before ";
 
         // Of two tubes of stiffness 1 and b with nu, curvature k both, length 1.
-        private static double Coupling(double b, double nu, double k)
-        {
-            return k * k * b / (1.0 + b) * (1.0 + nu) * (1.0 + 1.0 / b);
-        }
+        private static double Coupling(double b, double nu, double k) =>
+            k * k * b / (1.0 + b) * (1.0 + nu) * (1.0 + 1.0 / b);
 
         private static CoaxialPair Pair(int n, double b, double nu, double k, double lead = 0.0)
         {
@@ -100,10 +98,7 @@ namespace Guidewire.Core.Tests
         }
 
         // Of the relative twist, that of the inner one where both have the same torque: (1/C_i)/(1/C_o + 1/C_i).
-        private static double InnerPart(double b)
-        {
-            return 1.0 / b / (1.0 + 1.0 / b);
-        }
+        private static double InnerPart(double b) => 1.0 / b / (1.0 + 1.0 / b);
 
         // sqrt(c) at which the twist of pi becomes unstable.
         private static double Threshold(int n, double lead)

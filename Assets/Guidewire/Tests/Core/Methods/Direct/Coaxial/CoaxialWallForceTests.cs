@@ -75,9 +75,7 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        private static int Nearest(Vector3d[] points, Vector3d point)
-        {
-            return Enumerable.Range(0, points.Length).OrderBy(i => Vector3d.Distance(points[i], point)).First();
-        }
+        private static int Nearest(Vector3d[] points, Vector3d point) =>
+            Enumerable.Range(0, points.Length).OrderBy(i => Vector3d.Distance(points[i], point)).First();
     }
 }

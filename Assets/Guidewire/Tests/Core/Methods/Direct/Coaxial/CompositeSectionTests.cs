@@ -146,10 +146,7 @@ namespace Guidewire.Core.Tests
             return sum;
         }
 
-        private static double End(Vector3d[] positions)
-        {
-            return positions[positions.Length - 1].Z;
-        }
+        private static double End(Vector3d[] positions) => positions[positions.Length - 1].Z;
 
         // The outermost first.
         private static CrossSection[] Sections(SimulationParameters parameters)

@@ -95,10 +95,8 @@ namespace Guidewire.Core.Tests
         }
 
         // Of the tip, of L.
-        private static double Sag(double speed, int catheterElements)
-        {
-            return -Run(speed, 0.0, MassRule.Consistent, catheterElements)[Steps - 1][Elements].Y / Length;
-        }
+        private static double Sag(double speed, int catheterElements) =>
+            -Run(speed, 0.0, MassRule.Consistent, catheterElements)[Steps - 1][Elements].Y / Length;
 
         private static List<Vector3d[]> Run(double speed, double turns, MassRule mass, int catheterElements,
             bool byStiffness = false, Action<Simulation>? look = null)

@@ -135,14 +135,10 @@ namespace Guidewire.Core.Tests
             return (Vector3d[])run.State.Positions.Clone();
         }
 
-        private static void SetDrive(DriveParameters drive, double[] times, double[] insertions)
-        {
+        private static void SetDrive(DriveParameters drive, double[] times, double[] insertions) =>
             drive.Table = new DriveTable(new TimeTable(times, insertions), new TimeTable(times, new double[5]));
-        }
 
-        private static void AssertSum(double asked, double gone, double shortfall)
-        {
+        private static void AssertSum(double asked, double gone, double shortfall) =>
             Assert.That(asked, Is.EqualTo(gone + shortfall).Within(1e-9));
-        }
     }
 }

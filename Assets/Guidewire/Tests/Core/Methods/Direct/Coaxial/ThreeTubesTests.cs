@@ -116,11 +116,9 @@ namespace Guidewire.Core.Tests
         [TestCase(0)]
         [TestCase(1)]
         [TestCase(2)]
-        public void Stability_EndsAtHalfPi_InSecondOrder_WithAThirdTubeStraight(int straight)
-        {
+        public void Stability_EndsAtHalfPi_InSecondOrder_WithAThirdTubeStraight(int straight) =>
             // The straight one adds to the stiffness that both others have to bend: c = k^2 b1 b2/B (1/C1 + 1/C2).
             CoaxialPair.AssertSecondOrder(n => Threshold(n, straight) - 1.0);
-        }
 
         [TestCase(0)]
         [TestCase(1)]

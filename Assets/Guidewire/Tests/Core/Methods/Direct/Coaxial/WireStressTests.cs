@@ -138,27 +138,18 @@ namespace Guidewire.Core.Tests
         }
 
         // Four times EI over pi.
-        private static double BendOf(MaterialParameters material)
-        {
-            return material.YoungsModulus * (Math.Pow(material.WireRadius, 4.0) - Math.Pow(material.InnerRadius, 4.0));
-        }
+        private static double BendOf(MaterialParameters material) =>
+            material.YoungsModulus * (Math.Pow(material.WireRadius, 4.0) - Math.Pow(material.InnerRadius, 4.0));
 
         // GA over pi and the shear factor.
-        private static double ShearOf(MaterialParameters material)
-        {
-            return material.ShearModulus * (Math.Pow(material.WireRadius, 2.0) - Math.Pow(material.InnerRadius, 2.0));
-        }
+        private static double ShearOf(MaterialParameters material) =>
+            material.ShearModulus * (Math.Pow(material.WireRadius, 2.0) - Math.Pow(material.InnerRadius, 2.0));
 
         // EA over pi.
-        private static double StretchOf(MaterialParameters material)
-        {
-            return material.YoungsModulus * (Math.Pow(material.WireRadius, 2.0) - Math.Pow(material.InnerRadius, 2.0));
-        }
+        private static double StretchOf(MaterialParameters material) =>
+            material.YoungsModulus * (Math.Pow(material.WireRadius, 2.0) - Math.Pow(material.InnerRadius, 2.0));
 
         // The first at which all are.
-        private static int FirstElement(int instruments)
-        {
-            return instruments == 2 ? 10 : 13;
-        }
+        private static int FirstElement(int instruments) => instruments == 2 ? 10 : 13;
     }
 }

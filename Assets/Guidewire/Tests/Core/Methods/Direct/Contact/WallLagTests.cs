@@ -148,16 +148,11 @@ namespace Guidewire.Core.Tests
         }
 
         // Over the largest.
-        private static double WeightAt(double t)
-        {
-            return Math.Min(1.0, t / Rise) - (1.0 - Left) * Math.Min(1.0, Math.Max(0.0, t - After) / Rise);
-        }
+        private static double WeightAt(double t) =>
+            Math.Min(1.0, t / Rise) - (1.0 - Left) * Math.Min(1.0, Math.Max(0.0, t - After) / Rise);
 
         // Displacement, over the final one, under a load that grows to 1 in the rise and on.
-        private static double Ramp(double t)
-        {
-            return t <= 0.0 ? 0.0 : (t - Time * (1.0 - Math.Exp(-t / Time))) / Rise;
-        }
+        private static double Ramp(double t) => t <= 0.0 ? 0.0 : (t - Time * (1.0 - Math.Exp(-t / Time))) / Rise;
 
         private static SimulationParameters Lying(Integrator integrator, double time = Time)
         {
@@ -207,10 +202,8 @@ namespace Guidewire.Core.Tests
             energy.EndStep(to);
         }
 
-        private static void Stage(BarrierEnergy energy, RodShape from, double h)
-        {
+        private static void Stage(BarrierEnergy energy, RodShape from, double h) =>
             energy.BeginStage(from.X, new Vector3d[3], h);
-        }
 
         private static double BarrierAlone(double sunk)
         {

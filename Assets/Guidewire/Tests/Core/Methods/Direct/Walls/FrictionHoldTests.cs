@@ -312,10 +312,8 @@ namespace Guidewire.Core.Tests
         }
 
         // The torque of mass-proportional damping on a wire that turns as a whole, N m.
-        private static double TurningDrag(double damping, double radius, double length, double speed)
-        {
-            return damping * 6450.0 * 0.5 * Math.PI * Math.Pow(radius, 4) * 1e-3 * length * speed;
-        }
+        private static double TurningDrag(double damping, double radius, double length, double speed) =>
+            damping * 6450.0 * 0.5 * Math.PI * Math.Pow(radius, 4) * 1e-3 * length * speed;
 
         // mu r sum N.
         private static double Limit(Simulation run, double mu, double radius)

@@ -136,10 +136,8 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
-        public void OtherWalls_DoNotMoveOut([Values("cube", "sphere", "cone")] string name)
-        {
+        public void OtherWalls_DoNotMoveOut([Values("cube", "sphere", "cone")] string name) =>
             Assert.That(TestShapes.Make(name).MovedOut(0.1), Is.Null);
-        }
 
         private static RodShape Lying(double sunk)
         {

@@ -59,9 +59,7 @@ namespace Guidewire.Core.Tests
             Assert.That(run.HasStateOfStep);
         }
 
-        private static double Number(Match match, int group)
-        {
-            return double.Parse(match.Groups[group].Value, CultureInfo.InvariantCulture);
-        }
+        private static double Number(Match match, int group) =>
+            double.Parse(match.Groups[group].Value, CultureInfo.InvariantCulture);
     }
 }

@@ -147,10 +147,7 @@ namespace Guidewire.Core.Tests
             return x;
         }
 
-        private static Vector3d Across(double angle)
-        {
-            return new Vector3d(Math.Cos(angle), Math.Sin(angle), 0.0);
-        }
+        private static Vector3d Across(double angle) => new Vector3d(Math.Cos(angle), Math.Sin(angle), 0.0);
 
         private static Vector3d Point(Vector3d[] x, int k)
         {

@@ -64,10 +64,8 @@ namespace Guidewire.Core.Tests
         }
 
         /// <summary>A horizontal plane at this height, units, under the wire.</summary>
-        public static ContactShape[] Floor(double height)
-        {
-            return new ContactShape[] { new PlaneShape(new Vector3d(0.0, height, 0.0), Vector3d.UnitY) };
-        }
+        public static ContactShape[] Floor(double height) =>
+            new ContactShape[] { new PlaneShape(new Vector3d(0.0, height, 0.0), Vector3d.UnitY) };
 
         /// <summary>A straight tube along z, all in units.</summary>
         /// <param name="height">Of its axis, along y.</param>
