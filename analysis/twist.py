@@ -6,7 +6,7 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from guidewire.logs.logs import LogError, find_log, read_entries
+from guidewire.logs.logs import LogError, find_log, read_columns
 from guidewire.logs.runs import Run
 
 
@@ -57,15 +57,10 @@ def read_twist(run: Run) -> Twist:
     ------
     LogError : the log cannot be read or holds no orientations.
     """
-    entries = dict(read_entries(run.folder))
-    try:
-        orientations = np.array([
-            [[entry["orientation"][str(j)][axis] for axis in "xyzw"] for j in range(len(entry["orientation"]))]
-            for entry in entries.values()
-        ])
-    except KeyError as error:
-        raise LogError(f"{find_log(run.folder)}: no orientations can be read from it ({error})") from error
-    steps = np.array(list(entries))
-    twist, bend = joint_angles(orientations)
+    columns = read_columns(run.folder, ("step", "orientations"))
+    if "orientations" not in columns:
+        raise LogError(f"{find_log(run.folder)}: no orientations can be read from it")
+    steps = columns["step"]
+    twist, bend = joint_angles(columns["orientations"])
     base = steps * run.number("twistPerStep")
     return Twist(steps, base, base + twist.sum(axis=-1), bend.sum(axis=-1))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
-from guidewire.logs.logs import read_entries, read_log
+from guidewire.logs.logs import read_columns, read_entries, read_log
 from guidewire.logs.runs import Run, read_repeats
 
 _MILLIMETRE = 1e-3  # m; the unit of runs with gains here, which have none of their own
@@ -64,8 +64,7 @@ def tip_at(run: Run, time: np.ndarray) -> np.ndarray:
 
 def reactions(run: Run) -> np.ndarray:
     """Force of the first sphere's support, its mean over each step, N, shape (steps, 3); the run must log contacts."""
-    entries = [entry for _, entry in read_entries(run.folder)][1:]
-    return np.array([[entry["contact"]["reaction"][axis] for axis in "xyz"] for entry in entries], dtype=float)
+    return read_columns(run.folder, ("reaction",))["reaction"][1:]
 
 
 def solver_report(run: Run, name: str) -> float | np.ndarray:

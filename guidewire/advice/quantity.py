@@ -17,7 +17,7 @@ import numpy as np
 from scipy.interpolate import CubicHermiteSpline
 
 from guidewire.logs.hub import HubLog, read_hub, snap_turns
-from guidewire.logs.logs import LogError, read_entries, read_log
+from guidewire.logs.logs import LogError, read_columns, read_log
 from guidewire.logs.runs import Run
 
 POSITION, TIP, CONTACT_FORCE, SNAP = "position", "tip", "contactForce", "snapAngle"
@@ -120,10 +120,9 @@ class Quantity:
             first = 0.5 * (before[0] + after[0]) if len(after) and run.parameters["catheters"] else np.nan
             return np.full((len(times), 1), first)
         if self.of == CONTACT_FORCE:
-            entries = [entry for _, entry in read_entries(run.folder)]
-            found = np.array([[(entry.get("contact") or {}).get("total", {}).get(axis, 0.0) for axis in "xyz"]
-                              for entry in entries], dtype=float)
-            time = np.array([entry["totalTime"] for entry in entries], dtype=float)
+            columns = read_columns(run.folder, ("totalTime", "contactTotal"))
+            time = columns["totalTime"]
+            found = columns.get("contactTotal", np.zeros((len(time), 3)))
             return np.stack([np.interp(times, time, values) for values in found.T], axis=1)
         return np.full((len(times), 1), number_of(run.summary or {}, self.of))
 

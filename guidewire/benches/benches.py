@@ -17,7 +17,7 @@ import numpy as np
 from scipy.interpolate import CubicSpline
 
 from guidewire.benches.wire import Wire
-from guidewire.logs.logs import LogError, read_entries
+from guidewire.logs.logs import LogError, read_columns
 from guidewire.logs.runs import Run, read_run
 
 ANVIL = 6.35e-3  # radius, m
@@ -87,13 +87,13 @@ def three_point(wire: Wire, start: float) -> dict[str, Any]:
 def read_three_point(folder: Path) -> Bending:
     """Return the bending test of a run."""
     require_end(folder)
-    *_, (_, entry) = read_entries(folder)
-    nodes = np.array([[node["y"], node["z"]] for node in entry["sphere"].values()]) * 1e-3
+    columns = read_columns(folder, ("positions", "contactForces"))
+    nodes = columns["positions"][-1][:, 1:] * 1e-3
+    across = columns["contactForces"][-1][:, 1]
     shape = CubicSpline(nodes[:, 1], nodes[:, 0])
-    touched = [(int(node), force["y"]) for node, force in entry["contact"]["sphere"].items()]
     contacts = []
     for side in (-1.0, 1.0):
-        loads = [(nodes[node, 1], force) for node, force in touched if side * force > 0.0]
+        loads = [(nodes[node, 1], force) for node, force in enumerate(across.tolist()) if side * force > 0.0]
         total = sum(force for _, force in loads)
         contacts.append((sum(z * force for z, force in loads) / total, abs(total)))
     (middle, force), (support, _) = contacts
@@ -126,9 +126,7 @@ def tip_load(wire: Wire, gauge: float, force: float) -> dict[str, Any]:
 def read_tip(folder: Path) -> np.ndarray:
     """Read where the tip stands, (y, z) in m."""
     require_end(folder)
-    *_, (_, entry) = read_entries(folder)
-    tip = list(entry["sphere"].values())[-1]
-    return np.array([tip["y"], tip["z"]]) * 1e-3
+    return read_columns(folder, ("positions",))["positions"][-1, -1, 1:] * 1e-3
 
 
 def require_end(folder: Path) -> Run:

@@ -14,7 +14,7 @@ import numpy as np
 from scipy.spatial.transform import Rotation
 
 from guidewire.identification.trials import Trials
-from guidewire.logs.logs import read_entries
+from guidewire.logs.logs import read_columns
 from guidewire.prepare import PreparationError
 
 _BEYOND = 3.0    # times the measured value, up to which is searched
@@ -69,13 +69,7 @@ def _rest(trials: Trials, values: Mapping[str, Any], key: str, value: float, sta
     (folder,) = trials.run([{**values, **_REST, **({"start": start} if start else {}), **asked}])
     if not isinstance(folder, Path):
         return None
-    _, entry = next(iter(read_entries(folder)))
+    rest = read_columns(folder, ("positions", "orientations"))
     trials.forget(folder)
     frames = {name: state[name] for name in ("proximalFrame", "distalFrame") if name in state}
-    spheres, elements = entry["sphere"], entry["orientation"]
-    return {"positions": [[one[axis] for axis in "xyz"] for one in _in_order(spheres)],
-            "orientations": [[one[axis] for axis in "xyzw"] for one in _in_order(elements)], **frames}
-
-
-def _in_order(entries: Mapping[str, Any]) -> list[Mapping[str, float]]:
-    return [entries[name] for name in sorted(entries, key=int)]
+    return {**{name: values[0].tolist() for name, values in rest.items()}, **frames}

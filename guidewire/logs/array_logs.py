@@ -8,17 +8,14 @@ from __future__ import annotations
 
 import re
 import zipfile
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import Any
 
 import numpy as np
 
-_STRESS = ("kineticEnergy", "elasticEnergy", "potentialEnergy", "curvature", "couple", "strain", "force",
-           "angularVelocity")
-_HUB = {"hubInsertion": "insertion", "hubTurn": "turn", "hubForce": "force", "hubTorque": "torque",
-        "tipDirection": "tipDirection", "twist": "twist", "largestCurvature": "largestCurvature",
-        "lengthInBody": "lengthInBody"}
+from guidewire.logs.entries import OLDER_NAMES, entry_of
+
 _NEEDED = ("step", "totalTime", "elapsedMilliseconds", "delta", "firstSphere", "positions", "velocities")
 
 
@@ -49,13 +46,14 @@ class ArrayLog:
             raise ValueError(f"not a position log ({error})") from error
         if not names.issuperset(_NEEDED):
             raise ValueError(f"not a position log (it has no {', '.join(sorted(set(_NEEDED) - names))})")
-        self._names = names
+        self._older = {older: name for name, older in OLDER_NAMES.items() if older in names}
+        self._names = {self._older.get(name, name) for name in names}
         if self["step"].size == 0:
             raise ValueError("holds no whole step")
 
     def __getitem__(self, name: str) -> np.ndarray:
         try:
-            return self._arrays[name]
+            return self._arrays[next((older for older, new in self._older.items() if new == name), name)]
         except zipfile.BadZipFile as error:
             raise ValueError(f"not a position log ({error})") from error
 
@@ -73,48 +71,18 @@ class ArrayLog:
         return sorted((name for name in self._names if re.fullmatch(r"catheter\d*Positions", name)),
                       key=lambda name: (len(name), name))
 
+    def columns(self, names: Iterable[str] | None = None) -> dict[str, np.ndarray]:
+        """Arrays by their names, those of `names` that the log has, or all; the first index counts entries."""
+        columns = {name: self[name] for name in (self._names if names is None else names) if name in self}
+        if names is None and "wallDisplacements" in columns and "largestDisplacement" not in columns:    # older logs
+            columns["largestDisplacement"] = np.linalg.norm(columns["wallDisplacements"], axis=2).max(axis=1)
+        return columns
+
     def entries(self) -> Iterator[tuple[int, dict[str, Any]]]:
         """Step and entry, as they stand in a log of format json."""
-        columns = {name: self[name] for name in self._names}
-        spheres = [str(index) for index in self.spheres]
+        columns = self.columns()
         for k, step in enumerate(columns["step"].tolist()):
-            entry = {name: columns[name][k].item() for name in ("totalTime", "elapsedMilliseconds", "delta")}
-            entry["sphere"] = {
-                index: dict(zip(("x", "y", "z", "vx", "vy", "vz"), (*place, *velocity)))
-                for index, place, velocity in zip(spheres, columns["positions"][k].tolist(),
-                                                  columns["velocities"][k].tolist())}
-            if "orientations" in columns:
-                entry["orientation"] = {str(j): dict(zip("xyzw", q))
-                                        for j, q in enumerate(columns["orientations"][k].tolist())}
-            if "curvature" in columns:
-                entry["stress"] = {name: columns[name][k].tolist() for name in _STRESS}
-            if "inBody" in columns:
-                entry["inBody"] = int(columns["inBody"][k])
-            if "hubForce" in columns:
-                entry["hub"] = {key: _vector(columns[name][k]) if name == "tipDirection" else columns[name][k].item()
-                                for name, key in _HUB.items() if name in columns}
-            if self.catheters:
-                entry["catheters"] = [_catheter(columns, name.removesuffix("Positions"), k) for name in self.catheters]
-            if "contactForces" in columns:
-                entry["contact"] = {
-                    "total": _vector(columns["contactTotal"][k]), "reaction": _vector(columns["reaction"][k]),
-                    "sphere": {str(i): _vector(force) for i, force in enumerate(columns["contactForces"][k])
-                               if force.any()}}
-            if "wallForces" in columns:
-                entry["contact"]["wall"] = {str(w): _vector(force) for w, force in enumerate(columns["wallForces"][k])}
-            if "elementForces" in columns:
-                entry["contact"] |= {
-                    "totalMean": _vector(columns["contactTotalMean"][k]),
-                    "reactionAtEnd": _vector(columns["reactionAtEnd"][k]),
-                    "pressure": columns["wallPressure"][k].item(),
-                    "element": {str(j): _vector(force) for j, force in enumerate(columns["elementForces"][k])
-                                if force.any()}}
-            if "wallDisplacements" in columns:
-                moved = columns["wallDisplacements"][k]
-                entry["contact"] |= {
-                    "largestDisplacement": np.linalg.norm(moved, axis=1).max().item(),
-                    "displacement": {str(j): _vector(own) for j, own in enumerate(moved) if own.any()}}
-            yield step, entry
+            yield step, entry_of(columns, k)
 
 
 def _read_rows(source: Path) -> np.ndarray:
@@ -127,13 +95,3 @@ def _read_rows(source: Path) -> np.ndarray:
     whole = (source.stat().st_size - start) // kind.itemsize
     return np.fromfile(source, dtype=kind, count=whole, offset=start)
 
-
-def _catheter(columns: Mapping[str, np.ndarray], prefix: str, k: int) -> dict[str, Any]:
-    names = {"Positions": "sphere", "Orientations": "orientation", "ContactForces": "contactForces",
-             "WallDisplacements": "wallDisplacements"}
-    whole = [name.removeprefix(prefix) for name in columns if re.fullmatch(prefix + r"[A-Z]\w*", name)]
-    return {names.get(name, name.lower()): columns[prefix + name][k].tolist() for name in whole}
-
-
-def _vector(values: np.ndarray) -> dict[str, float]:
-    return dict(zip("xyz", values.tolist()))

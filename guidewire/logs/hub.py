@@ -3,12 +3,16 @@
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from guidewire.logs.logs import LogError, find_log, read_entries
+from guidewire.logs.logs import LogError, find_log, read_columns
+
+
+_NAMES = {"insertion": "hubInsertion", "turn": "hubTurn", "force": "hubForce", "torque": "hubTorque", "twist": "twist",
+          "largest_curvature": "largestCurvature", "tip_direction": "tipDirection"}
 
 
 @dataclass(frozen=True)
@@ -21,7 +25,7 @@ class HubLog:
     insertion, turn : (k,), displacement of the hub along its axis, m, and rotation about it, rad, since the start.
     force, torque : (k,), of the hub on the wire, N and N m; a push is positive.
     twist : (k,), of the wire from hub to tip, rad.
-    largest_curvature : (k,), of any joint, 1/m.
+    largest_curvature : (k,), of any joint, rad/m.
     tip, tip_direction : (k, 3), in units; a unit vector.
     """
 
@@ -36,10 +40,6 @@ class HubLog:
     tip_direction: np.ndarray
 
 
-_KEYS = {"insertion": "insertion", "turn": "turn", "force": "force", "torque": "torque", "twist": "twist",
-         "largest_curvature": "largestCurvature"}
-
-
 def read_hub(path: Path) -> HubLog:
     """Reads a log or a run folder's log.
 
@@ -47,20 +47,11 @@ def read_hub(path: Path) -> HubLog:
     ------
     LogError : the log cannot be read, or says nothing of the hub.
     """
-    rows: dict[str, list] = {field.name: [] for field in fields(HubLog)}
-    for _, entry in read_entries(path):
-        hub = entry.get("hub")
-        if hub is None:
-            raise LogError(f"{find_log(path)}: has no data of the hub: needs a run of solver direct with logHub")
-        rows["time"].append(entry["totalTime"])
-        tip = entry["sphere"][max(entry["sphere"], key=int)]
-        rows["tip"].append([tip[axis] for axis in "xyz"])
-        rows["tip_direction"].append([hub["tipDirection"][axis] for axis in "xyz"])
-        for name, key in _KEYS.items():
-            rows[name].append(hub[key])
-    if not rows["time"]:
-        raise LogError(f"{find_log(path)}: holds no whole step")
-    return HubLog(**{name: np.asarray(values, dtype=float) for name, values in rows.items()})
+    columns = read_columns(path, ("totalTime", "positions", *_NAMES.values()))
+    if not columns.keys() >= set(_NAMES.values()):
+        raise LogError(f"{find_log(path)}: has no data of the hub: needs a run of solver direct with logHub")
+    return HubLog(columns["totalTime"], tip=np.asarray(columns["positions"][:, -1], dtype=float),
+                  **{field: np.asarray(columns[name], dtype=float) for field, name in _NAMES.items()})
 
 
 _SUDDEN = math.radians(1.0)  # of turning, within which a snap takes place

@@ -10,7 +10,7 @@ from __future__ import annotations
 
 import json
 from array import array
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -18,6 +18,7 @@ from pathlib import Path
 import numpy as np
 
 from guidewire.logs.array_logs import ArrayLog
+from guidewire.logs.entries import arrays_of
 
 LOG_NAMES = ("positions.json", "positions.npz", "positions.json.partial", "positions.npz.partial")
 
@@ -145,6 +146,46 @@ def read_entries(path: str | Path) -> Iterator[tuple[int, dict]]:
         yield step, entry
     if step < 0:
         raise LogError(f"{source}: holds no whole step")
+
+
+def read_columns(path: str | Path, names: Iterable[str], steps: np.ndarray | None = None) -> dict[str, np.ndarray]:
+    """Quantities of a log, or of a run folder's log, by their names in the table of quantities.
+
+    Parameters
+    ----------
+    path : the log or the run folder.
+    names : of the quantities; those that some entry does not have are left out.
+    steps : (k,) of int, ascending, the entries to read; None: all.
+
+    Returns
+    -------
+    dict of ndarray
+        The first index counts entries, as in a log of format npz.
+
+    Raises
+    ------
+    LogError : the file is missing, is not a log or holds no whole step.
+    """
+    source = find_log(path)
+    if _is_of_arrays(source):
+        with _named(source):
+            log = ArrayLog(source)
+            kept = slice(None) if steps is None else np.flatnonzero(np.isin(log["step"], steps))
+            return {name: column[kept] for name, column in log.columns(names).items()}
+    wanted = None if steps is None else set(steps.tolist())
+    rows: dict[str, list[np.ndarray]] = {name: [] for name in names}
+    count = 0
+    for step, entry in read_entries(source):
+        if wanted is None or step in wanted:
+            try:
+                arrays = arrays_of(step, entry)
+            except (KeyError, TypeError, ValueError) as error:
+                raise LogError(f"{source}: step {step} lacks {error}") from error
+            count += 1
+            for name in rows:
+                if name in arrays:
+                    rows[name].append(arrays[name])
+    return {name: np.array(values) for name, values in rows.items() if values and len(values) == count}
 
 
 def extent(log: PositionLog) -> tuple[np.ndarray, float]:

@@ -2,12 +2,12 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, fields
+from dataclasses import dataclass
 from pathlib import Path
 
 import numpy as np
 
-from guidewire.logs.logs import LogError, find_log, read_entries
+from guidewire.logs.logs import LogError, find_log, read_columns
 
 
 @dataclass(frozen=True)
@@ -47,8 +47,8 @@ class StressLog:
         return np.hypot(self.curvature[..., 0], self.curvature[..., 1])
 
 
-_KEYS = {"curvature": "curvature", "couple": "couple", "strain": "strain", "force": "force",
-         "angular_velocity": "angularVelocity"}
+_NAMES = {"curvature": "curvature", "couple": "couple", "strain": "strain", "force": "force",
+          "angular_velocity": "angularVelocities"}
 _ENERGIES = ("kineticEnergy", "elasticEnergy", "potentialEnergy")
 
 
@@ -59,17 +59,11 @@ def read_stress(path: Path, every: int = 1) -> StressLog:
     ------
     LogError : the log cannot be read, or holds no stress or not all spheres.
     """
-    rows: dict[str, list] = {field.name: [] for field in fields(StressLog)}
-    for index, (_, entry) in enumerate(read_entries(path)):
-        if index % every:
-            continue
-        stress = entry.get("stress")
-        if stress is None or len(entry["sphere"]) != len(stress["curvature"]):
-            raise LogError(f"{find_log(path)}: has no stress along the wire: needs a run of a material with"
-                           " logStrains and all spheres")
-        rows["time"].append(entry["totalTime"])
-        rows["positions"].append([[sphere[axis] for axis in "xyz"] for sphere in entry["sphere"].values()])
-        rows["energy"].append([stress[name] for name in _ENERGIES])
-        for name, key in _KEYS.items():
-            rows[name].append(stress[key])
-    return StressLog(**{name: np.asarray(values, dtype=float) for name, values in rows.items()})
+    columns = read_columns(path, ("totalTime", "positions", *_NAMES.values(), *_ENERGIES))
+    if "curvature" not in columns or columns["positions"].shape != columns["curvature"].shape:
+        raise LogError(f"{find_log(path)}: has no stress along the wire: needs a run of a material with"
+                       " logStrains and all spheres")
+    kept = {name: np.asarray(values[::every], dtype=float) for name, values in columns.items()}
+    return StressLog(time=kept["totalTime"], positions=kept["positions"],
+                     energy=np.stack([kept[name] for name in _ENERGIES], axis=1),
+                     **{field: kept[name] for field, name in _NAMES.items()})

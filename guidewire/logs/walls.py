@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.logs.logs import PositionLog, read_entries
+from guidewire.logs.logs import PositionLog, read_columns
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
+from guidewire.quantities import catheter_name
 
 
 def name_walls(parameters: Mapping[str, Any], walls: Sequence[Surface]) -> list[tuple[str, Surface]]:
@@ -23,21 +24,18 @@ def soft_walls(parameters: Mapping[str, Any]) -> list[int]:
     return [k for k, wall in enumerate(walls) if wall.keys() & {"wallStiffness", "modulus"}]
 
 
-def displacements_in(entry: Mapping[str, Any]) -> list[np.ndarray]:
-    """Return the displacements of an entry of a log at the elements of the wire and of each catheter, (n, 3), m; none
-    where all walls are rigid, or the log does not have them."""
-    if "displacement" not in entry.get("contact", {}):
-        return []
-    wire = np.zeros((len(entry["sphere"]) - 1, 3))
-    for index, own in entry["contact"]["displacement"].items():
-        wire[int(index)] = [own[axis] for axis in "xyz"]
-    return [wire, *(np.array(one["wallDisplacements"]) for one in entry.get("catheters", ()))]
+def read_displacements(run: Run, steps: np.ndarray, catheters: int) -> list[np.ndarray]:
+    """Return the displacements of soft walls at the elements of the wire and of each catheter, (k, n, 3), m, of entries
+    of a run's log; none where all walls are rigid, or the log does not have them."""
+    names = ["wallDisplacements", *(catheter_name("wallDisplacements", number) for number in range(catheters))]
+    columns = read_columns(run.folder, names, steps)
+    return [columns[name] for name in names if name in columns]
 
 
 def drawn_of(run: Run, log: PositionLog) -> list[tuple[list[np.ndarray], list[np.ndarray]]]:
     """Return what each entry of a log is drawn by, as `State.drawn` has it. The log has all spheres."""
-    displaced = {}
+    displaced = []
     if soft_walls(run.parameters) and run.parameters.get("logContacts"):
-        displaced = {step: displacements_in(entry) for step, entry in read_entries(run.folder)}
-    return [([log.positions[k], *(one[k] for one in log.catheters)], displaced.get(int(step), []))
-            for k, step in enumerate(log.steps)]
+        displaced = read_displacements(run, log.steps, len(log.catheters))
+    return [([log.positions[k], *(one[k] for one in log.catheters)], [one[k] for one in displaced])
+            for k in range(len(log.steps))]

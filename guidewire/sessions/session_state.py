@@ -11,23 +11,32 @@ from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
+from guidewire.quantities import CATHETER, LUMEN, WIRE, Quantity
+
 if TYPE_CHECKING:
     from guidewire.sessions.session import Session
 
-_COLUMNS = {
-    "positions": 3, "velocities": 3, "orientations": 4, "angularVelocities": 3, "contactForces": 3, "reaction": 3,
-    "wallDisplacements": 3,
-    "hub": 14, "catheter": 12, "lumen": 9, "strain": 3, "force": 3, "curvature": 3, "couple": 3, "energy": 3,
-}
 # Parts of a state, each read off once something of it is asked for.
 MOTION, INSTRUMENTS, STRAINS = PARTS = range(3)
 _STRAINS = ("curvature", "couple", "strain", "force", "energy")
-_PART_OF = {
-    **dict.fromkeys(("positions", "velocities", "orientations", "angular_velocities", "contact_forces", "reaction",
-                     "wall_displacements"), MOTION),
-    **dict.fromkeys(("hub", "catheters", "place"), INSTRUMENTS), **dict.fromkeys(_STRAINS, STRAINS),
-}
 _DIGITS = "0123456789"  # of a catheter, behind the name of an array of its own
+
+
+def snake(name: str) -> str:
+    """Return the name of an attribute for a name of the table of quantities."""
+    return "".join("_" + letter.lower() if letter.isupper() else letter for letter in name)
+
+
+_IN_ANSWERS: dict[str, list[Quantity]] = {}    # the quantities of each array, in their order
+for _row in (*WIRE, *(row for row in CATHETER if row.answer == "catheter"), *LUMEN):
+    if _row.answer is not None:
+        _IN_ANSWERS.setdefault(_row.answer, []).append(_row)
+_KINDS = {"whole": int, "flag": bool}
+_OPTIONAL = ("length_in_body",)    # beside whole numbers
+# How many numbers a row of an array has: of one that is for the run all of them.
+_COLUMNS = {name: sum(row.width for row in rows) for name, rows in _IN_ANSWERS.items()}
+_PART_OF = {**{snake(name): rows[0].part for name, rows in _IN_ANSWERS.items()},
+            "catheters": INSTRUMENTS, "place": INSTRUMENTS}
 
 
 class SessionError(Exception):
@@ -48,7 +57,7 @@ class Hub:
     force, torque : of the hub on the wire along and about its axis, N and N m; a push is positive.
     tip_position, tip_direction : (3,), units, and a unit vector.
     twist : of the wire from hub to tip, rad.
-    largest_curvature : of any joint, 1/m.
+    largest_curvature : of any joint, rad/m.
     length_in_body, spheres_in_body : what is out of the sheath, m and spheres; None without a sheath.
     """
 
@@ -90,8 +99,7 @@ class LumenPlace:
     @staticmethod
     def of(numbers: np.ndarray) -> LumenPlace:
         """Make it from a row of the array "lumen"."""
-        return LumenPlace(bool(numbers[0]), bool(numbers[1]), int(numbers[2]), int(numbers[3]), float(numbers[4]),
-                          float(numbers[5]), numbers[6:9])
+        return LumenPlace(**_members("lumen", numbers))
 
 
 @dataclass(frozen=True)
@@ -284,9 +292,7 @@ def arrays_of(answer: Mapping[str, Any]) -> dict[str, np.ndarray]:
 
 def part_of(array: str) -> int:
     """Which part of a state an array of an answer belongs to."""
-    if array in ("hub", "lumen") or array[-1] in _DIGITS:
-        return INSTRUMENTS
-    return STRAINS if array in _STRAINS else MOTION
+    return INSTRUMENTS if array[-1] in _DIGITS else _IN_ANSWERS[array][0].part
 
 
 def unread_state(step: int, time: float, prediction_error: float, session: Session) -> State:
@@ -318,8 +324,8 @@ def fill(state: State, part: int, arrays: Mapping[str, np.ndarray]) -> None:
             reaction=arrays["reaction"][0] if "reaction" in arrays else None,
             wall_displacements=arrays.get("wallDisplacements"))
     elif part == INSTRUMENTS:
-        vars(state).update(hub=_hub(arrays["hub"][0]) if "hub" in arrays else None, catheters=_catheters(arrays),
-                           place=_place(arrays, ""))
+        vars(state).update(hub=Hub(**_members("hub", arrays["hub"][0])) if "hub" in arrays else None,
+                           catheters=_catheters(arrays), place=_place(arrays, ""))
     else:
         vars(state).update({name: arrays.get(name) for name in _STRAINS},
                            energy=Energy(*arrays["energy"][0].tolist()) if "energy" in arrays else None)
@@ -336,14 +342,12 @@ def unread(state: State) -> list[int]:
 def _catheters(arrays: Mapping[str, np.ndarray]) -> tuple[CatheterState, ...]:
     catheters = []
     while (positions := arrays.get(f"positions{len(catheters) + 1}")) is not None:
-        number = len(catheters) + 1
-        numbers = arrays[f"catheter{number}"][0]
-        forces = arrays.get(f"contactForces{number}")
-        catheters.append(CatheterState(positions, arrays[f"orientations{number}"], *numbers[:4].tolist(), numbers[4:7],
-                                       numbers[7:10], *numbers[10:].tolist(), _place(arrays, str(number)),
-                                       np.zeros_like(positions) if forces is None else forces,
-                                       arrays[f"velocities{number}"], arrays[f"angularVelocities{number}"],
-                                       arrays.get(f"wallDisplacements{number}")))
+        number = str(len(catheters) + 1)
+        own = {snake(row.name): arrays.get(row.name + number) for row in CATHETER if row.answer == row.name}
+        if own["contact_forces"] is None:
+            own["contact_forces"] = np.zeros_like(positions)
+        catheters.append(CatheterState(place=_place(arrays, number), **own,
+                                       **_members("catheter", arrays["catheter" + number][0])))
     return tuple(catheters)
 
 
@@ -352,8 +356,18 @@ def _place(arrays: Mapping[str, np.ndarray], number: str) -> LumenPlace | None:
     return None if numbers is None else LumenPlace.of(numbers[0])
 
 
-def _hub(numbers: np.ndarray) -> Hub:
-    insertion, turn, force, torque = numbers[:4].tolist()
-    twist, curvature, length, spheres = numbers[10:].tolist()
-    return Hub(insertion, turn, force, torque, numbers[4:7], numbers[7:10], twist, curvature,
-               *((None, None) if math.isnan(length) else (length, int(spheres))))
+def _members(array: str, numbers: np.ndarray) -> dict[str, Any]:
+    """Return the quantities of a row of an array by the names of attributes; None for what a run does not have."""
+    members: dict[str, Any] = {}
+    at = 0
+    for row in _IN_ANSWERS[array]:
+        own = numbers[at:at + row.width]
+        at += row.width
+        name = snake(row.summary or row.name)
+        if row.width > 1:
+            members[name] = own
+        elif (row.type == "whole" or name in _OPTIONAL) and math.isnan(own[0]):
+            members[name] = None
+        else:
+            members[name] = _KINDS.get(row.type, float)(own[0])
+    return members

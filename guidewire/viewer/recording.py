@@ -15,23 +15,26 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.logs.logs import LogError, read_entries, read_log
+from guidewire.logs.logs import LogError, read_columns, read_log
 from guidewire.logs.runs import Run
 from guidewire.logs.surfaces import Surface
-from guidewire.logs.walls import displacements_in, name_walls, soft_walls
+from guidewire.logs.walls import name_walls, soft_walls
+from guidewire.quantities import WIRE, catheter_name
 from guidewire.sessions.session import LumenPlace, State
+from guidewire.sessions.session_state import snake
 
 _STEPS = 65535  # of a quantised number, from its lowest value to its highest
 _ALIGNED = 8
+_ROWS = {row.name: row for row in WIRE}
 ENERGIES = {"kineticEnergy": "energy of motion", "elasticEnergy": "elastic energy",
              "potentialEnergy": "potential energy"}
-# What is read off at the hub, by its key in a log: label, unit, whether it may be negative.
-HUB = {
-    "force": ("force at the hub", "N", True), "torque": ("torque at the hub", "N m", True),
-    "insertion": ("insertion", "m", True), "turn": ("rotation of the hub", "rad", True),
-    "twist": ("twist from hub to tip", "rad", True), "largestCurvature": ("largest curvature", "rad/m", False),
-    "lengthInBody": ("length in the body", "m", False),
-}
+_HUB = {"hubForce": ("force at the hub", True), "hubTorque": ("torque at the hub", True),
+        "hubInsertion": ("insertion", True), "hubTurn": ("rotation of the hub", True),
+        "twist": ("twist from hub to tip", True), "largestCurvature": ("largest curvature", False),
+        "lengthInBody": ("length in the body", False)}
+# What is read off at the hub, by its key in the object "hub" of a log: label, unit, whether it may be negative.
+HUB = {_ROWS[name].key: (label, _ROWS[name].unit, is_signed) for name, (label, is_signed) in _HUB.items()}
+_OF_CATHETER = ("insertion", "turn", "force", "torque")
 
 
 @dataclass(frozen=True)
@@ -279,12 +282,10 @@ def read_off(state: State) -> dict[str, np.ndarray]:
         numbers |= {"kineticEnergy": energy.kinetic, "elasticEnergy": energy.elastic,
                     "potentialEnergy": energy.potential}
     if state.hub is not None:
-        hub = state.hub
-        read_off = {"insertion": hub.insertion, "turn": hub.turn, "force": hub.force, "torque": hub.torque,
-                    "twist": hub.twist, "largestCurvature": hub.largest_curvature, "lengthInBody": hub.length_in_body}
-        numbers |= {f"hub.{name}": value for name, value in read_off.items()} | {"inBody": hub.spheres_in_body}
+        numbers |= {f"hub.{key}": getattr(state.hub, snake(key)) for key in HUB}
+        numbers["inBody"] = state.hub.spheres_in_body
     for k, one in enumerate(state.catheters):
-        numbers |= {f"hub{k + 1}.{name}": getattr(one, name) for name in ("insertion", "turn", "force", "torque")}
+        numbers |= {f"hub{k + 1}.{name}": getattr(one, name) for name in _OF_CATHETER}
     return {name: np.array([value]) for name, value in numbers.items() if value is not None}
 
 
@@ -370,7 +371,7 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     numbers["lumen"] = lumen_of(places(log.positions[kept]))
     if (any(run.parameters.get(key) for key in ("logOrientations", "logContacts", "logStrains", "logHub"))
             or run.parameters.get("sheath") is not None):
-        numbers.update(_read_more(run, log.steps[kept]))
+        numbers.update(_read_more(run, log.steps[kept], len(log.catheters)))
     warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
     if len(finite) < len(log.steps):
         warnings.append(f"{len(log.steps) - len(finite)} entries with positions that are not finite are left out")
@@ -414,37 +415,14 @@ def _wall_times(steps: np.ndarray, elapsed: np.ndarray, time: np.ndarray, kept: 
     return {"step_time": 1e3 * wall[kept], "real_time": np.concatenate([rate[:1], rate])[kept]}
 
 
-def _read_more(run: Run, steps: np.ndarray) -> dict[str, np.ndarray | None]:
+def _read_more(run: Run, steps: np.ndarray, catheters: int) -> dict[str, np.ndarray | None]:
     """Return what entries of a log hold beside positions, for the steps that are shown."""
-    wanted = set(steps.tolist())
-    rows: dict[str, list[Any]] = {}
-    for step, entry in read_entries(run.folder):
-        if step not in wanted:
-            continue
-        if "orientation" in entry:
-            rows.setdefault("orientations", []).append([[q[part] for part in "xyzw"]
-                                                        for q in entry["orientation"].values()])
-        if "contact" in entry:
-            contact = entry["contact"]
-            forces = np.zeros((len(entry["sphere"]), 3))
-            for index, force in contact["sphere"].items():
-                forces[int(index)] = [force[axis] for axis in "xyz"]
-            rows.setdefault("contact_forces", []).append(forces)
-            rows.setdefault("reaction", []).append([contact["reaction"][axis] for axis in "xyz"])
-        for number, displaced in enumerate(displacements_in(entry)):
-            rows.setdefault(f"wall_displacements{number or ''}", []).append(displaced)
-        if "stress" in entry:
-            for name in ("curvature", "force", "couple"):
-                rows.setdefault(name, []).append(entry["stress"][name])
-            for name in ENERGIES:
-                rows.setdefault(name, []).append(entry["stress"][name])
-        for name in (name for name in HUB if name in entry.get("hub", {})):
-            rows.setdefault(f"hub.{name}", []).append(entry["hub"][name])
-        for number, catheter in enumerate(entry.get("catheters", []), 1):
-            if "contactForces" in catheter:
-                rows.setdefault(f"contact_forces{number}", []).append(catheter["contactForces"])
-            for name in (name for name in HUB if name in catheter):
-                rows.setdefault(f"hub{number}.{name}", []).append(catheter[name])
-        if "inBody" in entry:
-            rows.setdefault("inBody", []).append(entry["inBody"])
-    return {name: np.asarray(values, dtype=float) for name, values in rows.items() if len(values) == len(steps)}
+    shown = {"contactForces": "contact_forces", "wallDisplacements": "wall_displacements"}    # also of catheters
+    names = {name: shown.get(name, name) for name in (
+        "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *shown)}
+    names |= {name: f"hub.{_ROWS[name].key}" for name in _HUB}
+    for number in range(catheters):
+        names |= {catheter_name(name, number): f"{to}{number + 1}" for name, to in shown.items()}
+        names |= {catheter_name(name, number): f"hub{number + 1}.{name}" for name in _OF_CATHETER}
+    return {names[name]: np.asarray(values, dtype=float)
+            for name, values in read_columns(run.folder, names, steps).items()}

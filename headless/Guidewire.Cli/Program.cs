@@ -25,6 +25,7 @@ namespace Guidewire.Cli
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --warnings  the warnings as a Markdown table\n"
+            + "       Guidewire.Cli --quantities  what logs, answers and summaries have, as JSON\n"
             + "       Guidewire.Cli --version\n"
             + "       Guidewire.Cli --help\n";
 
@@ -60,6 +61,9 @@ namespace Guidewire.Cli
                         return 0;
                     case "--warnings":
                         Console.Out.Write(WarningTable.ToMarkdown());
+                        return 0;
+                    case "--quantities":
+                        Console.Out.Write(Quantities.ToJson());
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);

@@ -1,13 +1,40 @@
 using System;
 using System.Buffers.Binary;
 using System.Collections.Generic;
+using System.Globalization;
 using System.IO;
 using System.IO.Compression;
+using System.Runtime.InteropServices;
 using System.Text;
 using Guidewire.Core;
 
 namespace Guidewire.Io
 {
+    /// <summary>One array of a log: the quantity, the catheter's index, its name and type, the shape of one entry, and its place
+    /// and length in a row, bytes.</summary>
+    internal readonly struct ArrayColumn
+    {
+        public readonly Quantity Quantity;
+        public readonly int Catheter;
+        public readonly string Name;
+        public readonly string Type;
+        public readonly int[] Shape;
+        public readonly int Offset;
+        public readonly int Length;
+
+        public ArrayColumn(Quantity quantity, int catheter, string name, string type, int[] shape,
+            int offset, int length)
+        {
+            Quantity = quantity;
+            Catheter = catheter;
+            Name = name;
+            Type = type;
+            Shape = shape;
+            Offset = offset;
+            Length = length;
+        }
+    }
+
     /// <summary>Writes positions.npz: an array for each quantity, in a zip of .npy files as numpy.load reads it. Their
     /// first index counts entries; the others are sphere or element, and x, y, z.</summary>
     /// <remarks>While the run goes on, one row an entry is appended to a .npy file whose header says 0 rows: how many
@@ -23,6 +50,7 @@ namespace Guidewire.Io
         private readonly FileStream _rows;
         private readonly RunParameters _parameters;
         private readonly string _realType;
+        private readonly Moment _moment = new Moment();
         private readonly List<ArrayColumn> _columns = new List<ArrayColumn>();
         private byte[] _block = Array.Empty<byte>();
         private int _length;
@@ -44,69 +72,19 @@ namespace Guidewire.Io
         /// <inheritdoc/>
         public override void Log(Simulation simulation, double elapsed)
         {
-            RodState state = simulation.State;
-            StressRecord? stress = _parameters.LogStrains ? simulation.Stress() : null;
-            ContactRecord? contacts = _parameters.LogContacts ? simulation.Contacts : null;
-            HubRecord? hub = _parameters.LogHub || _parameters.Sheath != null ? simulation.Hub() : null;
-            IReadOnlyList<CoaxialRecord> catheters = simulation.Catheters();
-            int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
+            int first = _parameters.LogSpheres == LoggedSpheres.Last ? simulation.State.ElementCount : 0;
+            _moment.Take(simulation, elapsed, first);
             if (_count == 0)
             {
-                Begin(state, first, stress != null);
-                AddHub(hub);
-                for (int k = 0; k < catheters.Count; k++)
-                {
-                    AddCatheter(catheters[k], "catheter" + (k == 0 ? "" : (k + 1).ToString()),
-                        contacts != null);
-                }
-                AddContacts(state, contacts);
-                WriteHeader();
+                Begin();
             }
             if (_length + _rowLength > _block.Length)
             {
                 Flush();
             }
-            Put(simulation.StepCount);
-            PutExact(simulation.Time);
-            PutExact(elapsed);
-            PutExact(simulation.PredictionError);
-            Put(first);
-            Put(state.Positions, first);
-            Put(state.Velocities, first);
-            if (_parameters.LogOrientations)
+            foreach (ArrayColumn column in _columns)
             {
-                Put(state.Orientations);
-            }
-            if (stress != null)
-            {
-                Put(stress.KineticEnergy);
-                Put(stress.ElasticEnergy);
-                Put(stress.PotentialEnergy);
-                Put(stress.Curvature, 0);
-                Put(stress.Couple, 0);
-                Put(stress.Strain, 0);
-                Put(stress.Force, 0);
-                Put(state.AngularVelocities, 0);
-            }
-            Put(hub);
-            foreach (CoaxialRecord catheter in catheters)
-            {
-                Put(catheter, contacts != null);
-            }
-            if (contacts != null)
-            {
-                Put(contacts.Forces, 0);
-                Put(contacts.Total);
-                Put(contacts.Reaction);
-                Put(contacts.WallForces, 0);
-                Put(contacts.ElementForces, 0);
-                if (contacts.ElementForces.Length > 0)
-                {
-                    Put(contacts.Pressure);
-                    Put(contacts.MeanTotal);
-                    Put(contacts.ReactionAtEnd);
-                }
-                Put(contacts.Displacements, 0);
+                Put(column);
             }
             _count++;
             if (elapsed - _flushed > FlushAfter)
@@ -149,106 +127,22 @@ namespace Guidewire.Io
         /// <inheritdoc/>
         public override void Dispose() => _rows.Dispose();
 
-        private void Begin(RodState state, int first, bool hasStress)
+        // What a run has at its first entry it has at all.
+        private void Begin()
         {
-            int spheres = state.SphereCount;
-            int elements = state.ElementCount;
-            Add("step", Whole);
-            Add("totalTime", Double);
-            Add("elapsedMilliseconds", Double);
-            Add("delta", Double);
-            Add("firstSphere", Whole);
-            Add("positions", _realType, spheres - first, 3);
-            Add("velocities", _realType, spheres - first, 3);
-            if (_parameters.LogOrientations)
+            foreach (Quantity quantity in Quantities.Logged(Quantities.OfWire, _parameters))
             {
-                Add("orientations", _realType, elements, 4);
+                Add(quantity, quantity.Name, 0);
             }
-            if (hasStress)
+            for (int k = 0; k < _moment.Catheters.Count; k++)
             {
-                Add("kineticEnergy", _realType);
-                Add("elasticEnergy", _realType);
-                Add("potentialEnergy", _realType);
-                Add("curvature", _realType, elements + 1, 3);
-                Add("couple", _realType, elements + 1, 3);
-                Add("strain", _realType, elements, 3);
-                Add("force", _realType, elements, 3);
-                Add("angularVelocity", _realType, elements, 3);
+                string prefix = "catheter" + (k == 0 ? "" : (k + 1).ToString(CultureInfo.InvariantCulture));
+                foreach (Quantity quantity in Quantities.Logged(Quantities.OfCatheter, _parameters))
+                {
+                    Add(quantity, prefix + char.ToUpperInvariant(quantity.Name[0]) + quantity.Name.Substring(1), k);
+                }
             }
-        }
-
-        private void AddHub(HubRecord? hub)
-        {
-            if (_parameters.Sheath != null)
-            {
-                Add("inBody", Whole);
-            }
-            if (hub == null || !_parameters.LogHub)
-            {
-                return;
-            }
-            Add("hubInsertion", _realType);
-            Add("hubTurn", _realType);
-            Add("hubForce", _realType);
-            Add("hubTorque", _realType);
-            Add("tipDirection", _realType, 3);
-            Add("twist", _realType);
-            Add("largestCurvature", _realType);
-            if (hub.LengthInBody != null)
-            {
-                Add("lengthInBody", _realType);
-            }
-        }
-
-        private void AddCatheter(CoaxialRecord catheter, string name, bool hasContacts)
-        {
-            Add(name + "Positions", _realType, catheter.Positions.Length, 3);
-            if (_parameters.LogOrientations)
-            {
-                Add(name + "Orientations", _realType, catheter.Orientations.Length, 4);
-            }
-            Add(name + "Extension", _realType);
-            if (_parameters.LogHub)
-            {
-                Add(name + "Insertion", _realType);
-                Add(name + "Turn", _realType);
-                Add(name + "Force", _realType);
-                Add(name + "Torque", _realType);
-            }
-            if (hasContacts)
-            {
-                Add(name + "ContactForces", _realType, catheter.ContactForces.Length, 3);
-            }
-            if (hasContacts && catheter.WallDisplacements.Length > 0)
-            {
-                Add(name + "WallDisplacements", _realType, catheter.WallDisplacements.Length, 3);
-            }
-        }
-
-        private void AddContacts(RodState state, ContactRecord? contacts)
-        {
-            if (contacts == null)
-            {
-                return;
-            }
-            Add("contactForces", _realType, state.SphereCount, 3);
-            Add("contactTotal", _realType, 3);
-            Add("reaction", _realType, 3);
-            if (contacts.WallForces.Length > 0)
-            {
-                Add("wallForces", _realType, contacts.WallForces.Length, 3);
-            }
-            if (contacts.ElementForces.Length > 0)
-            {
-                Add("elementForces", _realType, contacts.ElementForces.Length, 3);
-                Add("wallPressure", _realType);
-                Add("contactTotalMean", _realType, 3);
-                Add("reactionAtEnd", _realType, 3);
-            }
-            if (contacts.Displacements.Length > 0)
-            {
-                Add("wallDisplacements", _realType, contacts.Displacements.Length, 3);
-            }
+            WriteHeader();
         }
 
         private void WriteHeader()
@@ -264,15 +158,21 @@ namespace Guidewire.Io
             _headerLength = header.Length;
         }
 
-        private void Add(string name, string type, params int[] shape)
+        private void Add(Quantity quantity, string name, int catheter)
         {
-            int length = type == Single ? sizeof(float) : sizeof(double);
-            foreach (int size in shape)
+            _moment.CatheterIndex = catheter;
+            int count = quantity.Read(_moment).Length;
+            if (count == 0)
             {
-                length *= size;
+                return;
             }
-            _columns.Add(new ArrayColumn
-                { Name = name, Type = type, Shape = shape, Offset = _rowLength, Length = length });
+            string type = quantity.Type == QuantityType.Whole ? Whole
+                : quantity.Type == QuantityType.Exact ? Double : _realType;
+            int width = quantity.Letters.Length;
+            int[] shape = quantity.Place != QuantityPlace.Run ? new[] { count / width, width }
+                : width > 1 ? new[] { width } : Array.Empty<int>();
+            int length = count * (type == Single ? sizeof(float) : sizeof(double));
+            _columns.Add(new ArrayColumn(quantity, catheter, name, type, shape, _rowLength, length));
             _rowLength += length;
         }
 
@@ -285,10 +185,10 @@ namespace Guidewire.Io
             foreach (ArrayColumn column in _columns)
             {
                 using Stream entry = archive.CreateEntry(column.Name + ".npy", CompressionLevel.NoCompression).Open();
-                var shape = new List<string> { _count.ToString(System.Globalization.CultureInfo.InvariantCulture) };
+                var shape = new List<string> { _count.ToString(CultureInfo.InvariantCulture) };
                 foreach (int size in column.Shape)
                 {
-                    shape.Add(size.ToString(System.Globalization.CultureInfo.InvariantCulture));
+                    shape.Add(size.ToString(CultureInfo.InvariantCulture));
                 }
                 byte[] header = Header("'" + column.Type + "'", "(" + string.Join(", ", shape) + ",)");
                 entry.Write(header, 0, header.Length);
@@ -346,96 +246,31 @@ namespace Guidewire.Io
             return text.Append(')').ToString();
         }
 
-        private void Put(HubRecord? hub)
+        private void Put(in ArrayColumn column)
         {
-            if (_parameters.Sheath != null)
+            _moment.CatheterIndex = column.Catheter;
+            ReadOnlySpan<double> numbers = column.Quantity.Read(_moment);
+            if (numbers.Length != 0 && column.Type == Double && BitConverter.IsLittleEndian)
             {
-                Put(hub?.SpheresInBody ?? 0);
-            }
-            if (hub == null || !_parameters.LogHub)
-            {
+                MemoryMarshal.AsBytes(numbers).CopyTo(_block.AsSpan(_length));
+                _length += column.Length;
                 return;
             }
-            Put(hub.Insertion);
-            Put(hub.Turn);
-            Put(hub.Force);
-            Put(hub.Torque);
-            Put(hub.TipDirection);
-            Put(hub.Twist);
-            Put(hub.LargestCurvature);
-            if (hub.LengthInBody is double length)
+            int end = _length + column.Length;
+            for (int k = 0; _length < end; k++)
             {
-                Put(length);
+                double number = numbers.Length == 0 ? double.NaN : numbers[k];
+                if (column.Type == Single)
+                {
+                    BinaryPrimitives.WriteInt32LittleEndian(_block.AsSpan(_length),
+                        BitConverter.SingleToInt32Bits((float)number));
+                    _length += sizeof(float);
+                    continue;
+                }
+                BinaryPrimitives.WriteInt64LittleEndian(_block.AsSpan(_length),
+                    column.Type == Whole ? (long)number : BitConverter.DoubleToInt64Bits(number));
+                _length += sizeof(long);
             }
-        }
-
-        private void Put(CoaxialRecord catheter, bool hasContacts)
-        {
-            Put(catheter.Positions, 0);
-            if (_parameters.LogOrientations)
-            {
-                Put(catheter.Orientations);
-            }
-            Put(catheter.Extension);
-            if (_parameters.LogHub)
-            {
-                Put(catheter.Insertion);
-                Put(catheter.Turn);
-                Put(catheter.Force);
-                Put(catheter.Torque);
-            }
-            if (hasContacts)
-            {
-                Put(catheter.ContactForces, 0);
-                Put(catheter.WallDisplacements, 0);
-            }
-        }
-
-        private void Put(Quaterniond[] orientations)
-        {
-            foreach (Quaterniond q in orientations)
-            {
-                Put(q.X);
-                Put(q.Y);
-                Put(q.Z);
-                Put(q.W);
-            }
-        }
-
-        private void Put(Vector3d[] values, int first)
-        {
-            for (int i = first; i < values.Length; i++)
-            {
-                Put(values[i]);
-            }
-        }
-
-        private void Put(in Vector3d value)
-        {
-            Put(value.X);
-            Put(value.Y);
-            Put(value.Z);
-        }
-
-        private void Put(double value)
-        {
-            if (_realType == Double)
-            {
-                PutExact(value);
-                return;
-            }
-            int bits = BitConverter.SingleToInt32Bits((float)value);
-            BinaryPrimitives.WriteInt32LittleEndian(_block.AsSpan(_length), bits);
-            _length += sizeof(float);
-        }
-
-        private void Put(int value) => PutBits(value);
-        private void PutExact(double value) => PutBits(BitConverter.DoubleToInt64Bits(value));
-
-        private void PutBits(long value)
-        {
-            BinaryPrimitives.WriteInt64LittleEndian(_block.AsSpan(_length), value);
-            _length += sizeof(long);
         }
 
         private void Flush()

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using Guidewire.Core;
 
@@ -6,11 +7,7 @@ namespace Guidewire.Io
 {
     /// <summary>Writes positions.json (thesis 3.2.3) as the run goes, one entry a line, in constant memory: <c>{"0":
     /// {"totalTime": s, "elapsedMilliseconds": ms, "delta": units, "sphere": {"0": {"x","y","z","vx","vy","vz"}, ...}},
-    /// "1": ...}</c>, and where asked for <c>"orientation": {"0": {"x","y","z","w"}, ...}</c> and <c>"contact":
-    /// {"total": {"x","y","z"}, "reaction": ..., "sphere": {"i": ..., spheres without contact left out}}</c> and
-    /// <c>"stress": {"kineticEnergy": J, .., "curvature": [[x, y, z], ...], ..}</c> as key logStrains says, and
-    /// <c>"hub": {"insertion": m, ..}</c> as key logHub does; of a catheter over the wire <c>"catheters":
-    /// [{"sphere": [[x, y, z], ...], "extension": m, ..}]</c>, units but for what its hub has.</summary>
+    /// "1": ...}</c>, and what else <see cref="Quantities"/> has with the keys of the run.</summary>
     /// <remarks>Entry "k" is the state after k steps. Until <see cref="Close"/> the file is not whole JSON, but every
     /// line that ends is a whole entry. Numbers are round-trip exact; one that is not finite is null.</remarks>
     internal sealed class DataLogger : StateLog
@@ -22,7 +19,12 @@ namespace Guidewire.Io
         private readonly RunParameters _parameters;
         private byte[] _bytes = new byte[Buffer];
         private int _length;
+        private readonly Moment _moment = new Moment();
+        private readonly List<Quantity> _ofWire;
+        private readonly List<Quantity> _ofCatheter;
         private bool _empty = true;
+        private bool _isFirst;     // no member stands in the object that is open
+        private string? _opens;    // the object that is to be opened by its first member
         private double _flushed;
 
         /// <summary>A log into a stream, which it closes.</summary>
@@ -32,64 +34,30 @@ namespace Guidewire.Io
         {
             _stream = stream;
             _parameters = parameters;
+            _ofWire = Quantities.Logged(Quantities.OfWire, parameters).FindAll(row => row.Key != null);
+            _ofCatheter = Quantities.Logged(Quantities.OfCatheter, parameters).FindAll(row => row.Key != null);
             Append("{\n");
         }
 
         /// <inheritdoc/>
         public override void Log(Simulation simulation, double elapsed)
         {
-            RodState state = simulation.State;
+            int first = _parameters.LogSpheres == LoggedSpheres.Last ? simulation.State.ElementCount : 0;
+            _moment.Take(simulation, elapsed, first);
             Append(_empty ? "\"" : ",\n\"");
             _empty = false;
             Append(simulation.StepCount);
-            Append("\": {\"totalTime\": ");
-            Append(simulation.Time);
-            Append(", \"elapsedMilliseconds\": ");
-            Append(elapsed);
-            Append(", \"delta\": ");
-            Append(simulation.PredictionError);
-            Append(", \"sphere\": {");
-            int first = _parameters.LogSpheres == LoggedSpheres.Last ? state.ElementCount : 0;
-            for (int i = first; i < state.SphereCount; i++)
+            Append("\": {");
+            _isFirst = true;
+            AppendTable(_ofWire);
+            for (int k = 0; k < _moment.Catheters.Count; k++)
             {
-                Append(i == first ? "\"" : ", \"");
-                Append(i);
-                Append("\": {");
-                Append("\"x\": ", state.Positions[i].X);
-                Append(", \"y\": ", state.Positions[i].Y);
-                Append(", \"z\": ", state.Positions[i].Z);
-                Append(", \"vx\": ", state.Velocities[i].X);
-                Append(", \"vy\": ", state.Velocities[i].Y);
-                Append(", \"vz\": ", state.Velocities[i].Z);
-                Append("}");
+                _moment.CatheterIndex = k;
+                Append(k == 0 ? ", \"catheters\": [{" : "}, {");
+                _isFirst = true;
+                AppendMembers(_ofCatheter, 0, _ofCatheter.Count);
             }
-            Append("}");
-            if (_parameters.LogOrientations)
-            {
-                AppendOrientations(state);
-            }
-            if (_parameters.LogStrains)
-            {
-                AppendStress(simulation);
-            }
-            if (_parameters.Sheath != null)
-            {
-                Append(", \"inBody\": ");
-                Append(simulation.Hub()?.SpheresInBody ?? 0);
-            }
-            if (_parameters.LogHub && simulation.Hub() is HubRecord hub)
-            {
-                AppendHub(hub);
-            }
-            if (simulation.Coaxial() is CoaxialRecord catheter)
-            {
-                AppendCatheters(catheter, _parameters.LogContacts && simulation.Contacts != null);
-            }
-            if (_parameters.LogContacts && simulation.Contacts != null)
-            {
-                AppendContacts(simulation.Contacts);
-            }
-            Append("}");
+            Append(_moment.Catheters.Count > 0 ? "}]}" : "}");
             if (elapsed - _flushed > FlushAfter)
             {
                 _flushed = elapsed;
@@ -112,174 +80,131 @@ namespace Guidewire.Io
         /// <inheritdoc/>
         public override void Dispose() => _stream.Dispose();
 
-        private void AppendOrientations(RodState state)
+        // Rows of one group stand side by side, and so do rows of one key.
+        private void AppendTable(List<Quantity> table)
         {
-            Append(", \"orientation\": {");
-            for (int j = 0; j < state.ElementCount; j++)
+            for (int from = 0, to; from < table.Count; from = to)
             {
-                Append(j == 0 ? "\"" : ", \"");
-                Append(j);
-                Append("\": {");
-                Append("\"x\": ", state.Orientations[j].X);
-                Append(", \"y\": ", state.Orientations[j].Y);
-                Append(", \"z\": ", state.Orientations[j].Z);
-                Append(", \"w\": ", state.Orientations[j].W);
+                string group = table[from].Group;
+                for (to = from + 1; to < table.Count && table[to].Group == group; to++)
+                {
+                }
+                if (group.Length == 0)
+                {
+                    AppendMembers(table, from, to);
+                    continue;
+                }
+                _opens = group;
+                _isFirst = true;
+                AppendMembers(table, from, to);
+                Append(_opens == null ? "}" : "");
+                _opens = null;
+                _isFirst = false;
+            }
+        }
+
+        private void AppendMembers(List<Quantity> table, int from, int end)
+        {
+            for (int to; from < end; from = to)
+            {
+                string key = table[from].Key!;
+                for (to = from + 1; to < end && table[to].Key == key; to++)
+                {
+                }
+                AppendMember(table, from, to);
+            }
+        }
+
+        private void AppendMember(List<Quantity> table, int from, int to)
+        {
+            Quantity quantity = table[from];
+            ReadOnlySpan<double> numbers = quantity.Read(_moment);
+            if (numbers.Length == 0)
+            {
+                return;
+            }
+            AppendKey(quantity.Key!);
+            int width = quantity.Letters.Length;
+            switch (quantity.Form)
+            {
+                case QuantityForm.Value when width == 1 && quantity.Type == QuantityType.Whole:
+                    Append((int)numbers[0]);
+                    break;
+                case QuantityForm.Value when width == 1:
+                    Append(numbers[0]);
+                    break;
+                case QuantityForm.Value:
+                    AppendObject(quantity, numbers, true);
+                    Append("}");
+                    break;
+                case QuantityForm.Rows:
+                    for (int i = 0; i < numbers.Length; i++)
+                    {
+                        Append(i == 0 ? "[[" : i % width == 0 ? "], [" : ", ");
+                        Append(numbers[i]);
+                    }
+                    Append("]]");
+                    break;
+                default:
+                    AppendRows(table, from, to, numbers);
+                    break;
+            }
+        }
+
+        // The rows of quantities that share a key are one object each.
+        private void AppendRows(List<Quantity> table, int from, int to, ReadOnlySpan<double> numbers)
+        {
+            int width = table[from].Letters.Length;
+            int shift = table[from].Place == QuantityPlace.Node && table[from].Form == QuantityForm.ByIndex
+                ? _moment.FirstSphere : 0;
+            bool isFirst = true;
+            Append("{");
+            for (int i = 0; i < numbers.Length / width; i++)
+            {
+                ReadOnlySpan<double> row = numbers.Slice(i * width, width);
+                if (table[from].Form == QuantityForm.Nonzero && row[0] == 0.0 && row[1] == 0.0 && row[2] == 0.0)
+                {
+                    continue;
+                }
+                Append(isFirst ? "\"" : ", \"");
+                Append(shift + i);
+                Append("\": ");
+                isFirst = false;
+                AppendObject(table[from], row, true);
+                for (int k = from + 1; k < to; k++)
+                {
+                    int own = table[k].Letters.Length;
+                    AppendObject(table[k], table[k].Read(_moment).Slice(i * own, own), false);
+                }
                 Append("}");
             }
             Append("}");
         }
 
-        private void AppendStress(Simulation simulation)
+        private void AppendObject(Quantity quantity, ReadOnlySpan<double> row, bool begins)
         {
-            StressRecord? stress = simulation.Stress();
-            if (stress == null)
+            for (int k = 0; k < row.Length; k++)
             {
-                return;
-            }
-            Append(", \"stress\": {\"kineticEnergy\": ", stress.KineticEnergy);
-            Append(", \"elasticEnergy\": ", stress.ElasticEnergy);
-            Append(", \"potentialEnergy\": ", stress.PotentialEnergy);
-            Append(", \"curvature\": ", stress.Curvature);
-            Append(", \"couple\": ", stress.Couple);
-            Append(", \"strain\": ", stress.Strain);
-            Append(", \"force\": ", stress.Force);
-            Append(", \"angularVelocity\": ", simulation.State.AngularVelocities);
-            Append("}");
-        }
-
-        private void AppendHub(HubRecord hub)
-        {
-            Append(", \"hub\": {\"insertion\": ", hub.Insertion);
-            Append(", \"turn\": ", hub.Turn);
-            Append(", \"force\": ", hub.Force);
-            Append(", \"torque\": ", hub.Torque);
-            Append(", \"tipDirection\": ", hub.TipDirection);
-            Append(", \"twist\": ", hub.Twist);
-            Append(", \"largestCurvature\": ", hub.LargestCurvature);
-            if (hub.LengthInBody is double length)
-            {
-                Append(", \"lengthInBody\": ", length);
-            }
-            Append("}");
-        }
-
-        private void AppendCatheters(CoaxialRecord outermost, bool hasContacts)
-        {
-            Append(", \"catheters\": [{");
-            for (CoaxialRecord? one = outermost; one != null; one = one.Inside)
-            {
-                AppendCatheter(one, hasContacts);
-                Append(one.Inside == null ? "}]" : "}, {");
+                Append(begins && k == 0 ? "{\"" : ", \"");
+                Append(quantity.Letters[k]);
+                Append("\": ");
+                Append(row[k]);
             }
         }
 
-        private void AppendCatheter(CoaxialRecord catheter, bool hasContacts)
+        private void AppendKey(string key)
         {
-            Append("\"sphere\": ", catheter.Positions);
-            if (_parameters.LogOrientations)
+            if (_opens != null)
             {
-                Append(", \"orientation\": ");
-                for (int j = 0; j < catheter.Orientations.Length; j++)
-                {
-                    Quaterniond q = catheter.Orientations[j];
-                    Append(j == 0 ? "[[" : ", [", q.X);
-                    Append(", ", q.Y);
-                    Append(", ", q.Z);
-                    Append(", ", q.W);
-                    Append("]");
-                }
-                Append("]");
+                Append(", \"");
+                Append(_opens);
+                Append("\": {");
+                _opens = null;
             }
-            Append(", \"extension\": ", catheter.Extension);
-            if (_parameters.LogHub)
-            {
-                Append(", \"insertion\": ", catheter.Insertion);
-                Append(", \"turn\": ", catheter.Turn);
-                Append(", \"force\": ", catheter.Force);
-                Append(", \"torque\": ", catheter.Torque);
-            }
-            if (hasContacts)
-            {
-                Append(", \"contactForces\": ", catheter.ContactForces);
-            }
-            if (hasContacts && catheter.WallDisplacements.Length > 0)
-            {
-                Append(", \"wallDisplacements\": ", catheter.WallDisplacements);
-            }
-        }
-
-        private void Append(string name, Vector3d[] values)
-        {
-            Append(name);
-            for (int i = 0; i < values.Length; i++)
-            {
-                Append(i == 0 ? "[[" : ", [", values[i].X);
-                Append(", ", values[i].Y);
-                Append(", ", values[i].Z);
-                Append("]");
-            }
-            Append("]");
-        }
-
-        private void AppendContacts(ContactRecord contacts)
-        {
-            Append(", \"contact\": {\"total\": ", contacts.Total);
-            Append(", \"reaction\": ", contacts.Reaction);
-            Append(", \"sphere\": ");
-            AppendNonzero(contacts.Forces);
-            for (int w = 0; w < contacts.WallForces.Length; w++)
-            {
-                Append(w == 0 ? ", \"wall\": {\"0\": " : ", \"" + w + "\": ", contacts.WallForces[w]);
-            }
-            Append(contacts.WallForces.Length > 0 ? "}" : "");
-            if (contacts.ElementForces.Length > 0)
-            {
-                Append(", \"totalMean\": ", contacts.MeanTotal);
-                Append(", \"reactionAtEnd\": ", contacts.ReactionAtEnd);
-                Append(", \"pressure\": ", contacts.Pressure);
-                Append(", \"element\": ");
-                AppendNonzero(contacts.ElementForces);
-            }
-            if (contacts.Displacements.Length > 0)
-            {
-                Append(", \"largestDisplacement\": ", contacts.LargestDisplacement);
-                Append(", \"meanDisplacement\": ", contacts.MeanDisplacement);
-                Append(", \"displacement\": ");
-                AppendNonzero(contacts.Displacements);
-            }
-            Append("}");
-        }
-
-        private void AppendNonzero(Vector3d[] forces)
-        {
-            Append("{");
-            bool first = true;
-            for (int i = 0; i < forces.Length; i++)
-            {
-                if (forces[i] != Vector3d.Zero)
-                {
-                    Append(first ? "\"" : ", \"");
-                    Append(i);
-                    Append("\": ", forces[i]);
-                    first = false;
-                }
-            }
-            Append("}");
-        }
-
-        private void Append(string name, in Vector3d value)
-        {
-            Append(name);
-            Append("{\"x\": ", value.X);
-            Append(", \"y\": ", value.Y);
-            Append(", \"z\": ", value.Z);
-            Append("}");
-        }
-
-        private void Append(string name, double value)
-        {
-            Append(name);
-            Append(value);
+            Append(_isFirst ? "\"" : ", \"");
+            Append(key);
+            Append("\": ");
+            _isFirst = false;
         }
 
         private void Append(string ascii)

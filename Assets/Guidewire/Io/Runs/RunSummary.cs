@@ -33,6 +33,8 @@ namespace Guidewire.Io
         internal static string Text(Simulation simulation, ParameterHandler handler, StepTimes times, double setUpTime,
             double wallTime, int? repeat, string? log, IReadOnlyList<string> notes, TargetRecord? target)
         {
+            var moment = new Moment();
+            moment.Take(simulation);
             var json = new JObject
             {
                 ["outcome"] = Word(simulation.Outcome),
@@ -51,7 +53,7 @@ namespace Guidewire.Io
                 ["maxPenetration"] = Finite(simulation.Contacts?.MaxPenetration ?? 0.0),
                 ["driveAsked"] = Finite(simulation.Contacts?.DriveAsked ?? double.NaN),
                 ["driveShortfall"] = Finite(simulation.Contacts?.DriveShortfall ?? 0.0),
-                ["hub"] = simulation.Hub() is HubRecord hub ? Hub(hub, simulation.State) : null,
+                ["hub"] = moment.Hub == null ? null : Quantities.Summary(Quantities.OfWire, "hub", moment),
                 ["largestContactForce"] = Finite(simulation.Contacts?.LargestForce ?? 0.0),
                 ["largestWallForce"] = Finite(simulation.Contacts?.LargestTotal ?? 0.0),
                 ["wallForces"] = new JArray(Array.ConvertAll(
@@ -76,7 +78,7 @@ namespace Guidewire.Io
                 ["parameterHash"] = notes.Count == 0 ? handler.Hash : null,
                 ["complete"] = true,
             };
-            IReadOnlyList<CoaxialRecord> catheters = simulation.Catheters();
+            IReadOnlyList<CoaxialRecord> catheters = moment.Catheters;
             if (catheters.Count > 0)
             {
                 CoaxialRecord first = catheters[0];
@@ -87,7 +89,7 @@ namespace Guidewire.Io
                     hubs.Add(HubTravel(one.CommandedDisplacement, one.Displacement, one.Shortfall));
                 }
                 json.Property("hub")!.AddAfterSelf(new JProperty("hubs", hubs));
-                json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(catheters.Select(Catheter))));
+                json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(catheters.Select((one, k) => Catheter(moment, k)))));
             }
             if (target != null)
             {
@@ -151,22 +153,10 @@ namespace Guidewire.Io
             };
         }
 
-        /// <summary>What is read off at the hub and the tip, as summaries and answers have it.</summary>
-        internal static JObject Hub(HubRecord hub, RodState state)
+        private static JObject Catheter(Moment moment, int index)
         {
-            return new JObject
-            {
-                ["insertion"] = Finite(hub.Insertion),
-                ["turn"] = Finite(hub.Turn),
-                ["force"] = Finite(hub.Force),
-                ["torque"] = Finite(hub.Torque),
-                ["tipPosition"] = Vector(state.Positions[state.ElementCount]),
-                ["tipDirection"] = Vector(hub.TipDirection),
-                ["twist"] = Finite(hub.Twist),
-                ["largestCurvature"] = Finite(hub.LargestCurvature),
-                ["lengthInBody"] = hub.LengthInBody,
-                ["spheresInBody"] = hub.SpheresInBody,
-            };
+            moment.CatheterIndex = index;
+            return Quantities.Summary(Quantities.OfCatheter, "catheters", moment);
         }
 
         private static JObject HubTravel(double asked, double gone, double shortfall)
@@ -176,30 +166,6 @@ namespace Guidewire.Io
                 ["asked"] = Finite(asked),
                 ["gone"] = Finite(gone),
                 ["shortfall"] = Finite(shortfall),
-            };
-        }
-
-        /// <summary>Results of a catheter in the format of summaries and answers.</summary>
-        internal static JObject Catheter(CoaxialRecord catheter)
-        {
-            Vector3d[] nodes = catheter.Positions;
-            return new JObject
-            {
-                ["insertion"] = Finite(catheter.Insertion),
-                ["turn"] = Finite(catheter.Turn),
-                ["force"] = Finite(catheter.Force),
-                ["torque"] = Finite(catheter.Torque),
-                ["tipPosition"] = Vector(nodes[nodes.Length - 1]),
-                ["tipDirection"] = Vector(catheter.Orientations[catheter.Orientations.Length - 1].Director3),
-                ["extension"] = Finite(catheter.Extension),
-                ["overlap"] = Finite(catheter.Overlap),
-                ["playAngle"] = Finite(catheter.PlayAngle),
-                ["playLength"] = Finite(catheter.PlayLength),
-                ["lengthNotCoupled"] = Finite(catheter.LengthLost),
-                ["overlapAngle"] = Finite(catheter.OverlapAngle),
-                ["lumenFriction"] = Finite(catheter.FrictionCoefficient),
-                ["frictionForce"] = Finite(catheter.FrictionForce),
-                ["frictionHeldPerCoefficient"] = Finite(catheter.FrictionHeld),
             };
         }
 
