@@ -59,3 +59,28 @@ WIRE, CATHETER, LUMEN = (_table(name) for name in ("wire", "catheter", "lumen"))
 def catheter_name(name: str, number: int) -> str:
     """Return the name of a catheter's array in a log; number 0 is the outermost one."""
     return f"catheter{number + 1 if number else ''}{name[0].upper()}{name[1:]}"
+
+
+_SHAPES = {"run": "", "node": "n + 1", "element": "n", "joint": "n + 1", "wall": "walls"}
+_SWITCHES = {"always": "every log", "never": "", "sheath": "a sheath"}
+
+
+def to_markdown() -> str:
+    """Return the table as docs/quantities.md has it."""
+    return "\n\n".join(f"## {title}\n\n{_to_markdown(rows)}" for title, rows in (
+        ("Of the wire", WIRE), ("Of a catheter", CATHETER), ("Of the place in a vessel", LUMEN)))
+
+
+def _to_markdown(rows: tuple[Quantity, ...]) -> str:
+    lines = ["| array | shape | unit | in logs with | json log | answer | summary.json | meaning |", "|---" * 8 + "|"]
+    for row in rows:
+        shape = ", ".join(part for part in (_SHAPES[row.place], str(row.width) if row.width > 1 else "") if part)
+        switch = _SWITCHES.get(row.switch, f"`log{row.switch.title()}`")
+        places = (f"{row.group}.{row.key}" if row.group else row.key, row.answer,
+                  f"{row.group}.{row.summary}" if row.summary else None)
+        if row.key is None:
+            places = (None, *places[1:])
+        cells = [f"`{row.name}`", shape, "-" if row.unit == "1" else row.unit, switch,
+                 *(f"`{place}`" if place else "" for place in places), row.help]
+        lines.append("| " + " | ".join(cells) + " |")
+    return "\n".join(lines)

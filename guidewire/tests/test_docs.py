@@ -15,6 +15,7 @@ import pytest
 from guidewire.commands.arguments import value_of
 from guidewire.commands.commands import parse
 from guidewire.prepare import ROOT
+from guidewire.quantities import CATHETER, WIRE, catheter_name, to_markdown
 from guidewire.runs.runner import Checked, Request
 from guidewire.sessions.session import State
 from guidewire.studies.study_file import KEYS
@@ -115,7 +116,7 @@ def test_every_module_that_a_page_runs_is_there_and_every_script_compiles():
         modules |= set(re.findall(r"python3 -m ([a-z][\w.]*)", text))
         for block in blocks(text, "python"):
             compile(block, page.name, "exec")
-    assert "tools.prose" in modules and len(modules) > 5
+    assert "experiments.campaigns.push_campaign" in modules and len(modules) > 5
     assert [name for name in modules if importlib.util.find_spec(name) is None] == []
 
 
@@ -178,6 +179,14 @@ def test_the_table_of_keys_is_the_runners_own(runner_command):
     assert block.group(1) == keys, "put the output of the runner's --keys between the two marks of docs/parameters.md"
 
 
+def test_the_table_of_quantities_is_the_runners_own(runner_command):
+    table = subprocess.run([*runner_command, "--quantities"], capture_output=True, text=True, check=True).stdout
+    assert (ROOT / "guidewire" / "quantities.json").read_text(encoding="utf-8") == table, "copy what --quantities prints"
+    text = (ROOT / "docs" / "quantities.md").read_text(encoding="utf-8")
+    block = re.search(r"<!-- quantities -->\n(.*)\n<!-- /quantities -->", text, re.DOTALL)
+    assert block.group(1) == to_markdown(), "put guidewire.quantities.to_markdown() between the marks"
+
+
 def test_the_table_of_warnings_is_the_runners_own(runner_command):
     warnings = subprocess.run([*runner_command, "--warnings"], capture_output=True, text=True, check=True).stdout
     block = re.search(r"<!-- warnings -->\n(.*)<!-- /warnings -->", RUNS, re.DOTALL)
@@ -222,17 +231,18 @@ def test_every_key_of_a_log_is_explained(live, tmp_path):
     entry = json.loads((folder / "positions.json").read_text())["1"]
     hub = run(live, tmp_path / "hub", {**_SHEATHED, "logHub": True, "logContacts": True})
     entry |= json.loads((hub / "positions.json").read_text())["0"]
-    documented = section(RUNS, "### positions.json")
-    assert set(entry) <= set(table_keys(documented))
-    for inner in (*entry["sphere"]["0"], *entry["orientation"]["0"], *entry["contact"], *entry["hub"]):
-        assert f"`{inner}`" in documented
+    documented = {row.key for row in WIRE if not row.group} | {row.group for row in WIRE} | {"catheters"}
+    assert set(entry) <= documented
+    for group in ("contact", "hub"):
+        assert {*entry[group]} <= {row.key for row in WIRE if row.group == group}
 
 
 def test_every_array_of_a_log_is_explained(live, tmp_path):
-    documented = set(table_keys(section(RUNS, "### positions.npz")))
+    documented = ({row.name for row in WIRE if row.switch != "never"}
+                  | {catheter_name(row.name, 0) for row in CATHETER if row.switch != "never"})
     found = set()
     soft = {"logContacts": True, "vessel.wallStiffness": 1e5}
-    scenes = (("sheath", soft), ("cantilever", {"logStrains": True}), ("catheter", {"logHub": True}))
+    scenes = (("sheath", soft), ("cantilever", {"logStrains": True}), ("catheter", {"logHub": True, **soft}))
     for k, (scene, changes) in enumerate(scenes):
         folder = run(live, tmp_path / str(k), ROOT / f"params/{scene}.json", maxSimulationSteps=1,
                      logFormat="npz", logOrientations=True, **changes)

@@ -18,7 +18,7 @@ def _write(folder, with_stress=True):
         "kineticEnergy": 1.0 * k, "elasticEnergy": 2.0, "potentialEnergy": -1.0 * k,
         "curvature": [[3.0 * k, 4.0 * k, 0.5]] * (N + 1), "couple": [[0.0, 0.0, 0.1 * i] for i in range(N + 1)],
         "strain": [[0.0, 0.0, 1e-3]] * N, "force": [[0.0, 1.0 * j, 0.0] for j in range(N)],
-        "angularVelocity": [[0.0, 0.0, 7.0]] * N}} for k in range(ENTRIES)]
+        "angularVelocities": [[0.0, 0.0, 7.0]] * N}} for k in range(ENTRIES)]
     write_log(folder, [[(0.0, 0.1 * k * i * i, 2.0 * i) for i in range(N + 1)] for k in range(ENTRIES)], 0.1,
               stresses if with_stress else ())
 

@@ -170,3 +170,18 @@ def test_a_zip_of_something_else_and_one_that_is_broken_are_one_line(make, tmp_p
     log.write_bytes(content)
     with pytest.raises(LogError, match="positions.npz"):
         list(read_entries(log))
+
+
+@pytest.mark.parametrize("kind", ["json", "npz"])
+def test_logs_of_older_versions_have_the_same_quantities(make, tmp_path, kind):
+    folder = make(tmp_path, MATERIAL, logFormat=kind)
+    expected = read_stress(folder).angular_velocity
+    log = folder / f"positions.{kind}"
+    if kind == "json":
+        log.write_text(log.read_text().replace("angularVelocities", "angularVelocity"))
+    else:
+        with np.load(log) as arrays:
+            old = {name.replace("Velocities", "Velocity"): arrays[name] for name in arrays.files}
+        np.savez(log, **old)
+    assert expected.any()
+    assert read_stress(folder).angular_velocity.tobytes() == expected.tobytes()

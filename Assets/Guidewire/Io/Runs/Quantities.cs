@@ -21,7 +21,7 @@ namespace Guidewire.Io
                 .Typed(QuantityType.Exact).Json("totalTime"),
             Number("elapsedMilliseconds", "ms", "wall time since the start of the run", QuantitySwitch.Always,
                 m => m.Of(m.Elapsed)).Typed(QuantityType.Exact).Json("elapsedMilliseconds"),
-            Number("delta", "units", "prediction error of the last step; 0 with a material", QuantitySwitch.Always,
+            Number("delta", "units", "how far the step moved the last sphere from where it was predicted; 0 with a material", QuantitySwitch.Always,
                 m => m.Of(m.Simulation.PredictionError)).Typed(QuantityType.Exact).Json("delta"),
             Number("firstSphere", "1", "index of the first sphere that the entry has", QuantitySwitch.Always,
                 m => m.Of(m.FirstSphere)).Typed(QuantityType.Whole),
@@ -60,7 +60,7 @@ namespace Guidewire.Io
                 m => Moment.Of(m.State.AngularVelocities)).Json("stress.angularVelocities")
                 .InAnswer(StatePart.Motion),
 
-            Number("inBody", "1", "spheres that are out of the sheath", QuantitySwitch.Sheath,
+            Number("inBody", "1", "spheres, counted from the last, that are out of the sheath", QuantitySwitch.Sheath,
                 m => m.Of(m.Hub?.SpheresInBody ?? 0)).Typed(QuantityType.Whole).Json("inBody"),
             OfHub("hubInsertion", "m", "insertion of the hub since the start", h => h.Insertion, "insertion"),
             OfHub("hubTurn", "rad", "rotation of the hub since the start", h => h.Turn, "turn"),
@@ -81,30 +81,35 @@ namespace Guidewire.Io
                 m => m.Of(m.Hub?.SpheresInBody)).Typed(QuantityType.Whole).InAnswer(StatePart.Instruments, "hub")
                 .InSummary("hub", "spheresInBody"),
 
-            OfContacts("contactTotal", "N", "sum of the walls' forces on the spheres", c => c.Total, "contact.total"),
+            OfContacts("contactTotal", "N", "force of the walls in all", c => c.Total, "contact.total"),
             OfContacts("reaction", "N", "force of the held first sphere on the wire; with direct its mean over the step",
                 c => c.Reaction, "contact.reaction").InAnswer(StatePart.Motion),
-            Vectors("contactForces", QuantityPlace.Node, "N", "force of the walls on each sphere",
+            Vectors("contactForces", QuantityPlace.Node, "N",
+                "force of the walls on each sphere; that on an element is divided between its two spheres; of "
+                + "instruments in one another the outermost one at a place has it",
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.Forces))
                 .Json("contact.sphere", QuantityForm.Nonzero).InAnswer(StatePart.Motion),
-            Vectors("wallForces", QuantityPlace.Wall, "N", "force of each wall on the wire along its normals",
+            Vectors("wallForces", QuantityPlace.Wall, "N",
+                "force of each wall on the wire along its normals, the vessel first",
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.WallForces))
                 .Json("contact.wall", QuantityForm.ByIndex),
-            OfContacts("contactTotalMean", "N", "mean of contactTotal over the step", c => c.MeanTotal,
+            OfContacts("contactTotalMean", "N", "mean of contactTotal over the step, to be compared with reaction", c => c.MeanTotal,
                 "contact.totalMean", needsElements: true),
-            OfContacts("reactionAtEnd", "N", "reaction at the end of the step", c => c.ReactionAtEnd,
+            OfContacts("reactionAtEnd", "N", "reaction at the end of the step, to be compared with contactTotal", c => c.ReactionAtEnd,
                 "contact.reactionAtEnd", needsElements: true),
             Number("wallPressure", "Pa", "largest pressure on an element, over its length and diameter",
                 QuantitySwitch.Contacts,
                 m => m.Contacts?.ElementForces.Length > 0 ? m.Of(m.Contacts!.Pressure) : default)
                 .Json("contact.pressure"),
-            Vectors("elementForces", QuantityPlace.Element, "N", "normal force of the walls on each element",
+            Vectors("elementForces", QuantityPlace.Element, "N",
+                "normal force of the walls on each element; that on a sphere is divided between its two elements",
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.ElementForces))
                 .Json("contact.element", QuantityForm.Nonzero),
             OfSoftWalls("largestDisplacement", "largest displacement of soft walls", c => c.LargestDisplacement),
             OfSoftWalls("meanDisplacement", "mean displacement of soft walls over all contacts with them",
                 c => c.MeanDisplacement),
-            Vectors("wallDisplacements", QuantityPlace.Element, "m", "displacement of soft walls at each element",
+            Vectors("wallDisplacements", QuantityPlace.Element, "m", 
+                "displacement of soft walls at each element, of the contact where it is largest",
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.Displacements))
                 .Json("contact.displacement", QuantityForm.Nonzero).InAnswer(StatePart.Motion),
         };
