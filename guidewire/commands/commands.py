@@ -20,7 +20,7 @@ from guidewire.commands.making import build_runner, make, means_of, runner_of, t
 from guidewire.commands.progress import tell_frames
 from guidewire.prepare import INSTALLED, ROOT, PreparationError
 from guidewire.runs import building, checking
-from guidewire.runs.process import hand_to
+from guidewire.runs.process import code_for_shell, hand_to
 from guidewire.runs.runner import FAILED
 from guidewire.runs.whole_files import whole_file, write_whole
 
@@ -303,7 +303,7 @@ def _modes(arguments: argparse.Namespace) -> int:
     command = [*build_runner(), "--modes", str(arguments.file), str(arguments.count)]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
     if done.returncode != 0:
-        return done.returncode
+        return code_for_shell(done.returncode)
     modes = json.loads(done.stdout)
     for number, frequency in enumerate(modes["frequencies"], 1):
         print(f"mode {number}: {frequency:.6g} Hz")

@@ -11,6 +11,7 @@ from typing import Any
 
 from guidewire.env.environment import Environment
 from guidewire.env.spaces import ClosedEnvironmentError, Error
+from guidewire.runs.process import how_it_ended
 
 try:
     import cloudpickle
@@ -112,12 +113,13 @@ class Processes:
             return pipe.recv()
         except (EOFError, OSError):
             process.join(timeout=10.0)
+            code = process.exitcode
+            process.kill()
             self._workers[number] = None
             pipe.close()
-        if process.exitcode == _WITHOUT_GUARD:
+        if code == _WITHOUT_GUARD:
             return Error(_GUARD)
-        code = process.exitcode or 0
-        how = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
+        how = "it closed its pipe and does not end" if code is None else how_it_ended(code)
         return ClosedEnvironmentError(f"process {number} of this environment has ended ({how}): reset() starts it anew")
 
 

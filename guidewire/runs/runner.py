@@ -18,6 +18,8 @@ from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
 
+from guidewire.runs.process import end_of
+
 BAD_INPUT = 2
 FAILED = 5  # something that was asked for is not there
 INTERNAL_ERROR = 70
@@ -167,8 +169,7 @@ class Runner:
         try:
             process = self._start()
             self._deadline = math.inf if seconds is None else time.monotonic() + seconds
-            process.stdin.write(ahead if self._ahead else line + ahead)
-            process.stdin.flush()
+            was_sent = self._send(process, ahead if self._ahead else line + ahead)
             self._ahead = ahead
             reply = process.stdout.readline()
         except OSError as error:
@@ -176,12 +177,26 @@ class Runner:
         finally:
             self._deadline = math.inf
         if self._too_late:
-            return self._died(request, f"took longer than its time limit of {seconds:g} s")
+            late = f"took longer than its time limit of {seconds:g} s" if was_sent else "it takes no requests"
+            return self._died(request, late)
+        if not reply.endswith("\n"):    # it has closed its output, perhaps within an answer
+            return self._died(request)
         try:
             answer = json.loads(reply)
         except ValueError:
             answer = None
         return answer if isinstance(answer, dict) else self._not_an_answer(request, reply)
+
+    def _send(self, process: subprocess.Popen[str], text: str) -> bool:
+        """Write to the process, and return whether it still reads. One that does not has died or is about to. The end
+        of its output will say so, as it does where it dies after we wrote."""
+        try:
+            process.stdin.write(text)
+            process.stdin.flush()
+            return True
+        except OSError:
+            self._deadline = min(self._deadline, time.monotonic() + _SECONDS_TO_END)
+            return False
 
     def _start(self) -> subprocess.Popen[str]:
         if self._process is None or self._process.poll() is not None:
@@ -189,7 +204,7 @@ class Runner:
             # A session of its own: Ctrl-C on the terminal reaches only us, and we pass it on once.
             self._process = subprocess.Popen(
                 self._command, stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True, encoding="utf-8",
-                start_new_session=True, cwd=self._folder,
+                errors="replace", start_new_session=True, cwd=self._folder,
             )
             self._too_late = False
             threading.Thread(target=self._watch, args=(self._process,), daemon=True).start()
@@ -204,15 +219,15 @@ class Runner:
             time.sleep(_POLL_INTERVAL)
 
     def _not_an_answer(self, request: Request, line: str) -> Answer:
-        return self._died(request, f"it wrote {line.strip()[:200]!r} instead of an answer" if line else "")
+        return self._died(request, f"it wrote {line.strip()[:200]!r} instead of an answer")
 
-    def _died(self, request: Request, why: str) -> Answer:
+    def _died(self, request: Request, why: str = "") -> Answer:
+        """Return that there is no answer: `why` this process is ended; without a reason how it has ended by itself."""
         process = self._process
         if process is None:
             return Answer(request.name, INTERNAL_ERROR, None, f"the runner did not start: {why}")
         if why:
             process.kill()
-        code = process.wait()
-        ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
+        ended = why or end_of(process, _SECONDS_TO_END)
         self.close()
-        return Answer(request.name, INTERNAL_ERROR, None, f"the runner died during this run ({why or ended})")
+        return Answer(request.name, INTERNAL_ERROR, None, f"the runner died during this run ({ended})")

@@ -22,6 +22,7 @@ import numpy as np
 from guidewire.installed import has_avx2
 from guidewire.prepare import DOOR, INSTALLED, ROOT, PreparationError
 from guidewire.runs import building
+from guidewire.runs.process import end_of
 from guidewire.sessions.session_state import PARTS, SessionError, part_of
 
 SECONDS_TO_END = 10.0
@@ -40,24 +41,29 @@ class Process:
     def __init__(self, command: Sequence[str]) -> None:
         # A session of its own: Ctrl-C reaches the script, which then closes this.
         self.process = subprocess.Popen([*command, "-lines"], stdin=subprocess.PIPE, stdout=subprocess.PIPE, text=True,
-                                        encoding="utf-8", start_new_session=True)
+                                        encoding="utf-8", errors="replace", start_new_session=True)
 
     def ask(self, line: str) -> dict[str, Any]:
         """Return the answer to a request. Raises Ended; what interrupts it, such as Ctrl-C, ends the runner."""
         try:
-            self.process.stdin.write(line + "\n")
-            self.process.stdin.flush()
-            answer = json.loads(self.process.stdout.readline() or "null")
-        except (OSError, ValueError):    # it is gone, and perhaps half of its answer is there
-            answer = None
+            try:
+                self.process.stdin.write(line + "\n")
+                self.process.stdin.flush()
+            except OSError:
+                pass    # it has died: the end of its output will say so
+            reply = self.process.stdout.readline()
         except BaseException:    # its answer would be taken for the next one's
             self.process.kill()
             raise
-        if answer is None:
+        if not reply.endswith("\n"):    # it is gone, and perhaps half of its answer is there
+            raise Ended(f"the runner of this session ended ({end_of(self.process, SECONDS_TO_END)})")
+        try:
+            answer = json.loads(reply)
+        except ValueError:
+            answer = None
+        if not isinstance(answer, dict):
             self.process.kill()
-            code = self.process.wait()
-            ended = f"killed by signal {-code}" if code < 0 else f"exit code {code}"
-            raise Ended(f"the runner of this session ended ({ended})")
+            raise Ended(f"the runner of this session wrote {reply.strip()[:200]!r} instead of an answer")
         return answer
 
     def kill(self) -> None:

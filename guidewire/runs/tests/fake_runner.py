@@ -1,7 +1,6 @@
 """A stand-in for the headless runner's lines mode: it simulates nothing and misbehaves as the request asks.
 
 `set` of a request steers it: {"die": code} ends the process before the answer, {"signal": number} kills it,
-{"dieLater": 1} ends it after the answer,
 {"babble": text} answers something that is no JSON, {"sleep": seconds} works for that long, {"until": file} works until
 that file is there, a minute at most, {"exitCode": code}
 fails in the ordinary way, {"lost": 1} leaves a summary that says that the log was lost; {"refused": text} is refused
@@ -76,8 +75,6 @@ def main(journal):
         with open(journal, "a") as file:
             file.write(json.dumps([os.getpid(), started, time.monotonic(), request]) + "\n")
         print(wish.get("babble") or json.dumps(answer), flush=True)
-        if "dieLater" in wish:
-            os._exit(1)
 
 
 if __name__ == "__main__":

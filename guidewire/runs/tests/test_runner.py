@@ -15,6 +15,7 @@ import pytest
 from guidewire.logs.logs import read_entries
 from guidewire.prepare import ROOT
 from guidewire.runs import runner
+from guidewire.runs.process import hand_to
 from guidewire.runs.runner import Checked, Request, Runner
 
 
@@ -115,10 +116,50 @@ def test_a_runner_that_cannot_be_started_fails_every_run(tmp_path):
     assert "did not start" in answers[0].message
 
 
-def test_a_runner_that_ends_at_once_fails_every_run(tmp_path):
-    answers = answers_of([sys.executable, "-c", "raise SystemExit(3)"], requests(tmp_path, {}, {}))
+class LateWriter(Runner):
+    """Writes when the process that it started has had the time to die."""
+
+    def _start(self):
+        process = super()._start()
+        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        return process
+
+
+ENDS = [("raise SystemExit(3)", "exit code 3"), ("import os; os.kill(os.getpid(), 9)", "killed by signal 9"),
+        ("import os; os.close(0); os.close(1); import time; time.sleep(0.2); os._exit(7)", "exit code 7")]
+
+
+@pytest.mark.parametrize("kind, program, how", [
+    *((LateWriter, program, how) for program, how in ENDS),
+    *((Runner, "import sys; sys.stdin.readline(); " + program, how) for program, how in ENDS),
+])
+def test_a_runner_that_ends_at_once_fails_every_run_and_says_how(tmp_path, kind, program, how):
+    """Whether it dies before or after the request is written must not matter."""
+    with closing(kind([sys.executable, "-c", program])) as one:
+        answers = [one.run(request) for request in requests(tmp_path, {}, {})]
     assert [answer.exit_code for answer in answers] == [runner.INTERNAL_ERROR] * 2
-    assert "exit code 3" in answers[0].message
+    assert [answer.message for answer in answers] == [f"the runner died during this run ({how})"] * 2
+
+
+def test_a_runner_that_is_lost_within_its_answer_says_how_it_ended(tmp_path):
+    program = "import os; os.write(1, b'{\"id\": 1, \\xff'); os._exit(4)"
+    (answer,) = answers_of([sys.executable, "-c", program], requests(tmp_path, {}))
+    assert answer.message == "the runner died during this run (exit code 4)"
+
+
+def test_a_runner_that_takes_no_requests_is_ended(tmp_path, monkeypatch):
+    monkeypatch.setattr(runner, "_SECONDS_TO_END", 0.5)
+
+    class Deaf(Runner):
+        def _start(self):
+            process = super()._start()
+            process.stdout.readline()    # it has closed its input by now
+            return process
+
+    program = "import os, time; os.close(0); print('closed', flush=True); time.sleep(60)"
+    with closing(Deaf([sys.executable, "-c", program])) as one:
+        (request,) = requests(tmp_path, {})
+        assert one.run(request).message == "the runner died during this run (it takes no requests)"
 
 
 def test_an_interrupt_ends_the_run_under_way(fake, tmp_path):
@@ -180,3 +221,12 @@ def steps_of(folder):
     steps = [{**step, "elapsedMilliseconds": 0.0} for _, step in read_entries(folder)]
     assert len(steps) == 61
     return steps
+
+
+@pytest.mark.parametrize("program, code, said", [
+    ("raise SystemExit(3)", 3, ""),
+    ("import os; os.kill(os.getpid(), 9)", 137, "guidewire: the program was killed by signal 9\n"),
+])
+def test_a_program_that_was_killed_is_said(capsys, program, code, said):
+    assert hand_to([sys.executable, "-c", program]) == code
+    assert capsys.readouterr().err == said

@@ -277,6 +277,27 @@ def test_a_runner_that_dies_is_said_and_leaves_no_process():
     assert process.poll() == 0
 
 
+@pytest.mark.parametrize("program, said", [
+    ("raise SystemExit(3)", r"ended \(exit code 3\)"),
+    ("import os, time; os.close(0); os.close(1); time.sleep(0.2); os._exit(7)", r"ended \(exit code 7\)"),
+    ("input(); print('{\"id\": ', end=''); raise SystemExit(4)", r"ended \(exit code 4\)"),
+    ("input(); print('Unhandled exception'); input()", "wrote 'Unhandled exception' instead of an answer"),
+])
+@pytest.mark.parametrize("is_late", [False, True])
+def test_a_runner_that_ends_at_once_says_how(monkeypatch, program, said, is_late):
+    """Whether it dies before or after the request is written must not matter."""
+    class Process(session_hosts.Process):
+        def __init__(self, command):
+            super().__init__(command)
+            if is_late and "input" not in program:
+                os.waitid(os.P_PID, self.process.pid, os.WEXITED | os.WNOWAIT)
+
+    monkeypatch.setattr(session_hosts, "Process", Process)
+    monkeypatch.setattr(building, "build", lambda *words: [sys.executable, "-c", program])
+    with pytest.raises(SessionError, match=said):
+        Session(**WIRE, native=False)
+
+
 def test_an_older_processor_takes_runners(monkeypatch):
     monkeypatch.setattr(session_hosts, "has_avx2", lambda: False)
     monkeypatch.setattr(building, "native_library", lambda: ROOT / "library.so")
