@@ -82,24 +82,28 @@ def candidates(scene: Values) -> list[Trial]:
 
 
 _DELAY = "relaxationTime"
-_SOFTNESS = ("wallStiffness", "softLimit", "tipLength", _DELAY, "modulus", "wallThickness", "lumenRadius",
-             "surroundingModulus", "regions")
+_FRICTION = {"frictionCoefficient": 0.0, "lumenFriction": 0.0}    # stated: else an instrument's own takes its place
+_SOFTNESS = dict.fromkeys(("wallStiffness", "softLimit", "tipLength", _DELAY, "modulus", "wallThickness", "lumenRadius",
+                           "surroundingModulus", "regions"))
+_SHEAR = ("shearFactor", "shearStiffness")
+_TWIST = ("shearModulus", "shearStiffness", "torsionalStiffness")
 _VARIED = ("solver", "integrator", "numberRodElements", "catheters", "timeStep", "constraintSolverSteps", "substeps",
            "elementContact", *_STIFFNESSES)
 
 
 def parts(scene: Values) -> list[Trial]:
     """The model's parts that the scene has, each left out or halved."""
+    of_wire = " of the wire" if scene.get("catheters") else ""
     found = [
         ("rod elements n, halved", _fewer(scene, 0.5)), ("time step, doubled", _stepped(scene, 2.0)),
         ("iterations m, halved", _over(scene, "constraintSolverSteps", 0.5)),
         ("substeps, halved", _over(scene, "substeps", 0.5)),
         ("gravity, left out", _without(scene, "gravity", [0.0, 0.0, 0.0])),
-        ("friction, left out", _without_members(scene, ("frictionCoefficient", "lumenFriction"))),
-        ("walls that give way, as rigid ones", _without_members(scene, _SOFTNESS)),
-        ("delay of walls that give way, left out", _without_members(scene, (_DELAY,))),
+        ("friction, left out", _with_members(scene, _FRICTION)),
+        ("walls that give way, as rigid ones", _with_members(scene, _SOFTNESS, ("vessel", "obstacles"))),
+        ("delay of walls that give way, left out", _with_members(scene, {_DELAY: 0.0})),
         ("twist by the drive, left out", _without(scene, "twistPerStep", 0.0)),
-        ("local element size, left out", _even(scene)),
+        (f"local element size{of_wire}, left out", _even(scene)),
         ("catheters, left out", {"catheters": []} if scene.get("catheters") else None),
     ]
     if scene["solver"] == "pbd":
@@ -112,8 +116,10 @@ def parts(scene: Values) -> list[Trial]:
         ]
     else:
         found += [
-            ("twist and shear stiffness, halved", {"shearModulus": 0.5 * scene["shearModulus"]}),
-            ("shear, left out", {"shearFactor": 100.0 * scene["shearFactor"]}),
+            (f"twist and shear stiffness{of_wire}, halved",
+             {"shearModulus": 0.5 * scene["shearModulus"], **_in_sections(scene, _TWIST, 0.5)}),
+            (f"shear{of_wire}, left out",
+             {"shearFactor": 100.0 * scene["shearFactor"], **_in_sections(scene, _SHEAR, 100.0)}),
             ("drag, left out", _without(scene, "massDamping", 0.0)),
             ("material damping, left out", _without(scene, "materialDamping", 0.0)),
             ("fourth-order clamp, left out", _without(scene, "clampRule", "halfElement")),
@@ -248,19 +254,28 @@ def _without(scene: Values, key: str, neutral: Any) -> dict[str, Any] | None:
     return {key: neutral} if key in scene and scene[key] != neutral else None
 
 
-def _without_members(scene: Values, members: Sequence[str]) -> dict[str, Any] | None:
-    """Vessel, obstacles and catheters without these members; None where none of them has any."""
+def _with_members(scene: Values, neutral: Values, holders: Sequence[str] = ("vessel", "obstacles", "catheters")
+                  ) -> dict[str, Any] | None:
+    """Walls and catheters whose members have their neutral values, or, of None, are not there; None where none of them
+    has another value."""
     def plain(part: Values) -> dict[str, Any]:
-        return {key: value for key, value in part.items() if key not in members}
+        made = {**part, **{key: neutral[key] for key in part if key in neutral}}
+        return {key: value for key, value in made.items() if key not in neutral or value is not None}
 
     changed: dict[str, Any] = {}
-    for key in ("catheters", "obstacles"):
-        if any(one.get(member) for one in scene.get(key) or () for member in members):
-            changed[key] = [plain(one) for one in scene[key]]
-    vessel = scene.get("vessel") or {}
-    if any(vessel.get(member) for member in members):
-        changed["vessel"] = plain(vessel)
+    for key in holders:
+        held = scene.get(key) or []
+        if any(one.get(member) for one in ([held] if isinstance(held, dict) else held) for member in neutral):
+            changed[key] = plain(held) if isinstance(held, dict) else [plain(one) for one in held]
     return changed or None
+
+
+def _in_sections(scene: Values, members: Sequence[str], factor: float) -> dict[str, Any]:
+    """Sections whose own values of these members are so many times as large; nothing where none has any."""
+    sections = scene.get("wireSections") or []
+    if not any(member in one for one in sections for member in members):
+        return {}
+    return {"wireSections": [{**one, **{key: factor * one[key] for key in members if key in one}} for one in sections]}
 
 
 def _even(scene: Values) -> dict[str, Any] | None:

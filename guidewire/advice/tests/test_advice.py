@@ -154,7 +154,7 @@ def test_parts_are_those_that_the_scene_has() -> None:
     rough = {"shape": "plane", "frictionCoefficient": 0.3}
     more = {**bare, "massDamping": 1.0, "vessel": rough, "wireSections": [{"from": 0, "to": 1, "numberRodElements": 4}]}
     changed = {trial.name: trial.changed for trial in trials.parts(more)}
-    assert changed["friction, left out"] == {"vessel": {"shape": "plane"}}
+    assert changed["friction, left out"] == {"vessel": {"shape": "plane", "frictionCoefficient": 0.0}}
     assert "walls that give way, as rigid ones" not in changed
     assert changed["local element size, left out"] == {"wireSections": []}
     assert "rod elements n, halved" not in changed and changed["drag, left out"] == {"massDamping": 0.0}
@@ -170,7 +170,7 @@ def test_soft_walls_are_tried_as_rigid_ones() -> None:
     assert changed["walls that give way, as rigid ones"] == {
         "vessel": {"shape": "mesh"}, "obstacles": [{"shape": "sphere", "frictionCoefficient": 0.1}]}
     delay = changed["delay of walls that give way, left out"]["vessel"]
-    assert delay == {key: value for key, value in soft.items() if key != "relaxationTime"}
+    assert delay == {**soft, "relaxationTime": 0.0}
 
 
 def test_elements_of_a_catheter_change_with_those_of_the_wire() -> None:
@@ -187,7 +187,7 @@ def test_elements_of_a_catheter_change_with_those_of_the_wire() -> None:
     assert tried == {(7, 6), (14, 12), (28, 25), (56, 50)}
     changed = {trial.name: trial.changed for trial in trials.parts(scene)}
     assert changed["catheters, left out"] == {"catheters": []}
-    assert changed["friction, left out"] == {"catheters": [{"start": 1.0, "elements": 25}]}
+    assert changed["friction, left out"] == {"catheters": [{"start": 1.0, "elements": 25, "lumenFriction": 0.0}]}
     few = {**scene, "catheters": [{"elements": 7}]}
     assert all(trial.changed.get("catheters", few["catheters"])[0]["elements"] >= 4 for trial in trials.candidates(few))
     own = {**scene, "catheters": [{"elements": 25, "wireSections": [{"numberRodElements": 5}]}]}
