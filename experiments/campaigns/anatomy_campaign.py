@@ -27,7 +27,7 @@ from analysis.passages import SAMPLES, Wall, sample_wire
 from analysis.wall_search import MeshSearch
 from experiments.campaigns import material_pushes
 from experiments.campaigns.push_campaign import CODES
-from experiments.campaigns.push_claims import contradictions
+from experiments.campaigns.push_claims import contradictions, null_claims
 from experiments.campaigns.results import Record
 from experiments.campaigns.runs import close, fill, folder_of, parser_of
 from guidewire.logs.logs import read_log
@@ -228,7 +228,8 @@ def _drive_claims(scene: dict[str, Any], summary: dict[str, Any], positions: np.
         claims.append(f"the hub went {insertion} m, asked for {least_insertion} to {most_insertion}")
     if not least_turn - 1e-6 <= turn <= most_turn + 1e-6:
         claims.append(f"the hub went {turn} rad, asked for {least_turn} to {most_turn}")
-    behind = _ELASTIC * scene["guidewireLength"] + (0.0 if slips else abs(summary["driveShortfall"]))
+    claims += null_claims(summary)
+    behind = _ELASTIC * scene["guidewireLength"] + (0.0 if slips else abs(summary["driveShortfall"] or 0.0))
     if is_whole and abs(gone - 1e3 * insertion) > behind:
         claims.append(f"node 0 went {gone} mm, the hub {1e3 * insertion}, driveShortfall = {summary['driveShortfall']}")
     return claims

@@ -9,7 +9,7 @@ import numpy as np
 
 from analysis.passages import SAMPLES, sample_wire
 from analysis.wall_search import Walls
-from experiments.campaigns.push_claims import contradictions
+from experiments.campaigns.push_claims import contradictions, null_claims
 from guidewire.logs.paths import lengths_of, through_tips
 
 SAME = 1e-9  # of the wire's radius
@@ -128,7 +128,9 @@ def _drive(scene: dict[str, Any], summary: dict[str, Any], positions: np.ndarray
     asked = _asked(scene, scene, steps)
     if abs(summary["driveAsked"] - asked) > OF_DISPLACEMENT * asked:
         claims.append(f"driveAsked = {summary['driveAsked']}, true is {asked}")
-    if "driveFile" in scene:  # of a way back and forth, what was not gone may have been made up for
+    claims += null_claims(summary)
+    # Of a way back and forth, what was not gone may have been made up for.
+    if "driveFile" in scene or summary["driveShortfall"] is None:
         return claims
     gone = positions[-1, 0, 2] - positions[0, 0, 2]
     elastic = OF_DISPLACEMENT * asked + 1e-5 * scene["guidewireLength"] * ("sheath" in scene)

@@ -129,7 +129,7 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
     claims += [f"warning: {warning}" for warning in summary["warnings"]
                if not any(words in warning for words in known)]
     return Push(seed, kind, claims, seconds, answer.outcome, summary["reason"], summary["reliable"], beyond,
-                summary["largestContactForce"] > TOUCH, overtakings)
+                (summary["largestContactForce"] or 0.0) > TOUCH, overtakings)
 
 
 def starts_in_a_wall(scene: dict[str, Any], walls: Walls) -> bool:

@@ -185,6 +185,11 @@ def test_the_check_finds_what_was_made_wrong():
     assert _broken(scene, {**trusted, "outcome": "diverged"}, positions) == ["reliable"]
     assert _broken(scene, {**summary, "maxPenetration": 1.0 + 1e-8}, positions) == ["maxPenetration"]
     assert _broken(scene, {**summary, "driveAsked": 0.5 * steps + 1e-7}, positions) == ["driveAsked"]
+    assert _broken(scene, {**summary, "driveShortfall": None}, positions)[0] == "driveShortfall is null"
+    lost = {**summary, "outcome": "diverged", "reason": "sphere 0 has no finite position at step 31", "warnings": [],
+            "driveAsked": 0.5 * (steps + 1), "driveShortfall": None}
+    assert _broken(scene, lost, positions) == []
+    assert _broken(scene, {**lost, "driveAsked": 0.5 * steps}, positions) == ["driveAsked"]
     assert _broken(scene, {**summary, "passages": 1}, positions) == ["passages"]
     frozen = positions.copy()
     frozen[5:, 2:4] = frozen[5, 2:4]
