@@ -235,8 +235,8 @@ def describe_default_run(study: Path) -> list[str]:
     relaxation = measure_relaxation(run, log.time, log.positions[:, 0])
     return [
         f"run: {run.outcome} after {log.final_step} steps ({log.final_step * run.number('timeStep'):.2f} s in-game)",
-        f"relaxation time tau = {relaxation.time:.4f} s (standard error of the fit {relaxation.time_error:.1g} s, "
-        f"{len(relaxation.peak_times)} peaks)",
+        f"relaxation time tau = {relaxation.time:.4f} s (standard error {relaxation.time_error:.1g} s, "
+        f"{len(relaxation.peak_times)} peaks; of the slowest mode alone {relaxation.slowest_time:.4f} s)",
         f"period = {relaxation.period:.3f} s",
         *([log.warning] if log.warning else []),
     ]

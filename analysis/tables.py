@@ -115,8 +115,9 @@ def read_table(folder: Path, key: str) -> StudyTable:
 
 
 def measure_relaxation(run: Run, time: np.ndarray, last_sphere: np.ndarray) -> Relaxation:
-    """Relaxation of a run's last sphere; ``last_sphere`` has shape (k, 3), in units."""
-    return fit_relaxation(time, relaxation_error(last_sphere, run.rest_positions[-1], run.displacement))
+    """Relaxation of a run's last sphere as the thesis has it; ``last_sphere`` has shape (k, 3), in units."""
+    error = relaxation_error(last_sphere, run.rest_positions[-1], run.displacement)
+    return fit_relaxation(time, error, as_published=True)
 
 
 def _measure(run: Run, repeats: Sequence[Run], value: float) -> StudyRow:

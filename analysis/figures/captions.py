@@ -235,7 +235,9 @@ def _closed_form(table: StudyTable) -> str:
     off = f"{percent(np.nanmax(np.abs(tau)))} of τ"
     if np.any(np.isfinite(steady)):
         off += f" and within {percent(np.nanmax(np.abs(steady)))} of the time to the steady state"
-    return f"Grey: the slowest mode in closed form, without a fit; it is within {off}."
+    own = np.abs(table.column("relaxation.slowest_time") / table.column("relaxation.time") - 1.0)
+    return f"Grey: the slowest mode in closed form, without a fit; it is within {off}. Fitted to all samples from a " \
+           f"period after the first peak on, that mode has a τ within {percent(np.nanmax(own))} of that of the peaks."
 
 
 def _end_of_run(table: StudyTable) -> str:

@@ -2,15 +2,18 @@
 
 from __future__ import annotations
 
+import warnings
+
 import numpy as np
 import pytest
 
-from analysis.relaxation import RelaxationError, fit_relaxation, relaxation_error
+from analysis.relaxation import Relaxation, RelaxationError, RelaxationWarning, fit_relaxation, relaxation_error
 from analysis.tests.chain import Chain
+from analysis.tests.test_slowest_mode import mode_of, slowest_factor
 
 
-def measured(chain: Chain):
-    return fit_relaxation(chain.time, np.abs(chain.z[:, -1] - chain.rest[-1] - chain.displacement))
+def measured(chain: Chain, **options):
+    return fit_relaxation(chain.time, np.abs(chain.z[:, -1] - chain.rest[-1] - chain.displacement), **options)
 
 
 def test_envelope_of_a_damped_oscillation_is_found() -> None:
@@ -84,9 +87,9 @@ def test_distance_is_measured_along_the_displacement() -> None:
 
 
 def test_default_run_relaxes_in_0_297_s_with_a_period_of_0_24_s(default_chain: Chain) -> None:
-    fit = measured(default_chain)
-    assert fit.time == pytest.approx(0.297, rel=0.01)
-    assert fit.period == pytest.approx(0.24, abs=0.005)  # two digits are given
+    for fit in (measured(default_chain, as_published=True), measured(default_chain)):
+        assert fit.time == pytest.approx(0.297, rel=0.01)
+        assert fit.period == pytest.approx(0.24, abs=0.005)  # two digits are given
 
 
 @pytest.mark.parametrize(
@@ -102,7 +105,62 @@ def test_default_run_relaxes_in_0_297_s_with_a_period_of_0_24_s(default_chain: C
     ],
 )
 def test_relaxation_time_of_the_studies(changed: dict, tau: float) -> None:
-    assert measured(Chain(**changed)).time == pytest.approx(tau, rel=0.01)
+    """Peaks between samples give the same to 1 %, but 2.8 % less at n = 10, where a period has 14 samples."""
+    chain = Chain(**changed)
+    published, fit = measured(chain, as_published=True), measured(chain)
+    assert published.time == pytest.approx(tau, rel=0.01)
+    expected = 0.972 * tau if changed == {"elements": 10} else tau
+    assert fit.time == pytest.approx(expected, rel=0.01)
+    for one in (fit, published):
+        assert_honest(one, chain)
+
+
+def assert_honest(fit: Relaxation, chain: Chain) -> None:
+    """Against the slowest eigenvalue of the sweeps, which no fit has seen."""
+    true = -2.0 * chain.time_step / np.log(slowest_factor(chain))
+    assert abs(fit.time - true) < 2.0 * fit.time_error
+    assert fit.slowest_time == pytest.approx(true, rel=1e-3)
+
+
+@pytest.mark.parametrize("gain", np.linspace(0.1, 1.0, 8)[1:])
+def test_few_samples_a_period_cost_no_accuracy(gain: float) -> None:
+    """16 samples a period at the smallest gain, 6 at the largest. The largest samples are up to 19 % off, and say so.
+
+    The closed form has a mean link for the chain's, which costs it 0.15 % here."""
+    chain = Chain(stretch_gain=gain, most_steps=300)
+    fit, published = measured(chain), measured(chain, as_published=True)
+    closed = mode_of(chain).relaxation_time
+    assert fit.time == pytest.approx(closed, rel=2e-3) and fit.time_error < 2e-3 * closed
+    assert fit.period == pytest.approx(mode_of(chain).period, rel=2e-3)
+    assert_honest(fit, chain)
+    assert_honest(published, chain)
+
+
+@pytest.mark.parametrize("samples", [4.5, 5.0, 6.3, 7.0, 9.1, 14.0])
+def test_an_oscillation_is_found_whatever_the_phase_of_its_samples(samples: float) -> None:
+    for phase in (0.0, 0.7, 1.9):
+        time = 0.01 * np.arange(60)
+        motion = np.exp(-time / 0.08) * np.cos(2.0 * np.pi * time / (0.01 * samples) + phase)
+        fit = fit_relaxation(time, np.abs(motion))
+        assert fit.time == pytest.approx(0.08, rel=1e-6) and fit.period == pytest.approx(0.01 * samples, rel=1e-6)
+
+
+def test_the_error_is_that_of_noise() -> None:
+    """Of 60 fits to noisy samples 95 % of tau are within two standard errors or so."""
+    random, time = np.random.default_rng(5), 0.01 * np.arange(150)
+    motion = np.exp(-time / 0.3) * np.cos(2.0 * np.pi * time / 0.16)
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")
+        off = [(fit.slowest_time - 0.3) / fit.time_error for fit in (
+            fit_relaxation(time, np.abs(motion + random.normal(0.0, 0.01, time.size))) for _ in range(60))]
+    assert 0.85 < np.mean(np.abs(off) < 2.0)
+
+
+def test_a_motion_of_two_modes_warns() -> None:
+    time = 0.01 * np.arange(400)
+    motion = np.exp(-time / 0.8) * (np.cos(9.0 * time) + 0.6 * np.cos(13.7 * time))
+    with pytest.warns(RelaxationWarning, match="% of it: the relaxation time"):
+        fit_relaxation(time, np.abs(motion))
 
 
 def test_chain_with_gain_0_3_is_where_the_seed_is() -> None:

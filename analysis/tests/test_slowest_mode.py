@@ -60,7 +60,10 @@ def test_run_shows_the_closed_form(default_chain: Chain) -> None:
     )
     assert fit.time == pytest.approx(mode.relaxation_time, rel=0.01)
     assert fit.period == pytest.approx(mode.period, rel=0.01)
-    assert fit.amplitude == pytest.approx(4.0 / np.pi * default_chain.displacement, rel=0.02)
+    # The envelope goes through the turning points, which the decay shifts: there |cos| is w tau/sqrt(1 + (w tau)^2).
+    turn = 2.0 * np.pi * mode.relaxation_time / mode.period
+    touching = turn / np.hypot(1.0, turn)
+    assert fit.amplitude == pytest.approx(4.0 / np.pi * touching * default_chain.displacement, rel=0.02)
     # The envelope crosses the threshold at most half a period, the distance of its peaks, after the error itself.
     late = mode.steady_state_time - default_chain.steady_state_step * default_chain.time_step
     assert 0.0 <= late <= 0.5 * mode.period
