@@ -3,6 +3,11 @@
 The residuals r are offsets from the run to measured points or values, each measurement's over the RMS that it ends
 with. With J = dr/dp, the covariance of the values is s^2 (J^T J)^-1, s^2 = |r|^2/(N - p), N the independent residuals;
 an interval of 95 % is t times the standard error, t of Student's distribution with N - p degrees of freedom.
+
+That holds where |r|^2 grows by s^2 t^2 up to the ends of the interval. With friction it need not: results jump by
+some um between near values, and a tip that sticks hardly moves over a range of them, so a Jacobian is that of one
+branch or of the jumps. Where |r|^2 grows by anything else, no Jacobian enters the intervals: each reaches to where
+|r|^2, with the other unknowns fitted, has grown by s^2 t^2 for good (`_profile`).
 """
 
 from __future__ import annotations
@@ -38,6 +43,13 @@ _DOWN, _LEVEL = 8, 0.002    # steps down into the valley at most, and a step tha
 _AGAIN = 3    # searches with a Jacobian found anew at their end
 _USELESS = 1.0    # standard error, in scales, beyond which a value is none
 _SHARE = 0.1    # of a direction, above which an unknown takes part in it
+_AS_TOLD = 0.6, 1.6    # growth of |r|^2 at the ends of an interval over what the Jacobian says
+_UNLIKE = 0.25    # of a change of residuals: what the Jacobian may be off
+_FINEST = 1e-3    # first step of a profile at least, in scales: below it are jumps
+_WIDER = 1.5    # ratio of the steps of a profile
+_OUTSIDE = 3    # so many values in a row beyond an interval end it
+_MOST_STEPS = 24    # of a profile, on either side
+_CENTRES = 4    # profiles of all unknowns, each around the best values so far
 _TOO_LONG, _TOO_SHORT = 3.0, 0.02    # extent of measured points over the wire's length
 
 
@@ -114,6 +126,7 @@ class _Search:
         self._model: tuple[np.ndarray, np.ndarray, np.ndarray] | None = None    # the same with their Jacobian
         self._rival: np.ndarray | None = None    # steps that fit nearly as well
         self._bend: list[np.ndarray] = []    # steps that bound what is certain
+        self._profiles: list[tuple[float, float]] = []    # ends of the interval of each step, without a Jacobian
 
     def run(self) -> Identified:
         """Search, weigh the measurements by what they end with, and search once more where there are several."""
@@ -127,7 +140,10 @@ class _Search:
                 found = self._search(found.x, low, high)
             best = self._other_side(found, low, high)
             jacobian = best.jac
+            is_as_told = self._is_as_told(best, low, high)
             self._bend = self._valley(best, low, high)
+            if not is_as_told:
+                self._profiles = self._all_profiles(jacobian, low, high)
         except KeyboardInterrupt:
             if self._best is None:
                 raise
@@ -192,6 +208,109 @@ class _Search:
             if made is not self._bad:
                 ends.append(at)
         return ends
+
+    def _quantile(self) -> float:
+        """Student's t of an interval of 95 %."""
+        return float(student.ppf(0.975, self._free()))
+
+    def _allowed(self) -> float:
+        """By how much the sum of squares may grow within an interval."""
+        return self._best[0] / self._free() * self._quantile() ** 2
+
+    def _is_as_told(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> bool:
+        """Return whether a Jacobian tells the intervals. Of one unknown the sum of squares has to grow as it says up to
+        either end. Of several, whose valley may be bent in a smooth scene too, the residuals have to change as it says
+        between places halfway to the ends, others fixed. An end beyond what tells a value is taken at that."""
+        sizes = np.linalg.norm(found.jac, axis=0)
+        seen = np.flatnonzero(sizes > _SINGULAR * max(float(sizes.max()), 1e-300))
+        part = 1.0 if len(sizes) == 1 else 0.5
+        ends = [np.clip(found.x + part * sign * min(math.sqrt(self._allowed()) / sizes[k], _USELESS) * np.eye(len(sizes))[k],
+                        low, high) for k in seen for sign in (-1.0, 1.0)]
+        made = [None if parts is None else self._weighted(parts) for parts in self._compared(ends)]
+        for first, last, here, there in zip(ends[::2], ends[1::2], made[::2], made[1::2]):
+            if here is None or there is None:
+                return False
+            if len(sizes) > 1:
+                told = found.jac @ (last - first)
+                if np.linalg.norm(there - here - told) > _UNLIKE * np.linalg.norm(there - here):
+                    return False
+                continue
+            for at, value in ((first, here), (last, there)):
+                told = np.sum((found.jac @ (at - found.x)) ** 2)
+                grown = value @ value - found.fun @ found.fun
+                if told > 0.0 and not _AS_TOLD[0] < grown / told < _AS_TOLD[1]:
+                    return False
+        return True
+
+    def _all_profiles(self, jacobian: np.ndarray, low: np.ndarray, high: np.ndarray) -> list[tuple[float, float]]:
+        """The interval of each unknown, around the best values that any profile finds."""
+        self._tried = 0    # of a search that has ended
+        for _ in range(_CENTRES):
+            before, ends = self._best[0], []
+            for k in range(len(low)):
+                ends.append(self._profile(k, jacobian, low, high))
+            if self._best[0] > before - 0.1 * self._allowed():
+                break
+        return [(min(first, *(end[k] for end in self._bend)), max(last, *(end[k] for end in self._bend)))
+                if self._bend else (first, last) for k, (first, last) in enumerate(ends)]
+
+    def _profile(self, k: int, jacobian: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[float, float]:
+        """Return the outermost steps of an unknown between which the sum of squares has not grown for good."""
+        middle, others = self._best[1], np.delete(np.arange(len(low)), k)
+        along = np.eye(len(low))[k]
+        if len(others):    # the other unknowns change with it as the Jacobian says, and are then fitted
+            along[others] = -np.linalg.lstsq(jacobian[:, others], jacobian[:, k], rcond=_SINGULAR)[0]
+        size = float(np.linalg.norm(jacobian @ along))
+        first = min(max(0.25 * math.sqrt(self._allowed()) / max(size, 1e-300), _FINEST), 0.1 * _USELESS)
+        known = {0.0: self._best[0]}
+        for sign in (-1.0, 1.0):
+            offsets = sign * first * (_WIDER ** np.arange(_MOST_STEPS) - 1.0) / (_WIDER - 1.0)
+            for batch in np.split(offsets[1:], range(_OUTSIDE, _MOST_STEPS - 1, _OUTSIDE)):
+                batch = batch[np.abs(batch) <= 2.0 * _USELESS]
+                made = self._squares_at([middle + offset * along for offset in batch], others, jacobian, low, high)
+                known.update(zip(batch.tolist(), made))
+                if len(made) < _OUTSIDE or min(made) > self._best[0] + self._allowed():
+                    break
+        limit = self._best[0] + self._allowed()
+        for _ in range(3):    # where it leaves the interval more finely
+            outer = self._ends_of(known, limit)
+            halves = [0.5 * (a + b) for a, b in outer if b is not None]
+            known.update(zip(halves, self._squares_at([middle + offset * along for offset in halves], others, jacobian,
+                                                      low, high)))
+        (first_in, first_out), (last_in, last_out) = self._ends_of(known, limit)
+        return (-math.inf if first_out is None else middle[k] + 0.5 * (first_in + first_out),
+                math.inf if last_out is None else middle[k] + 0.5 * (last_in + last_out))
+
+    def _ends_of(self, known: Mapping[float, float], limit: float) -> list[tuple[float, float | None]]:
+        """The lowest and the highest offset within a limit, each with the next one beyond it, if there is one."""
+        places = sorted(known)
+        inside = [i for i, offset in enumerate(places) if known[offset] <= limit]
+        return [(places[i], places[i + step] if 0 <= i + step < len(places) else None)
+                for i, step in ((inside[0], -1), (inside[-1], 1))]
+
+    def _squares_at(self, many: Sequence[np.ndarray], others: np.ndarray, jacobian: np.ndarray, low: np.ndarray,
+                    high: np.ndarray) -> list[float]:
+        """Sums of squares, the least of those with other unknowns as they are and once fitted; infinite without a
+        result or beyond a bound."""
+        made = [math.inf] * len(many)
+        left = {i: np.array(at) for i, at in enumerate(many) if np.all((at >= low) & (at <= high))}
+        for _ in range(_DOWN if len(others) else 1):
+            for i, parts in zip(list(left), self._compared(list(left.values()))):
+                at = left.pop(i)
+                if parts is None:
+                    continue
+                weighted = self._weighted(parts)
+                squares = float(weighted @ weighted)
+                if squares < self._best[0]:
+                    self._best = squares, np.array(at), parts
+                step = np.linalg.lstsq(jacobian[:, others], weighted, rcond=_SINGULAR)[0]
+                if squares < made[i] and np.any(np.abs(step) > _LEVEL):
+                    left[i] = at
+                    left[i][others] = np.clip(at[others] - step, low[others], high[others])
+                made[i] = min(made[i], squares)
+            if not left:
+                break
+        return made
 
     def _descend(self, at: np.ndarray, low: np.ndarray, high: np.ndarray) -> OptimizeResult:
         """Searches until a Jacobian found anew promises no more."""
@@ -306,11 +425,18 @@ class _Search:
         if is_complete:
             covariance, notes = _covariance(self._unknowns, jacobian, deviation)
         errors = np.sqrt(np.diag(covariance))
-        quantile = float(student.ppf(0.975, free))
+        quantile = self._quantile()
+        if self._profiles:
+            errors = np.array([last - first for first, last in self._profiles]) / (2.0 * quantile)
+            notes = [_sentence(self._unknowns, row) for row, error in zip(np.eye(len(steps)), errors)
+                     if error >= _USELESS]
+            notes.append("the results of this scene jump, or change at unequal rates, as friction makes them: intervals "
+                         "reach to where the fit is worse for good")
         values = []
         apart = np.zeros(len(steps), bool)
         if is_complete and self._rival is not None:
-            apart = np.abs(self._rival - steps) > quantile * errors
+            inside = [first <= at <= last for (first, last), at in zip(self._profiles, self._rival)]
+            apart = ~np.array(inside) if inside else np.abs(self._rival - steps) > quantile * errors
             others = " and ".join(f"{one.key} = {one.value(self._rival[k]):.4g} or {one.value(steps[k]):.4g}"
                                   for k, one in enumerate(self._unknowns) if apart[k])
             if others:
@@ -322,20 +448,21 @@ class _Search:
             if at_bound:
                 notes.append(f"{one.key} ended at its bound {one.value(steps[k]):.6g}: its error says nothing")
             reach = quantile * errors[k]
-            first, last = (choose(side, *(end[k] for end in self._bend)) if self._bend else side
-                           for choose, side in ((min, steps[k] - reach), (max, steps[k] + reach)))
+            first, last = self._profiles[k] if self._profiles else (
+                choose(side, *(end[k] for end in self._bend)) if self._bend else side
+                for choose, side in ((min, steps[k] - reach), (max, steps[k] + reach)))
             size = one.value(steps[k]) if one.by_ratio else one.scale
-            error = (last - first) / (2.0 * quantile) if self._bend else errors[k]
+            error = (last - first) / (2.0 * quantile) if self._bend or self._profiles else errors[k]
             values.append(Value(one.key, one.unit, one.start, one.value(steps[k]) if is_told else None,
-                                float(size * error), one.value(first) if math.isfinite(reach) else -math.inf,
-                                one.value(last) if reach < 500.0 else math.inf, at_bound))
+                                float(size * error), one.value(first) if math.isfinite(first) else -math.inf,
+                                one.value(last) if last < 500.0 else math.inf, at_bound))
         for file, part in zip(self._measured, parts):
             if part.correlation > 0.5 and len(part.offsets) > 4:
                 notes.append(f"{file.file.name}: neighbouring residuals agree (correlation {part.correlation:.2f}): "
                              "something systematic is left, of the model or of the frame, which the standard errors "
                              "do not count")
         with np.errstate(invalid="ignore"):
-            correlation = covariance / np.outer(errors, errors)
+            correlation = covariance / np.sqrt(np.outer(np.diag(covariance), np.diag(covariance)))
         told = {one.key: one.value(step) for one, step in zip(self._unknowns, steps)}
         parameters = overrides(self._unknowns, list(told.values()), self._scene)
         return Identified(tuple(values), correlation, tuple(part.rms for part in parts), tuple(parts), tuple(notes),
