@@ -67,7 +67,7 @@ def _run(arguments: argparse.Namespace) -> int:
     checking.check_out(out)
     command = [*runner_of(arguments), "-parameters", str(arguments.file), "-out", str(out)]
     for key, value in arguments.overrides:
-        command += [f"-{key}", value]
+        command += [f"--{key}", value]
     if arguments.force:
         command.append("-force")
     code = hand_to(command)

@@ -251,8 +251,13 @@ class _Search:
                 ends.append(self._profile(k, jacobian, low, high))
             if self._best[0] > before - 0.1 * self._allowed():
                 break
-        return [(min(first, *(end[k] for end in self._bend)), max(last, *(end[k] for end in self._bend)))
-                if self._bend else (first, last) for k, (first, last) in enumerate(ends)]
+        more = list(self._bend)
+        if self._rival is not None:
+            (parts,) = self._compared([self._rival])
+            weighted = np.full(1, math.inf) if parts is None else self._weighted(parts)
+            more += [self._rival] if weighted @ weighted <= self._best[0] + self._allowed() else []
+        return [(min([first, *(one[k] for one in more)]), max([last, *(one[k] for one in more)]))
+                for k, (first, last) in enumerate(ends)]
 
     def _profile(self, k: int, jacobian: np.ndarray, low: np.ndarray, high: np.ndarray) -> tuple[float, float]:
         """Return the outermost steps of an unknown between which the sum of squares has not grown for good."""
@@ -434,9 +439,8 @@ class _Search:
                          "reach to where the fit is worse for good")
         values = []
         apart = np.zeros(len(steps), bool)
-        if is_complete and self._rival is not None:
-            inside = [first <= at <= last for (first, last), at in zip(self._profiles, self._rival)]
-            apart = ~np.array(inside) if inside else np.abs(self._rival - steps) > quantile * errors
+        if is_complete and self._rival is not None and not self._profiles:
+            apart = np.abs(self._rival - steps) > quantile * errors
             others = " and ".join(f"{one.key} = {one.value(self._rival[k]):.4g} or {one.value(steps[k]):.4g}"
                                   for k, one in enumerate(self._unknowns) if apart[k])
             if others:

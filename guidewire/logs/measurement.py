@@ -26,11 +26,10 @@ _UNITS: dict[str, dict[str, float]] = {
     "x": _LENGTH, "y": _LENGTH, "z": _LENGTH, "u": {"": 1.0, "px": 1.0}, "v": {"": 1.0, "px": 1.0},
 }
 _POINTS = ("x", "y", "z")
-HUB = {("time", "force"), ("time", "torque"), ("insertion", "force"), ("turn", "torque"), ("insertion", "torque"),
-       ("turn", "force")}
-SHAPES = {("x", "y", "z"), ("x", "y"), ("x", "z"), ("y", "z")}
-FORMS = ("time,force", "time,torque", "insertion,force", "turn,torque", "x,y,z", "time,x,y,z", "x,y", "time,x,y",
-         "view,u,v", "time,view,u,v", "critical KEY")
+HUB = tuple((over, value) for over in ("time", "insertion", "turn") for value in ("force", "torque"))
+SHAPES = (("x", "y", "z"), ("x", "y"), ("x", "z"), ("y", "z"))
+FORMS = (*map(",".join, HUB), *map(",".join, SHAPES), *(f"time,{','.join(one)}" for one in SHAPES), "view,u,v",
+         "time,view,u,v", "critical KEY")
 _COLUMN = re.compile(r"^(\w+?)(?:_(um|mm|cm|m|ms|s|rad|deg|mN|N|Nmm|mNm|Nm|px))?$")
 
 
@@ -105,7 +104,7 @@ def read_measurement(file: Path, metres_per_unit: float, forms: Sequence[str] = 
     is_known = columns in HUB or plain in SHAPES or plain == ("u", "v") or len(columns) == 1 and factors
     if not is_known or columns[:1] == ("critical",):
         raise LogError(f"{file}: the first line is \"{','.join(first)}\", must be {' or '.join(forms)}, each name "
-                       "with its unit behind it where that is another, such as x_mm")
+                       f"with its unit behind it where that is another, such as x_mm{_marks(first)}")
     rows, views = _rows(file, lines[1:], first, columns)
     numbers = rows * np.array([factor for name, factor in zip(columns, factors) if name != "view"])
     if columns in HUB:
@@ -118,6 +117,13 @@ def read_measurement(file: Path, metres_per_unit: float, forms: Sequence[str] = 
     shapes = tuple(Shape(time, view, points[[k for k, key in enumerate(keys) if key == (time, view)]])
                    for time, view in dict.fromkeys(keys))
     return Measurement(file, columns, shapes)
+
+
+def _marks(row: Sequence[str], count: int = 0) -> str:
+    """What to say of semicolons, and of twice as many parts as there are columns; else nothing."""
+    if any(";" in text for text in row):
+        return "; semicolons are no separators: write commas between columns and points in numbers"
+    return "; decimal commas separate columns: write points in numbers" if count and len(row) == 2 * count else ""
 
 
 def _lines(file: Path) -> list[tuple[int, list[str]]]:
@@ -168,7 +174,7 @@ def _rows(file: Path, lines: Sequence[tuple[int, list[str]]], first: Sequence[st
             values = []
         if len(row) != len(columns) or len(values) != len(texts) or not all(map(math.isfinite, values)):
             raise LogError(f"{file}: line {number} is \"{','.join(row)}\", must be {len(columns)} finite numbers: "
-                           f"{','.join(first)}")
+                           f"{','.join(first)}{_marks(row, len(columns))}")
         if columns[0] == "time" and rows and values[0] < rows[-1][0]:
             raise LogError(f"{file}: line {number}: time {values[0]:g} s after {rows[-1][0]:g} s, times must ascend")
         rows.append(values)

@@ -18,6 +18,7 @@ SUMMARY_NAME = "summary.json"
 LOAD_NAME = "load.json"
 FORMAT = 2  # of a run's files, the newest that is read here; what states none is of version 1
 FORMAT_KEY = "formatVersion"
+_NAMED = 5  # runs of a study, in an error line
 
 
 @dataclass(frozen=True)
@@ -164,6 +165,11 @@ def read_run(
     folder = Path(folder)
     summary_file = folder / SUMMARY_NAME
     summary = _read_object(summary_file) if summary_file.is_file() else None
+    if (folder / TABLE).is_file() and not (folder / PARAMETERS_NAME).is_file():
+        runs = {row.key: row.place for row in _rows(folder) if row.repeat is None}
+        named = "; ".join(f"{place} ({key})" for key, place in list(runs.items())[:_NAMED])
+        more = f"; and {len(runs) - _NAMED} more" if len(runs) > _NAMED else ""
+        raise LogError(f"{folder}: the folder of a study, not of a run; its runs are {named}{more}")
     parameters = _read_object(folder / PARAMETERS_NAME)
     stated = parameters.get(FORMAT_KEY, FORMAT)
     if isinstance(stated, bool) or not isinstance(stated, int) or not 1 <= stated <= FORMAT:

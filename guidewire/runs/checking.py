@@ -15,7 +15,7 @@ from pathlib import Path
 from typing import Any
 
 from guidewire.json_text import problem_of
-from guidewire.prepare import ROOT, PreparationError
+from guidewire.prepare import DOOR, ROOT, PreparationError
 from guidewire.runs.key_table import Key, parse_key_table
 
 _TABLE = ROOT / "docs" / "parameters.md"
@@ -39,6 +39,8 @@ def check_file(file: Path) -> None:
         raise PreparationError(f"{file}: not JSON: {error}") from error
     if not isinstance(content, dict):
         raise PreparationError(f"{file}: not a JSON object of keys and values, such as {{\"timeStep\": 0.01}}")
+    if "study" in content:
+        raise PreparationError(f"{file}: a study, not a parameter file: '{DOOR} sweep {file}' makes its runs")
     table = read_table()
     for name, value in content.items():
         _check(table, name, value, str(file), json.dumps(value), content.get("solver", "pbd"))

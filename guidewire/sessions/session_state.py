@@ -159,8 +159,8 @@ class State:
     Attributes
     ----------
     step, time : steps done, and in-game time in s.
-    outcome, reason : how the run ended, as in summary.json, and why; None and "" while it goes on. Steps after the end
-        change nothing.
+    outcome, reason, reliable : how the run ended, why, and whether its result can be trusted, as in summary.json; None,
+        "" and None while it goes on. Steps after the end change nothing.
     prediction_error : Delta_p of the last step, units; 0 with a material.
     positions, velocities : (n+1, 3), units and units/s.
     orientations : (n, 4), quaternions x, y, z, w of the rod elements.
@@ -182,6 +182,7 @@ class State:
     time: float
     outcome: str | None
     reason: str
+    reliable: bool | None
     prediction_error: float
     positions: np.ndarray
     velocities: np.ndarray
@@ -299,7 +300,7 @@ def unread_state(step: int, time: float, prediction_error: float, session: Sessi
     """Return the state of a session whose run goes on, of which nothing else has been read off. Until all of it is, it
     keeps its session."""
     state = object.__new__(State)
-    vars(state).update(step=step, time=time, outcome=None, reason="", prediction_error=prediction_error,
+    vars(state).update(step=step, time=time, outcome=None, reason="", reliable=None, prediction_error=prediction_error,
                        _session=lambda: session)    # not a part of what it says
     return state
 
@@ -307,7 +308,7 @@ def unread_state(step: int, time: float, prediction_error: float, session: Sessi
 def state_of(answer: Mapping[str, Any], arrays: Mapping[str, np.ndarray], session: Session) -> State:
     """Return the state of a session that an answer and its arrays say."""
     state = unread_state(answer["step"], answer["time"], answer["predictionError"], session)
-    vars(state).update(outcome=answer["outcome"], reason=answer["message"])
+    vars(state).update(outcome=answer["outcome"], reason=answer["message"], reliable=answer["reliable"])
     for part in PARTS:
         fill(state, part, arrays)
     return state

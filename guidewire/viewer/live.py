@@ -30,7 +30,7 @@ from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.live_frames import LiveFrames
 from guidewire.viewer.live_page import MOST_IN_FLIGHT, Page
 from guidewire.viewer.live_session import ENDLESS, REST, refusal, start, step
-from guidewire.viewer.recording import ENERGIES, HUB
+from guidewire.viewer.recording import ENERGIES, HUB, ending_of
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
@@ -395,7 +395,7 @@ class LiveRun:
             "pace": self._pace, "paces": PACES,
             "exchanges": self._exchanges, "exchangesAsked": self._exchanges_asked,
             "steered": self._instruments.problem, **self._instruments.status(),
-            "outcome": "" if state is None or state.outcome is None else f"{state.outcome}: {state.reason}",
+            "outcome": "" if state is None else ending_of(state.outcome, state.reliable, state.reason),
         }
 
     async def _fail(self, error: SessionError) -> None:

@@ -375,13 +375,20 @@ def read_recording(run: Run, walls: Sequence[Surface], frames: int, described: M
     warnings = [line for line in (log.warning,) if line] + list((run.summary or {}).get("warnings", []))
     if len(finite) < len(log.steps):
         warnings.append(f"{len(log.steps) - len(finite)} entries with positions that are not finite are left out")
-    reason = (run.summary or {}).get("reason", "")
+    summary = run.summary or {}
     return Recording(
-        run.folder.resolve().name, f"{run.outcome}: {reason}" if reason else run.outcome, warnings,
+        run.folder.resolve().name, ending_of(run.outcome, summary.get("reliable"), summary.get("reason", "")), warnings,
         facts_of(run.parameters, run.summary), radius_of(run.parameters),
         make_channels(units_of(run.parameters), numbers), name_walls(run.parameters, walls),
         sheath_of(run.parameters, numbers), described=described, soft=soft_walls(run.parameters),
     )
+
+
+def ending_of(outcome: str | None, reliable: bool | None, reason: str) -> str:
+    """Return how a run ended, in one line; empty where it goes on. Runs of older versions do not say whether they are
+    reliable."""
+    words = [outcome or "", *([] if reliable is None else ["reliable" if reliable else "not reliable"])]
+    return ", ".join(words) + (f": {reason}" if reason else "") if outcome else ""
 
 
 def lumen_of(places: Sequence[LumenPlace | None]) -> np.ndarray | None:

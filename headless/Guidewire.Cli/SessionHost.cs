@@ -365,6 +365,7 @@ namespace Guidewire.Cli
         {
             bool hasEnded = simulation.Outcome != Outcome.Running;
             answer["outcome"] = hasEnded ? simulation.Outcome.ToString().ToLowerInvariant() : null;
+            answer["reliable"] = hasEnded ? simulation.IsReliable : (bool?)null;
             answer["message"] = simulation.Reason;
             answer["step"] = simulation.StepCount;
             answer["time"] = simulation.Time;

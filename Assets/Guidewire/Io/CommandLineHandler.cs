@@ -31,7 +31,9 @@ namespace Guidewire.Io
             for (int i = 0; i < arguments.Count; i += 2)
             {
                 string argument = arguments[i];
-                string key = argument.StartsWith("--", StringComparison.Ordinal) ? argument.Substring(2)
+                // With two dashes it is of an option in which people write keys without any, such as --set KEY=VALUE.
+                string dash = argument.StartsWith("--", StringComparison.Ordinal) ? "" : "-";
+                string key = dash.Length == 0 ? argument.Substring(2)
                     : argument.StartsWith("-", StringComparison.Ordinal) ? argument.Substring(1) : "";
                 if (key.Length == 0)
                 {
@@ -49,12 +51,12 @@ namespace Guidewire.Io
                 bool isOut = key == "out" || (logFileIsOurs && key == "logFile");
                 if (entry == null && !isOut && key != "parameters" && key != "repeat")
                 {
-                    throw new ParameterException(Source + ": unknown key '" + argument + "': "
-                        + KeyHint.Of(key, "-", SolverOf(arguments), "--help lists what is allowed"));
+                    throw new ParameterException(Source + ": unknown key '" + dash + key + "': "
+                        + KeyHint.Of(key, dash, SolverOf(arguments), "--help lists what is allowed"));
                 }
                 if (i + 1 >= arguments.Count)
                 {
-                    throw new ParameterException(Source + ": " + argument + " needs a value: "
+                    throw new ParameterException(Source + ": " + dash + key + " needs a value: "
                         + (entry?.Allowed ?? (key == "repeat" ? "a whole number from 0" : "a path")));
                 }
                 string value = arguments[i + 1];

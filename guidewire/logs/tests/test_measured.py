@@ -12,6 +12,9 @@ from analysis.tests.chain import write_log
 from guidewire.figures.measured import draw_comparison
 from guidewire.logs.logs import LogError
 from guidewire.logs.measured import ComparedForce, ComparedShapes, compare
+from guidewire.logs.measurement import FORMS, read_measurement
+from guidewire.logs.runs import read_run
+from guidewire.studies.keys import TABLE
 
 NODES, ENTRIES, STEP = 5, 4, 0.5  # steps in s
 
@@ -65,6 +68,9 @@ def test_shape_is_compared_by_the_distance_of_its_points_from_the_wire(tmp_path)
     ("time,force\n0,1\n0.1,one\n", "line 3 is \"0.1,one\", must be 2 finite numbers: time,force"),
     ("time,force\n0,nan\n", "line 2 is \"0,nan\""),
     ("time,force\n0,1,2\n", "line 2 is \"0,1,2\""),
+    ("time;force\n0;1\n", "semicolons are no separators: write commas between columns"),
+    ("time,force\n0;1\n", "semicolons are no separators"),
+    ("time,force\n0,0,1,5\n", "decimal commas separate columns: write points in numbers"),
     ("time,force\n0.2,1\n0.1,1\n", "line 3: time 0.1 s after 0.2 s, times must ascend"),
     ("time,force\n7,1\n8,1\n", "times from 7 to 8 s, none within the run's 0 to 1.5 s"),
 ])
@@ -100,3 +106,24 @@ def test_run_that_does_not_log_what_was_measured_is_refused(tmp_path):
         compare(tmp_path, _csv(tmp_path, "time,force\n0,1\n"))
     with pytest.raises(LogError, match="logSpheres"):
         compare(tmp_path, _csv(tmp_path, "time,x,y,z\n0,1,1,1\n"))
+
+
+def test_every_form_that_is_named_is_taken(tmp_path):
+    """And no other: the line of an error has all."""
+    for form in FORMS:
+        columns = form.replace("KEY", "distalRotation").split(",")
+        row = ",".join("A" if name == "view" else str(k) for k, name in enumerate(columns))
+        file = _csv(tmp_path, f"{','.join(columns)}\n{row}\n")
+        assert read_measurement(file, 1.0).count == 1, form
+    with pytest.raises(LogError) as error:
+        read_measurement(_csv(tmp_path, "time,way\n0,1\n"), 1.0)
+    assert all(form in str(error.value) for form in ("turn,force", "insertion,torque", "y,z", "time,x,z", "view,u,v"))
+
+
+def test_the_folder_of_a_study_names_its_runs(tmp_path):
+    rows = [{"key": f"timeStep={k}", "variant": "", "values": {}, "repeat": None, "folder": f"../runs/{k}"}
+            for k in range(7)]
+    (tmp_path / TABLE).write_text(json.dumps({"study": "a", "runs": rows}))
+    with pytest.raises(LogError, match="the folder of a study, not of a run") as error:
+        read_run(tmp_path)
+    assert "(timeStep=0)" in str(error.value) and "and 2 more" in str(error.value)

@@ -44,6 +44,7 @@ def unbuilt(monkeypatch, tmp_path):
     ('{"damping": 1.5}', ["<= 1"]), ('{"numberRodElements": 2.5}', ["2.5", "a whole number"]),
     ('{"numberRodElements": true}', ["true"]), ('{"timeStep": 1' + "0" * 400 + "}", ["timeStep"]),
     ("[" * 100_000, ["not JSON"]),
+    ('{"study": "a", "axes": {}}', ["a study, not a parameter file", "sweep scene.json' makes its runs"]),
 ])
 def test_a_bad_file_is_refused_before_a_build(unbuilt, tmp_path, text, words):
     if text is not None:

@@ -85,8 +85,7 @@ export class Desk {
       (recording.channels.has(name) ? recording.at(name, frame)[0] : NaN);
     const unitOf = (/** @type {string} */ name) => recording.channels.get(name)?.unit ?? "";
     this._hub?.show(at(`${hub}Force`), unitOf(`${hub}Force`), recording.channels.get(`${hub}Force`)?.largest ?? 0);
-    this._wall?.show(largestForce(recording, frame), unitOf("contactForce"),
-      recording.channels.get("contactForce")?.largest ?? 0);
+    this._wall?.show(largestForce(recording, frame), unitOf("contactForce"), this.score.wallForce);
     const millimetres = recording.millimetres;
     const x = recording.at("positions", frame);
     const [tip, base] = this.score.begun;

@@ -5,6 +5,7 @@ import { drawCurves } from "./curves.js";
 /** @typedef {import("./model.js").Model} Model */
 
 const BETWEEN_CURVES = 100; // ms
+const RELIABLE = /^([^:]*: )?(finished|converged), reliable:/;
 
 /** @param {string} id @returns {any} */
 export const byId = (id) => document.getElementById(id);
@@ -56,14 +57,14 @@ export class Panel {
     byId("facts").replaceChildren(...models.flatMap((model) => [
       ["run", model.recording.title], ["outcome", model.recording.outcome], ...model.recording.facts,
     ]).flatMap(([name, value]) => [make("dt", {}, name), make("dd", {}, value)]));
-    this.say(models.flatMap(({ recording: { title, warnings } }) =>
-      warnings.map((line) => (models.length > 1 ? `${title}: ${line}` : line))));
+    this.say(models.flatMap(({ recording: { title, outcome, warnings } }) =>
+      [outcome, ...warnings].filter(Boolean).map((line) => (models.length > 1 ? `${title}: ${line}` : line))));
   }
 
-  /** @param {string[]} lines what a user has to know */
+  /** @param {string[]} lines what a user has to know; nothing bad where they are the ends of reliable runs alone */
   say(lines) {
     byId("said").textContent = lines.join("\n");
-    byId("said").classList.remove("good");
+    byId("said").classList.toggle("good", lines.length > 0 && lines.every((line) => RELIABLE.test(line)));
   }
 
   /** @param {string[]} lines of what went well */

@@ -296,7 +296,7 @@ export class Run {
   _take(answer) {
     const state = arraysOf(answer);
     this._layout = Object.entries(state).map(([name, { length }]) => /** @type {const} */ ([name, length]));
-    this._outcome = answer.outcome ? `${answer.outcome}: ${answer.message}` : "";
+    this._outcome = answer.outcome ? `${answer.outcome}, ${answer.reliable ? "" : "not "}reliable: ${answer.message}` : "";
     return this._channels(answer.step, answer.time, state);
   }
 

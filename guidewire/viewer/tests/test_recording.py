@@ -6,9 +6,13 @@ import struct
 import numpy as np
 import pytest
 
+from guidewire.logs.runs import read_run
 from guidewire.logs.surfaces import Surface, curvature
+from guidewire.runs.runner import Request
 from guidewire.viewer.export import to_html
-from guidewire.viewer.recording import Recording, Units, largest_shown, make_channels, sheath_of
+from guidewire.viewer.recording import (
+    Recording, Units, ending_of, largest_shown, make_channels, read_recording, sheath_of,
+)
 from guidewire.viewer.server import page_files
 
 
@@ -51,6 +55,23 @@ def test_a_recording_is_exact_or_as_near_as_16_bits_are():
         span = channel.values.max() - channel.values.min()
         fraction = 1e-7 if channel.place == "frame" else 0.51 / 65535.0
         np.testing.assert_allclose(near[channel.name][1], channel.values, atol=fraction * span + 1e-7, rtol=1e-7)
+
+
+@pytest.mark.parametrize("ending, said", [
+    (("diverged", False, "sphere 3 is lost"), "diverged, not reliable: sphere 3 is lost"),
+    (("finished", True, "all 3 steps are done"), "finished, reliable: all 3 steps are done"),
+    (("finished", None, ""), "finished"), (("killed", None, ""), "killed"), ((None, None, ""), ""),
+])
+def test_how_a_run_ended_is_one_line(ending, said):
+    assert ending_of(*ending) == said
+
+
+def test_a_diverged_run_replays_with_its_outcome_and_that_it_is_not_reliable(live, tmp_path):
+    answer = live.run(Request("a", None, tmp_path / "run", {"stretchStiffness": 2.5, "displacementDirection": [0, 1, 0],
+                                                            "maxSimulationSteps": 400}))
+    assert answer.outcome == "diverged"
+    shown = read_recording(read_run(tmp_path / "run"), [], 10, {}, lambda positions: [])
+    assert shown.outcome == f"diverged, not reliable: {answer.message}"
 
 
 def test_what_colours_the_wire_is_its_own():

@@ -15,6 +15,7 @@ from guidewire.env import Environment, RecordedDrive
 from guidewire.logs.logs import read_log
 from guidewire.logs.paths import lengths_of, through_tips
 from guidewire.prepare import ROOT
+from guidewire.runs.runner import Request
 from guidewire.sessions.session import Session
 from guidewire.viewer import parts
 from guidewire.viewer.tests.browsing import DRAWN, from_npm
@@ -82,6 +83,28 @@ def test_a_file_works_without_server_or_network(browse, runs, tmp_path):
     np.testing.assert_allclose(answer["seen"][0], log.positions[-1, -1], atol=near)
     assert all(asked.startswith(("file:", "blob:", "data:")) for asked in answer["asked"])
     assert is_drawn(tmp_path / "file.png")
+
+
+ALERT = "[document.querySelector('#said[role=alert]').innerText, document.getElementById('said').className]"
+LOST = {"stretchStiffness": 2.5, "displacementDirection": [0, 1, 0], "maxSimulationSteps": 400}
+
+
+@pytest.mark.long("outcomes of replays stand in the tests of recordings")
+def test_a_run_that_diverged_says_so_in_the_alert_live_and_replayed_alone_or_beside_another(browse, live, tmp_path):
+    for name, values in (("lost", LOST), ("good", {"maxSimulationSteps": 20})):
+        live.run(Request(name, None, tmp_path / name, values))
+    (tmp_path / "scene.json").write_text(json.dumps(LOST))
+    said = {}
+    for names in (("lost",), ("good", "lost"), ("good",), ("scene.json",)):
+        wait = ["until", f"/{'finished' if names == ('good',) else 'diverged'}/.test({ALERT}[0])"]
+        with serving(tmp_path, *(str(tmp_path / name) for name in names), with_three=True) as (address, _):
+            said[names] = browse(["open", address], DRAWN, wait, ["see", ALERT])["seen"][0]
+    line = "diverged, not reliable: "
+    assert said["lost",][0].startswith(line) and said["lost",][1] == ""
+    assert said["good", "lost"][0].startswith("good: finished, reliable: ") and said["good", "lost"][1] == ""
+    assert f"\nlost: {line}" in said["good", "lost"][0]
+    assert said["good",][0].startswith("finished, reliable: ") and said["good",][1] == "good"
+    assert line in said["scene.json",][0] and said["scene.json",][1] == ""
 
 
 @pytest.mark.long("positions of replays stand in the tests of recordings")

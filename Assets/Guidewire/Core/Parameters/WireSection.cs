@@ -1,3 +1,5 @@
+using System;
+
 namespace Guidewire.Core
 {
     /// <summary>A piece of the wire whose material or rest shape differs: a soft, pre-bent tip. What is null is as in
@@ -66,6 +68,29 @@ namespace Guidewire.Core
             && !(YoungsModulus ?? ShearModulus ?? Density ?? WireRadius ?? InnerRadius ?? ShearFactor ?? AxialStiffness
                 ?? ShearStiffness ?? BendingStiffness1 ?? BendingStiffness2 ?? TorsionalStiffness ?? MassPerLength
                 ?? RotaryInertia).HasValue;
+
+        /// <summary>The first key of which another section has another value than this one; null where there is
+        /// none.</summary>
+        public string? FirstOther(WireSection over)
+        {
+            (string Key, double? Own, double? Over)[] values =
+            {
+                ("youngsModulus", YoungsModulus, over.YoungsModulus), ("shearModulus", ShearModulus, over.ShearModulus),
+                ("density", Density, over.Density), ("wireRadius", WireRadius, over.WireRadius),
+                ("innerRadius", InnerRadius, over.InnerRadius), ("shearFactor", ShearFactor, over.ShearFactor),
+                ("axialStiffness", AxialStiffness, over.AxialStiffness),
+                ("shearStiffness", ShearStiffness, over.ShearStiffness),
+                ("bendingStiffness1", BendingStiffness1, over.BendingStiffness1),
+                ("bendingStiffness2", BendingStiffness2, over.BendingStiffness2),
+                ("torsionalStiffness", TorsionalStiffness, over.TorsionalStiffness),
+                ("massPerLength", MassPerLength, over.MassPerLength),
+                ("rotaryInertia", RotaryInertia, over.RotaryInertia), ("attenuation", Attenuation, over.Attenuation),
+                ("restCurvature", RestCurvature?.X, over.RestCurvature?.X),
+                ("restCurvature", RestCurvature?.Y, over.RestCurvature?.Y),
+                ("restCurvature", RestCurvature?.Z, over.RestCurvature?.Z),
+            };
+            return Array.Find(values, one => one.Own.HasValue && one.Over.HasValue && one.Own != one.Over).Key;
+        }
 
         /// <summary>Adds what another section that lies over this one says. A new material or radius puts stiffness and
         /// mass that were given directly out of force.</summary>

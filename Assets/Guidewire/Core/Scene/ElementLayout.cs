@@ -11,7 +11,9 @@ namespace Guidewire.Core
     public static class ElementLayout
     {
         private const int MaxElements = 1_000_000;
-        private const double Rounding = 1e-9;  // of L: pieces shorter than this are rounding errors
+
+        /// <summary>Pieces shorter than this part of the wire's length are rounding errors.</summary>
+        public const double Rounding = 1e-9;
 
         /// <summary>Gives the number of elements of the whole wire.</summary>
         /// <exception cref="ArgumentException">As <see cref="ParameterConflict"/> has it.</exception>

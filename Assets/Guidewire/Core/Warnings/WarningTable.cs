@@ -42,6 +42,27 @@ namespace Guidewire.Core
             "wireSections[*i*] from *a* to *b* lies beyond the wire's end: it has no effect",
             "positions are counted from the hub, in units");
 
+        /// <summary>A section that ends beyond the wire.</summary>
+        public static readonly WarningKind SectionCut = AtStart("sectionCut",
+            "wireSections[*i*] from *a* to *b* reaches beyond the wire's end at *L*: only the part up to there counts",
+            "positions are counted from the hub, in units");
+
+        /// <summary>A section without a length.</summary>
+        public static readonly WarningKind SectionThin = AtStart("sectionThin",
+            "wireSections[*i*] from *a* to *b* is shorter than rounding, 1e-9 of guidewireLength: it has no effect",
+            "make it longer, or remove it");
+
+        /// <summary>Two sections with different values in one place.</summary>
+        public static readonly WarningKind SectionOverlap = AtStart("sectionOverlap",
+            "wireSections[*i*] and wireSections[*j*] both state *key* from *a* to *b*: there the second "
+            + "applies", "of sections that overlap, the last in the list with a value applies");
+
+        /// <summary>Moduli that no isotropic material has.</summary>
+        public static readonly WarningKind PoissonRatio = AtStart("poissonRatio",
+            "*where* has a Poisson's ratio E/(2 G) - 1 of *nu:G3*, by youngsModulus = *E:G3* and shearModulus = *G:G3* "
+            + "Pa: that of an isotropic material lies between -1 and 0.5",
+            "often a digit too much, or a stiffness of the wrong unit; a coil or a braid may have it");
+
         /// <summary>A section shorter than half an element.</summary>
         public static readonly WarningKind SectionShort = AtStart("sectionShort",
             "wireSections[*i*] from *a* to *b* is *f:G3* of an element long and only contributes to the average of "

@@ -42,9 +42,11 @@ namespace Guidewire.Io
                     nearest = known;
                 }
             }
+            List<string> folders = Folders(parameterFile);
             throw new ParameterException(source + ": instrument = \"" + name + "\" is not known: " + (nearest == null
                 ? "there is no folder '" + Folder + "' with files beside the parameter file or above the program"
-                : "did you mean \"" + nearest + "\"?"));
+                : "did you mean \"" + nearest + "\"?" + (folders.Count == 0 ? ""
+                    : " Searched: " + string.Join(", ", folders))));
         }
 
         /// <summary>Names of all instruments that a run can take, in their order: of two with one name that of the

@@ -20,6 +20,7 @@ namespace Guidewire.Io
         };
 
         private const string Steps = "maxSimulationSteps";
+        private const double PoissonRounding = 1e-3;    // E and G are written with few digits
         private const int MaxSteps = 1_000_000_000;
 
         private readonly GivenParameters _given = new GivenParameters();
@@ -390,6 +391,11 @@ namespace Guidewire.Io
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             WarnOfSections(simulation);
+            if (MethodTable.Of(Method).TakesMaterial && (_given.Has("youngsModulus") || _given.Has("shearModulus"))
+                && Values.BendingStiffness == null && Values.TorsionalStiffness == null)
+            {
+                WarnOfModuli(simulation.Material);
+            }
             if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning(WarningTable.ElementLength, length.Source, (double)length.Value, l);
@@ -408,20 +414,67 @@ namespace Guidewire.Io
             }
         }
 
+        // Sections that say nothing, too little, or what another one says otherwise.
         private void WarnOfSections(SimulationParameters simulation)
         {
             IReadOnlyList<WireSection> sections = simulation.Material.Sections;
+            double length = simulation.Scene.GuidewireLength;
+            double slack = ElementLayout.Rounding * length;
             for (int k = 0; k < sections.Count; k++)
             {
-                double fraction = ElementLayout.FractionOfAnElement(simulation, sections[k]);
-                if (fraction == 0.0)
+                WireSection section = sections[k];
+                double fraction = ElementLayout.FractionOfAnElement(simulation, section);
+                if (section.From >= length - slack)
                 {
-                    AddWarning(WarningTable.SectionBeyond, k, sections[k].From, sections[k].To);
+                    AddWarning(WarningTable.SectionBeyond, k, section.From, section.To);
+                    continue;
                 }
-                else if (fraction < 0.5 && !sections[k].IsMarker)
+                if (section.To - section.From <= slack)
                 {
-                    AddWarning(WarningTable.SectionShort, k, sections[k].From, sections[k].To, fraction);
+                    AddWarning(WarningTable.SectionThin, k, section.From, section.To);
+                    continue;
                 }
+                if (section.To > length + slack)
+                {
+                    AddWarning(WarningTable.SectionCut, k, section.From, section.To, length);
+                }
+                if (fraction < 0.5 && !section.IsMarker)
+                {
+                    AddWarning(WarningTable.SectionShort, k, section.From, section.To, fraction);
+                }
+                for (int j = k + 1; j < sections.Count; j++)
+                {
+                    double from = Math.Max(section.From, sections[j].From);
+                    double to = Math.Min(Math.Min(section.To, sections[j].To), length);
+                    if (to - from > slack && section.FirstOther(sections[j]) is string key)
+                    {
+                        AddWarning(WarningTable.SectionOverlap, k, j, key, from, to);
+                    }
+                }
+            }
+        }
+
+        // E and G of the wire, and of sections that state one of them.
+        private void WarnOfModuli(MaterialParameters material)
+        {
+            WarnOfModuli("the wire", material.YoungsModulus, material.ShearModulus);
+            for (int k = 0; k < material.Sections.Count; k++)
+            {
+                WireSection section = material.Sections[k];
+                if (section.YoungsModulus.HasValue || section.ShearModulus.HasValue)
+                {
+                    WarnOfModuli("wireSections[" + k + "]", section.YoungsModulus ?? material.YoungsModulus,
+                        section.ShearModulus ?? material.ShearModulus);
+                }
+            }
+        }
+
+        private void WarnOfModuli(string where, double young, double shear)
+        {
+            double ratio = young / (2.0 * shear) - 1.0;
+            if (ratio > 0.5 + PoissonRounding)    // -1 is below all that positive moduli make
+            {
+                AddWarning(WarningTable.PoissonRatio, where, ratio, young, shear);
             }
         }
 

@@ -13,6 +13,9 @@ namespace Guidewire.Core
         // Beyond it squares and volumes lose digits, and no vessel is that large; units.
         private const double FarthestCoordinate = 1e9;
 
+        // Of an edge's length: a corner this near to an edge lies on it.
+        private const double OnEdge = 1e-6;
+
         private MeshTopology(Vector3d[] vertices, int[] triangles)
         {
             Vertices = vertices;
@@ -200,7 +203,8 @@ namespace Guidewire.Core
                 throw new MeshException(
                     clashes > 0 ? "the surface is not orientable (" + clashes + " edges cannot be oriented "
                         + "consistently)"
-                    : "the mesh has " + surfaces + " separate surfaces; a vessel must be one");
+                    : FindTJunction(others)
+                        ?? "the mesh has " + surfaces + " separate surfaces; a vessel must be one");
             }
             Report.TurnedTriangles = Math.Min(turnedCount, count - turnedCount);
             for (int t = 0; t < count; t++)
@@ -217,16 +221,20 @@ namespace Guidewire.Core
             int[] others = JoinEdges();
             var next = new Dictionary<int, int>();
             int pinched = 0;
+            int first = -1;
             for (int halfEdge = 0; halfEdge < Triangles.Length; halfEdge++)
             {
                 if (others[halfEdge] < 0)
                 {
-                    pinched += next.TryAdd(Triangles[halfEdge], Triangles[HalfEdges.Next(halfEdge)]) ? 0 : 1;
+                    bool isFirst = next.TryAdd(Triangles[halfEdge], Triangles[HalfEdges.Next(halfEdge)]);
+                    pinched += isFirst ? 0 : 1;
+                    first = isFirst || first >= 0 ? first : Triangles[halfEdge];
                 }
             }
             if (pinched > 0)
             {
-                throw new MeshException(pinched + " open rims touch themselves or each other");
+                throw new MeshException(FindTJunction(others) ?? pinched
+                    + " open rims touch themselves or each other, the first at " + At(Vertices[first]));
             }
             while (next.Count > 0)
             {
@@ -240,6 +248,44 @@ namespace Guidewire.Core
                 Rims.Add(rim.ToArray());
             }
         }
+
+        // A vertex within an edge that has a triangle on one side only: there the surface is torn open.
+        private string? FindTJunction(int[] others)
+        {
+            int count = 0;
+            int first = -1;
+            var rims = new List<int>();
+            for (int halfEdge = 0; halfEdge < Triangles.Length; halfEdge++)
+            {
+                if (others[halfEdge] < 0)
+                {
+                    rims.Add(halfEdge);
+                }
+            }
+            foreach (int halfEdge in rims)
+            {
+                Vector3d from = Vertices[Triangles[halfEdge]];
+                Vector3d along = Vertices[Triangles[HalfEdges.Next(halfEdge)]] - from;
+                double length = along.Length;
+                foreach (int other in rims)
+                {
+                    Vector3d beside = Vertices[Triangles[other]] - from;
+                    double fraction = Vector3d.Dot(beside, along) / (length * length);
+                    if (fraction > OnEdge && fraction < 1.0 - OnEdge
+                        && (beside - fraction * along).Length < OnEdge * length)
+                    {
+                        count++;
+                        first = first < 0 ? Triangles[other] : first;
+                    }
+                }
+            }
+            return count == 0 ? null : count + (count == 1 ? " T-junction, " : " T-junctions, the first ") + "at "
+                + At(Vertices[first]) + ": a corner lies within the edge of a triangle that does not have it, which "
+                + "tears the surface open; 'anatomy FILE' mends such a mesh";
+        }
+
+        private static string At(in Vector3d place) => string.Format(CultureInfo.InvariantCulture,
+            "({0:G6}, {1:G6}, {2:G6})", place.X, place.Y, place.Z);
 
         private static int FirstKey(Dictionary<int, int> next)
         {

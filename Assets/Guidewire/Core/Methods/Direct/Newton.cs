@@ -41,6 +41,8 @@ namespace Guidewire.Core
         private const double SufficientDecrease = 1e-4;
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double MinSize = 8.0 / (1L << 52);   // of a step that rounding of the shape does not hide
+        private const double Epsilon = 1.0 / (1L << 52);    // of a coordinate: its last bit
+        private const double MostRounding = 1e-10;       // of an element: what its ends may be rounded to without a word
         private const double Contraction = 0.5;          // of the force left, by a full step
         private const int MaxWithoutGeometricStiffness = 4;    // iterations of a stage
         private const int MaxCuts = 40;
@@ -258,8 +260,9 @@ namespace Guidewire.Core
                 last = size;
                 reused = isPlain && scale == 1.0 ? 0 : _maxReused;
             }
-            return "Newton's method leaves " + Text(left) + " N out of balance after " + MaxIterations
-                + " iterations (maxNewtonIterations)";
+            string end = " after " + MaxIterations + " iterations (maxNewtonIterations)" + TooFar(shape);
+            return left <= double.MaxValue ? "Newton's method leaves " + Text(left) + " N out of balance" + end
+                : "Newton's method has not come to rest" + end;    // where steps are judged, no force is measured
         }
 
         /// <summary>Sets another shape, or the same, to a shape moved along the direction.</summary>
@@ -432,6 +435,22 @@ namespace Guidewire.Core
 
         /// <summary>Of the energy along the direction, J.</summary>
         public double Slope => RodVectors.Dot(Gradient, Direction, System.VectorCount);
+
+        // Whether coordinates are so large that their rounding strains elements.
+        private string TooFar(RodShape shape)
+        {
+            double farthest = 0.0;
+            double shortest = double.PositiveInfinity;
+            for (int j = 0; j < shape.ElementCount; j++)
+            {
+                farthest = Math.Max(farthest, shape.X[j + 1].Length);
+                shortest = Math.Min(shortest, (shape.X[j + 1] - shape.X[j]).Length);
+            }
+            double rounding = Epsilon * farthest;
+            return rounding < MostRounding * shortest ? "" : ": coordinates of " + Text(farthest)
+                + " m are rounded to " + Text(rounding) + " m, too coarse for elements of " + Text(shortest)
+                + " m; move the scene nearer to the origin";
+        }
 
         private static string Text(double value) => value.ToString("G3", CultureInfo.InvariantCulture);
     }

@@ -38,6 +38,20 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void TJunctions_AreNamedWithTheirPlace()
+        {
+            // Two sides of a plate, of which one has a corner at (1, 0, 0) within an edge of the other.
+            Vector3d[] vertices =
+            {
+                new Vector3d(0.0, 0.0, 0.0), new Vector3d(2.0, 0.0, 0.0), new Vector3d(1.0, 1.0, 0.0),
+                new Vector3d(1.0, 0.0, 0.0), new Vector3d(1.0, -1.0, 0.0),
+            };
+            int[] triangles = { 0, 1, 2, 0, 4, 3, 3, 4, 1 };
+            Assert.That(() => TriangleMesh.Create(vertices, triangles, new[] { new Vector3d(1.0, 0.2, 0.0) }),
+                Throws.TypeOf<MeshException>().With.Message.Contains("1 T-junction, at (1, 0, 0): a corner lies within"));
+        }
+
+        [Test]
         public void Mesh_OfLooseTriangles_IsWeldedWhereCornersDifferByRounding()
         {
             // The tolerance is 1e-8 of the longest side, 2 units; 1e-6 of it is a slit that stays one.

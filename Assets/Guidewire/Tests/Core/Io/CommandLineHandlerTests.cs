@@ -29,6 +29,8 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase("-timStep 0.1", "did you mean '-timeStep'")]
+        [TestCase("--timStep 0.1", "unknown key 'timStep': did you mean 'timeStep'")]
+        [TestCase("--gravityFacto 0.1", "unknown key 'gravityFacto': --help lists")]
         [TestCase("-timeStep", "-timeStep needs a value: a number > 0 (s)")]
         [TestCase("-timeStep fast", "timeStep = fast is not allowed: needs a number > 0 (s)")]
         [TestCase("-repeat -1", "repeat = -1 is not allowed")]

@@ -207,6 +207,7 @@ namespace Guidewire.Core.Tests
         }
 
         [TestCase("'instrument': 'owm'", "did you mean \"own\"?")]
+        [TestCase("'instrument': 'owm'", "Searched: ")]
         [TestCase("'instrument': 'amplatz-superstiff-0.035'", "did you mean \"amplatz-super-stiff-0.035\"?")]
         [TestCase("'instrument': '../instruments/own'", "is not known")]
         [TestCase("'instrument': 7", "a text in double quotes")]

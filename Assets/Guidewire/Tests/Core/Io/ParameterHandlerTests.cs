@@ -1,4 +1,5 @@
 using System.IO;
+using System.Linq;
 using Guidewire.Io;
 using Newtonsoft.Json.Linq;
 using NUnit.Framework;
@@ -291,6 +292,44 @@ namespace Guidewire.Core.Tests
                 Has.Count.EqualTo(1).And.Some.Contains("wireSections[0]"));
             Assert.That(Load(Wire.Replace("%", ", \"numberRodElements\": 1")).Warnings, Is.Empty);
             Assert.That(Load(Wire.Replace("296", "294").Replace("%", "")).Warnings, Is.Empty);
+        }
+
+        [TestCase("299.9, \"to\": 310", "reaches beyond the wire's end at 300")]
+        [TestCase("300, \"to\": 310", "from 300 to 310 lies beyond the wire's end")]
+        [TestCase("100, \"to\": 100.000000001", "is shorter than rounding, 1e-9 of guidewireLength")]
+        [TestCase("100, \"to\": 100.00000000001", "is shorter than rounding, 1e-9 of guidewireLength")]
+        public void SectionsThatSayNothingOrLess_AreWarnedOf(string range, string said)
+        {
+            ParameterHandler handler = Load("{\"solver\": \"direct\", \"numberRodElements\": 30, \"wireSections\":"
+                + " [{\"from\": " + range + ", \"density\": 7000}]}");
+            Assert.That(handler.Warnings, Has.Some.Contains(said));
+            Assert.That(handler.Warnings.Count(line => line.Contains("wireSections[0]")),
+                Is.EqualTo(range.StartsWith("299") ? 2 : 1));    // it is also short
+        }
+
+        [TestCase("60, \"density\": 7000", "wireSections[1] both state density from 50 to 60: there the second applies")]
+        [TestCase("60, \"density\": 6000", "")]
+        [TestCase("50, \"density\": 7000", "")]
+        [TestCase("60, \"wireRadius\": 3e-4", "")]
+        public void SectionsThatOverlap_AreWarnedOfWhereTheyDisagree(string first, string said)
+        {
+            ParameterHandler handler = Load("{\"solver\": \"direct\", \"numberRodElements\": 30, \"wireSections\":"
+                + " [{\"from\": 0, \"to\": " + first + "}, {\"from\": 50, \"to\": 90, \"density\": 6000}]}");
+            Assert.That(handler.Warnings, said.Length == 0 ? Is.Empty : Has.Count.EqualTo(1).And.Some.Contains(said));
+        }
+
+        // E > 3 G: nu above 0.5.
+        [TestCase("\"youngsModulus\": 200e9", "the wire has a Poisson's ratio E/(2 G) - 1 of 3.35")]
+        [TestCase("\"youngsModulus\": 30e9, \"shearModulus\": 10e9", "")]
+        [TestCase("\"youngsModulus\": 31e9, \"shearModulus\": 10e9", "of 0.55")]
+        [TestCase("\"youngsModulus\": 1, \"shearModulus\": 10e9", "")]
+        [TestCase("\"wireSections\": [{\"from\": 0, \"to\": 100, \"shearModulus\": 1e9}],"
+            + " \"youngsModulus\": 60e9", "wireSections[0] has a Poisson's ratio E/(2 G) - 1 of 29")]
+        [TestCase("\"bendingStiffness\": 1e-3, \"torsionalStiffness\": 1e-5", "")]
+        public void ModuliThatNoIsotropicMaterialHas_AreWarnedOf(string moduli, string said)
+        {
+            ParameterHandler handler = Load("{\"solver\": \"direct\", " + moduli + "}");
+            Assert.That(handler.Warnings, said.Length == 0 ? Is.Empty : Has.Count.EqualTo(1).And.Some.Contains(said));
         }
 
         [Test]

@@ -56,6 +56,13 @@ namespace Guidewire.Core.Tests
             ["bendStiffness"] = Pbd + ", 'bendStiffness': 50",
             ["sectionBeyond"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
                 + " 200, 'to': 210, 'wireRadius': 0.001}]",
+            ["sectionCut"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
+                + " 50, 'to': 210, 'wireRadius': 0.001}]",
+            ["sectionThin"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
+                + " 50, 'to': 50.00000001, 'wireRadius': 0.001}]",
+            ["sectionOverlap"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
+                + " 50, 'to': 80, 'density': 7000}, {'from': 70, 'to': 90, 'density': 6000}]",
+            ["poissonRatio"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'youngsModulus': 200e9",
             ["sectionShort"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
                 + " 50, 'to': 52, 'wireRadius': 0.001}]",
             ["shearedStart"] = "'guidewireLength': 100, 'numberRodElements': 2, 'deltaThreshold': 0, 'displacement': 0,"

@@ -158,6 +158,18 @@ namespace Guidewire.Core.Tests
             Assert.That(run.StepCount, Is.Zero);
         }
 
+        [Test]
+        public void CoordinatesTooLargeForTheElements_AreTheReason()
+        {
+            SimulationParameters parameters = Cantilever(30, Solver.Direct, Integrator.Esdirk3, 1e-3, 0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            parameters.Scene.GuidewireOffset = 1e12;    // the last bit is a hundredth of an element
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed));
+            Assert.That(run.Reason, Does.Contain("no rest shape").And.Not.Contain("Infinity")
+                .And.Contain("move the scene nearer to the origin"));
+        }
+
         [TestCase(0.0)]
         [TestCase(0.05)]
         public void EndTurnedByManyTurns_WindsTheWireUp(double ramp)
