@@ -308,7 +308,7 @@ def unread_state(step: int, time: float, prediction_error: float, session: Sessi
 def state_of(answer: Mapping[str, Any], arrays: Mapping[str, np.ndarray], session: Session) -> State:
     """Return the state of a session that an answer and its arrays say."""
     state = unread_state(answer["step"], answer["time"], answer["predictionError"], session)
-    vars(state).update(outcome=answer["outcome"], reason=answer["message"], reliable=answer["reliable"])
+    vars(state).update(outcome=answer["outcome"], reason=answer["message"], reliable=answer.get("reliable"))
     for part in PARTS:
         fill(state, part, arrays)
     return state

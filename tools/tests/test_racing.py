@@ -13,7 +13,7 @@ from tools import racing
 def test_files_that_start_processes_are_found_and_others_not():
     found = racing.racing_files(["guidewire/runs", "tools", "guidewire/runs/tests/test_runner.py"])
     assert {"guidewire/runs/tests/test_runner.py", "tools/tests/test_testing.py"} <= set(found)
-    assert "tools/tests/test_prose.py" not in found and len(set(found)) == len(found)
+    assert "tools/tests/test_seeds.py" not in found and len(set(found)) == len(found)
 
 
 def test_busy_programs_end_with_the_tests(monkeypatch):

@@ -211,12 +211,13 @@ ROUGH = {
 }
 
 
-@pytest.mark.parametrize("name", ["sticking", pytest.param("arch", marks=pytest.mark.long("the same of a tube"))])
+@pytest.mark.long("a plateau is in the interval, in the test below")
+@pytest.mark.parametrize("name", list(ROUGH))
 def test_intervals_hold_where_friction_makes_results_jump(run_of, tmp_path, name):
     """The stiffness of a tip from points with 0.05 or 0.1 mm of noise, over a range in which slopes change 15-fold."""
     scene, (low, high), noise = ROUGH[name]
     key, inside, told = "wireSections[0].youngsModulus", [], []
-    for seed in range(12 if FULL else 3):
+    for seed in range(12):
         random = np.random.default_rng([seed, len(name)])
         true = float(np.exp(random.uniform(*np.log((low, high)))))
         points = spread(shape_of(run_of(placed({**scene, key: true}))), 40, random)
@@ -226,8 +227,7 @@ def test_intervals_hold_where_friction_makes_results_jump(run_of, tmp_path, name
         inside.append(one.low <= true <= one.high)
         told.append(any("friction" in note for note in found.notes))
         assert one.error < 0.5 * one.start and abs((one.value or true) - true) < 6.0 * one.error
-    assert sum(inside) >= (9 if FULL else 2), inside
-    assert any(told) or not FULL
+    assert sum(inside) >= 9 and any(told), inside    # at 95 % each, fewer in one of 30,000
 
 
 def test_a_plateau_is_in_the_interval_and_no_jacobian(run_of, tmp_path):
