@@ -121,7 +121,7 @@ class LateWriter(Runner):
 
     def _start(self):
         process = super()._start()
-        os.waitid(os.P_PID, process.pid, os.WEXITED | os.WNOWAIT)
+        process.wait()
         return process
 
 

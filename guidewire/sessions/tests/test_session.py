@@ -290,7 +290,7 @@ def test_a_runner_that_ends_at_once_says_how(monkeypatch, program, said, is_late
         def __init__(self, command):
             super().__init__(command)
             if is_late and "input" not in program:
-                os.waitid(os.P_PID, self.process.pid, os.WEXITED | os.WNOWAIT)
+                self.process.wait()
 
     monkeypatch.setattr(session_hosts, "Process", Process)
     monkeypatch.setattr(building, "build", lambda *words: [sys.executable, "-c", program])
