@@ -142,8 +142,8 @@ def fit_relaxation(time: np.ndarray, error: np.ndarray, as_published: bool = Fal
     height, decay, _ = _envelope(time[entries], error[entries])
     # Both turning points of the oscillation are peaks of the absolute error.
     period = float(2.0 * np.mean(np.diff(time[entries])))
-    guesses = [_Oscillation(height, decay, factor * period, -2.0 * math.pi * float(time[entries[0]]) / (factor * period))
-               for factor in _PERIODS]
+    periods = [factor * period for factor in _PERIODS]
+    guesses = [_Oscillation(height, decay, one, -2.0 * math.pi * float(time[entries[0]]) / one) for one in periods]
     slowest = _slowest_mode(time, error, entries, guesses)
     if as_published:
         times, heights = time[entries], error[entries]

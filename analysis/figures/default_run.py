@@ -182,7 +182,8 @@ def draw_relaxation(table: RunTable) -> tuple[Figure, str]:
 def _relaxation_caption(run: Run, fit: Relaxation) -> str:
     return (
         f"Figure 4.3. Relaxation of the last sphere in the default run. Least squares of ζ0 exp(-t/τ) (eq. 4.3) to all "
-        f"{fit.peak_times.size} peaks gives τ = {fit.time:.3f} ± {number(fit.time_error, 1)} s, the slowest mode alone {number(fit.slowest_time)} s, "
+        f"{fit.peak_times.size} peaks gives τ = {fit.time:.3f} ± {number(fit.time_error, 1)} s, "
+        f"the slowest mode alone {number(fit.slowest_time)} s, "
         f"and ζ0 = "
         f"{number(fit.amplitude)} units ({number(fit.amplitude / abs(run.number('displacement')))} displacements; the "
         f"slowest mode of a wire held at one end has 4/π = 1.27). Both turning points are peaks of the absolute error, "

@@ -7,7 +7,7 @@ an interval of 95 % is t times the standard error, t of Student's distribution w
 That holds where |r|^2 grows by s^2 t^2 up to the ends of the interval. With friction it need not: results jump by
 some um between near values, and a tip that sticks hardly moves over a range of them, so a Jacobian is that of one
 branch or of the jumps. Where |r|^2 grows by anything else, no Jacobian enters the intervals: each reaches to where
-|r|^2, with the other unknowns fitted, has grown by s^2 t^2 for good (`_profile`).
+|r|^2, with the other unknowns fitted, has grown for good by 2 s^2 F(0.95; 2, N - p) (`_profile`).
 """
 
 from __future__ import annotations
@@ -19,6 +19,7 @@ from typing import Any
 
 import numpy as np
 from scipy.optimize import OptimizeResult, least_squares
+from scipy.stats import f as fisher
 from scipy.stats import t as student
 
 from guidewire.identification.critical import find_critical
@@ -213,9 +214,14 @@ class _Search:
         """Student's t of an interval of 95 %."""
         return float(student.ppf(0.975, self._free()))
 
-    def _allowed(self) -> float:
-        """By how much the sum of squares may grow within an interval."""
-        return self._best[0] / self._free() * self._quantile() ** 2
+    def _reaches(self) -> float:
+        """Standard errors from the middle to the end of an interval of a profile."""
+        return math.sqrt(2.0 * float(fisher.ppf(0.95, 2, self._free())))
+
+    def _allowed(self, branches: bool = False) -> float:
+        """By how much the sum of squares may grow within an interval. Which of several branches a result is on counts
+        as one more unknown: the best of them fits better by chance than one would."""
+        return self._best[0] / self._free() * (self._reaches() if branches else self._quantile()) ** 2
 
     def _is_as_told(self, found: OptimizeResult, low: np.ndarray, high: np.ndarray) -> bool:
         """Return whether a Jacobian tells the intervals. Of one unknown the sum of squares has to grow as it says up to
@@ -224,8 +230,8 @@ class _Search:
         sizes = np.linalg.norm(found.jac, axis=0)
         seen = np.flatnonzero(sizes > _SINGULAR * max(float(sizes.max()), 1e-300))
         part = 1.0 if len(sizes) == 1 else 0.5
-        ends = [np.clip(found.x + part * sign * min(math.sqrt(self._allowed()) / sizes[k], _USELESS) * np.eye(len(sizes))[k],
-                        low, high) for k in seen for sign in (-1.0, 1.0)]
+        reach = part * np.minimum(math.sqrt(self._allowed()) / np.maximum(sizes, 1e-300), _USELESS)
+        ends = [np.clip(found.x + sign * row, low, high) for row in np.diag(reach)[seen] for sign in (-1.0, 1.0)]
         made = [None if parts is None else self._weighted(parts) for parts in self._compared(ends)]
         for first, last, here, there in zip(ends[::2], ends[1::2], made[::2], made[1::2]):
             if here is None or there is None:
@@ -249,13 +255,13 @@ class _Search:
             before, ends = self._best[0], []
             for k in range(len(low)):
                 ends.append(self._profile(k, jacobian, low, high))
-            if self._best[0] > before - 0.1 * self._allowed():
+            if self._best[0] > before - 0.1 * self._allowed(branches=True):
                 break
         more = list(self._bend)
         if self._rival is not None:
             (parts,) = self._compared([self._rival])
             weighted = np.full(1, math.inf) if parts is None else self._weighted(parts)
-            more += [self._rival] if weighted @ weighted <= self._best[0] + self._allowed() else []
+            more += [self._rival] if weighted @ weighted <= self._best[0] + self._allowed(branches=True) else []
         return [(min([first, *(one[k] for one in more)]), max([last, *(one[k] for one in more)]))
                 for k, (first, last) in enumerate(ends)]
 
@@ -266,7 +272,7 @@ class _Search:
         if len(others):    # the other unknowns change with it as the Jacobian says, and are then fitted
             along[others] = -np.linalg.lstsq(jacobian[:, others], jacobian[:, k], rcond=_SINGULAR)[0]
         size = float(np.linalg.norm(jacobian @ along))
-        first = min(max(0.25 * math.sqrt(self._allowed()) / max(size, 1e-300), _FINEST), 0.1 * _USELESS)
+        first = min(max(0.25 * math.sqrt(self._allowed(branches=True)) / max(size, 1e-300), _FINEST), 0.1 * _USELESS)
         known = {0.0: self._best[0]}
         for sign in (-1.0, 1.0):
             offsets = sign * first * (_WIDER ** np.arange(_MOST_STEPS) - 1.0) / (_WIDER - 1.0)
@@ -274,9 +280,9 @@ class _Search:
                 batch = batch[np.abs(batch) <= 2.0 * _USELESS]
                 made = self._squares_at([middle + offset * along for offset in batch], others, jacobian, low, high)
                 known.update(zip(batch.tolist(), made))
-                if len(made) < _OUTSIDE or min(made) > self._best[0] + self._allowed():
+                if len(made) < _OUTSIDE or min(made) > self._best[0] + self._allowed(branches=True):
                     break
-        limit = self._best[0] + self._allowed()
+        limit = self._best[0] + self._allowed(branches=True)
         for _ in range(3):    # where it leaves the interval more finely
             outer = self._ends_of(known, limit)
             halves = [0.5 * (a + b) for a, b in outer if b is not None]
@@ -432,11 +438,11 @@ class _Search:
         errors = np.sqrt(np.diag(covariance))
         quantile = self._quantile()
         if self._profiles:
-            errors = np.array([last - first for first, last in self._profiles]) / (2.0 * quantile)
+            errors = np.array([last - first for first, last in self._profiles]) / (2.0 * self._reaches())
             notes = [_sentence(self._unknowns, row) for row, error in zip(np.eye(len(steps)), errors)
                      if error >= _USELESS]
-            notes.append("the results of this scene jump, or change at unequal rates, as friction makes them: intervals "
-                         "reach to where the fit is worse for good")
+            notes.append("the results of this scene jump, or change at unequal rates, as friction makes them: "
+                         "intervals reach to where the fit is worse for good")
         values = []
         apart = np.zeros(len(steps), bool)
         if is_complete and self._rival is not None and not self._profiles:
@@ -456,7 +462,7 @@ class _Search:
                 choose(side, *(end[k] for end in self._bend)) if self._bend else side
                 for choose, side in ((min, steps[k] - reach), (max, steps[k] + reach)))
             size = one.value(steps[k]) if one.by_ratio else one.scale
-            error = (last - first) / (2.0 * quantile) if self._bend or self._profiles else errors[k]
+            error = errors[k] if self._profiles or not self._bend else (last - first) / (2.0 * quantile)
             values.append(Value(one.key, one.unit, one.start, one.value(steps[k]) if is_told else None,
                                 float(size * error), one.value(first) if math.isfinite(first) else -math.inf,
                                 one.value(last) if last < 500.0 else math.inf, at_bound))

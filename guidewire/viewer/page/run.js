@@ -296,7 +296,8 @@ export class Run {
   _take(answer) {
     const state = arraysOf(answer);
     this._layout = Object.entries(state).map(([name, { length }]) => /** @type {const} */ ([name, length]));
-    this._outcome = answer.outcome ? `${answer.outcome}, ${answer.reliable ? "" : "not "}reliable: ${answer.message}` : "";
+    const trust = answer.reliable ? "reliable" : "not reliable";
+    this._outcome = answer.outcome ? `${answer.outcome}, ${trust}: ${answer.message}` : "";
     return this._channels(answer.step, answer.time, state);
   }
 

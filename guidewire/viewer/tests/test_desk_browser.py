@@ -177,8 +177,9 @@ def test_success_ends_with_a_report_in_the_words_of_the_case(browse, runner_comm
 
 EVENTS = """
 import { Score } from "./score.js";
-const columns = { time: 1, positions: 6, contactForce: 2, curvature: 2, hubForce: 1, hubInsertion: 1, lumen: 3 };
-const channels = new Map(Object.entries(columns).map(([name, width]) =>
+const columns = { time: 1, positions: 6, contactForce: 2, curvature: 2, hubForce: 1, hubInsertion: 1, lumen: 3,
+  contactForces1: 6 };
+const channels = new Map(Object.entries(columns).filter(([name]) => name in data.frames[0]).map(([name, width]) =>
   [name, { name, width, unit: name === "curvature" ? "rad/m" : "N" }]));
 const recording = { channels, instruments: [{ radii: [0.18, 0.18], tipLoad: 0.1, shaftLoad: 1 }], millimetres: 1,
   count: data.frames.length, firstShown: () => 0,
@@ -209,6 +210,10 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
     # of the 5.5 s before the last frame nothing is known
     assert (got["caution"], got["stop"]) == pytest.approx((1.0, 1.0))
     assert got["best"] == pytest.approx(0.5) and got["wallForce"] == 0.25
+    # The mark of the gauge is that of all instruments: a catheter had 0.5 N, as 0.3 and 0.4 across.
+    with_catheter = [{**one, "contactForces1": [0, 0, 0, 0.3, 0.4, 0] if k == 3 else [0] * 6}
+                     for k, one in enumerate(frames)]
+    assert follow(EVENTS, frames=with_catheter)["wallForce"] == pytest.approx(0.5)
 
 
 BOXES = """(() => { const box = (one) => {

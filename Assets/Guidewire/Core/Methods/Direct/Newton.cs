@@ -42,7 +42,7 @@ namespace Guidewire.Core
         private const double Rounding = 1e-13;           // of the energies' magnitudes
         private const double MinSize = 8.0 / (1L << 52);   // of a step that rounding of the shape does not hide
         private const double Epsilon = 1.0 / (1L << 52);    // of a coordinate: its last bit
-        private const double MostRounding = 1e-10;       // of an element: what its ends may be rounded to without a word
+        private const double MostRounding = 1e-10;       // of an element: what rounding of its ends may strain
         private const double Contraction = 0.5;          // of the force left, by a full step
         private const int MaxWithoutGeometricStiffness = 4;    // iterations of a stage
         private const int MaxCuts = 40;

@@ -307,7 +307,7 @@ namespace Guidewire.Core.Tests
                 Is.EqualTo(range.StartsWith("299") ? 2 : 1));    // it is also short
         }
 
-        [TestCase("60, \"density\": 7000", "wireSections[1] both state density from 50 to 60: there the second applies")]
+        [TestCase("60, \"density\": 7000", "[1] both state density from 50 to 60: there the second applies")]
         [TestCase("60, \"density\": 6000", "")]
         [TestCase("50, \"density\": 7000", "")]
         [TestCase("60, \"wireRadius\": 3e-4", "")]
