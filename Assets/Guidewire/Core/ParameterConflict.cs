@@ -81,6 +81,10 @@ namespace Guidewire.Core
             new Rule("insertionSpeed", p => p.IsMaterial && p.Drive.InsertionSpeed != 0.0 && !p.MovesSphere0,
                 MovingDrive),
 
+            new Rule("coreDiameter", p => p.IsMaterial && p.Material.CoreDiameter > 2.0 * p.Material.WireRadius,
+                "at most twice wireRadius: it is what is solid in the wire"),
+            new Rule("wireSections", p => p.IsMaterial && HasCoreTooWide(p.Material),
+                "a coreDiameter of at most twice the wireRadius there"),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
@@ -218,6 +222,19 @@ namespace Guidewire.Core
                 // Where a section begins or ends is where something changes.
                 if (!(CrossSection.At(material, section.From).StretchStiffness > 0.0)
                     || !(CrossSection.At(material, section.To).StretchStiffness > 0.0))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static bool HasCoreTooWide(MaterialParameters material)
+        {
+            foreach (WireSection section in material.Sections)
+            {
+                CrossSection here = CrossSection.At(material, section.From);
+                if (here.CoreRadius > here.Radius)
                 {
                     return true;
                 }

@@ -28,6 +28,7 @@ namespace Guidewire.Core
             RotaryInertia2 = new double[Capacity];
             RestCurvature = new Vector3d[Capacity];
             Radius = new double[Capacity];
+            CoreRadius = new double[Capacity];
             _sides = new JointSide[]?[Capacity];
         }
 
@@ -75,6 +76,10 @@ namespace Guidewire.Core
 
         /// <summary>Radius of the surface that touches walls, m; the largest along an element.</summary>
         public double[] Radius { get; }
+
+        /// <summary>Radius of the thickest solid part, m: that of the surface unless <see
+        /// cref="MaterialParameters.CoreDiameter"/> says otherwise; the largest along an element.</summary>
+        public double[] CoreRadius { get; }
 
         /// <summary>The length L of all elements at rest, m.</summary>
         public double TotalLength
@@ -154,6 +159,7 @@ namespace Guidewire.Core
             RotaryInertia2[j] = other.RotaryInertia2[element];
             RestCurvature[j] = other.RestCurvature[element];
             Radius[j] = other.Radius[element];
+            CoreRadius[j] = other.CoreRadius[element];
             _sides[j] = other._sides[element];
         }
 

@@ -17,8 +17,8 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint, without twist, 1/m.</summary>
         public double Curvature => Math.Sqrt(_curvatureSquared);
 
-        /// <summary>Largest strain of the outermost fibre: the radius times the change of a joint's curvature from
-        /// rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
+        /// <summary>Largest strain of the outermost fibre of the core: its radius times the change of a joint's curvature
+        /// from rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
         public double Strain { get; private set; }
 
         /// <summary>Largest force of the hub along its axis, thrust or pull, N; NaN without walls.</summary>
@@ -106,7 +106,7 @@ namespace Guidewire.Core
                 // An end without a clamp has no joint, and no turn.
                 double bend = (k > 0 || terms.Supports.HasProximalJoint) && (k < n || terms.Supports.HasDistalJoint)
                     ? perLength * Math.Sqrt(change.X * change.X + change.Y * change.Y) : 0.0;
-                strain = Math.Max(strain, Math.Max(rod.Radius[before], rod.Radius[after]) * bend
+                strain = Math.Max(strain, Math.Max(rod.CoreRadius[before], rod.CoreRadius[after]) * bend
                     + Math.Max(_stretch[before], _stretch[after]));
             }
             _curvatureSquared = largest;

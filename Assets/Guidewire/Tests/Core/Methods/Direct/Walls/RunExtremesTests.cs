@@ -131,6 +131,29 @@ namespace Guidewire.Core.Tests
             }));
         }
 
+        // A tip of a coil around a core: what is solid is a tenth of the wire, and strained by a tenth.
+        [TestCase(false)]
+        [TestCase(true)]
+        public void CoiledTip_IsStrainedByItsCore(bool isSection)
+        {
+            SimulationParameters parameters = Rods.Clamped(60, Solver.Direct, 1e-3, 0);
+            MaterialParameters material = parameters.Material;
+            double radius = material.WireRadius;
+            parameters.Scene.GuidewireLength = 30e3 * radius;
+            double bend = material.YoungsModulus * Math.PI * Math.Pow(radius, 4) / 4.0;
+            parameters.Scene.TipMoment = new Vector3d(bend * 0.3 / radius, 0.0, 0.0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            material.CoreDiameter = isSection ? (double?)null : 0.2 * radius;
+            material.Sections = isSection ? new[]
+            {
+                new WireSection { From = 0.0, To = 30e3 * radius, WireRadius = radius, CoreDiameter = 0.2 * radius },
+            }
+                : Array.Empty<WireSection>();
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Report()!.Extremes!.Strain, Is.EqualTo(0.03).Within(1e-6));
+            Assert.That(run.IsReliable, Is.True, string.Join("; ", run.Warnings));
+        }
+
         [Test]
         public void Extremes_GoOnWithTheRun()
         {
