@@ -100,6 +100,21 @@ namespace Guidewire.Core
             return _modes[0];
         }
 
+        /// <summary>How far the rod is from the unstable equilibrium near it, and goes on in a time, along the mode of
+        /// the smallest eigenvalue, m: the largest shift, or turn times L.</summary>
+        /// <param name="motion">Velocities.</param>
+        /// <param name="time">s.</param>
+        public double AwayFromSaddle(RodShape shape, RodVector[] motion, double time)
+        {
+            RodVector[] mode = LowestMode(shape, out double eigenvalue);
+            double away = RodVectors.Dot(_gradient, mode, mode.Length) / eigenvalue;
+            Array.Copy(motion, _work, _work.Length);
+            _system.ApplyMetric(_work);
+            double speed = RodVectors.Dot(mode, _work);
+            return _length * RodStep.Size(mode, shape.ElementCount, _length, out _, mode.Length)
+                * (Math.Abs(away) + time * Math.Abs(speed));
+        }
+
         private int Factorise(RodShape shape, double shift) =>
             _system.Factorise(_terms, shape, _gradient, _work, shift);
 

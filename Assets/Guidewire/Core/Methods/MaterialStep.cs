@@ -98,6 +98,15 @@ namespace Guidewire.Core
             PredictionError = Vector3d.Distance(predictedTip, Shape.X[Shape.ElementCount]) / Scene.Metres;
         }
 
+        /// <summary>A wire that was restored has lost no turns before.</summary>
+        protected void BeginTurns(Snapshot snapshot, double time)
+        {
+            if (!snapshot.IsWritten)
+            {
+                Scene.Joints.Begin(Shape, time);
+            }
+        }
+
         /// <summary>Writes the wire as it is into a state.</summary>
         protected void Write(RodState state) => Scene.Write(state, Shape, Velocities, Spins);
     }

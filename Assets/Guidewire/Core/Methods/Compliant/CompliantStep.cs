@@ -181,6 +181,7 @@ namespace Guidewire.Core
             {
                 Energy.Start();
             }
+            BeginTurns(snapshot, _time);
         }
 
         private void SerializeOwn(Snapshot snapshot)

@@ -104,6 +104,7 @@ namespace Guidewire.Core
             {
                 Energy.Start();
             }
+            BeginTurns(snapshot, _time);
         }
 
         private void SerializeOwn(Snapshot snapshot)
