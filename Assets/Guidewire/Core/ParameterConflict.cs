@@ -197,6 +197,19 @@ namespace Guidewire.Core
             return broken == null ? null : new ParameterConflict(broken.Key, broken.Needed(facts));
         }
 
+        /// <summary>Error of the deflection of a clamped wire by the lengths of its elements (<see
+        /// cref="MaterialRod.ClampError"/>).</summary>
+        public static double ClampError(SimulationParameters parameters)
+        {
+            double[] lengths = ElementLayout.Lengths(parameters, 1.0, out _);
+            return MaterialScene.CreateRod(parameters, lengths).ClampError(new RodSupports
+            {
+                Proximal = parameters.Drive.Kind == Drive.Force ? ProximalEnd.Free : parameters.Scene.ProximalEnd,
+                Distal = parameters.Scene.DistalEnd,
+                Clamp = parameters.Material.ClampRule,
+            });
+        }
+
         private static Rule OfCatheters(Predicate<Facts> holds, string needed) =>
             new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
 

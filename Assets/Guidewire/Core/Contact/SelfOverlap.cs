@@ -8,7 +8,7 @@ namespace Guidewire.Core
     /// <remarks>An arc that is bent no tighter than the instrument's own radius, r, has its ends a diameter apart or
     /// more from a length of pi r on (Schur's theorem: none of its length has nearer ends than the half circle). So
     /// elements with at least that much between them are nearer than a diameter only where the instrument has come back
-    /// to itself.</remarks>
+    /// to itself. A ring, whose ends are in one place, is closed there.</remarks>
     internal sealed class SelfOverlap
     {
         private readonly double[][] _station;   // of each instrument's nodes at rest, units
@@ -72,10 +72,12 @@ namespace Guidewire.Core
             {
                 return;
             }
+            double arc = Math.PI * _widest[instrument];
+            double around = Vector3d.Distance(x[0], x[n]) < _widest[instrument] ? station[n] : double.PositiveInfinity;
             int from = 0;
             for (int i = 0; i < n; i++)
             {
-                double clear = station[i + 1] + Math.PI * _widest[instrument];
+                double clear = station[i + 1] + arc;
                 while (from < n && station[from] < clear)
                 {
                     from++;
@@ -83,6 +85,10 @@ namespace Guidewire.Core
                 for (int j = NearPairs.Next(x, n, i, from, reach, longest); j < n;
                     j = NearPairs.Next(x, n, i, j + 1, reach, longest))
                 {
+                    if (around - station[j + 1] + station[i] < arc)
+                    {
+                        continue;
+                    }
                     double share = Math.Sqrt(ClosestPoints.SegmentSegment(x[i], x[i + 1], x[j], x[j + 1],
                         out double s, out double t)) / (radius[i] + radius[j]);
                     if (share < _least)

@@ -6,7 +6,7 @@ namespace Guidewire.Core
     /// units.</summary>
     internal sealed class MaterialRod
     {
-        private const double LeastWeight = 0.25;   // of a joint by the rule of fourth order
+        private const double LeastWeight = 0.1;    // of a joint by the rule of fourth order
 
         private readonly JointSide[]?[] _sides;  // of an element that is not the same all along: start and end
 
@@ -188,8 +188,8 @@ namespace Guidewire.Core
         /// sum is l^2 f'/12 there. The three weights take it off a parabola: with the positions 0, a, b of the joints
         /// and l the third element, corrections c to the lengths that the joints stand for have the sum 0, and
         /// c1 a + c2 b = l^2/12, c1 a^2 + c2 b^2 = l^2 b/6 - (a^3 + (b - a)^3)/6. For equal elements that is Gregory's
-        /// 3/8, 7/6, 23/24. Where a joint would be stiffer than by a factor of 4 or have no stiffness at all, and on other
-        /// materials, the half element replaces them.</remarks>
+        /// 3/8, 7/6, 23/24. Where a joint would have less than a tenth of its length, and on other materials, the
+        /// half element replaces them.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
             var joints = new Joint[Capacity + 1];
@@ -242,11 +242,32 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Error of the deflection of a clamped wire of one material under a load at its other end, of which
+        /// the joints' lengths are a quadrature: sum w (L - s)^2 against L^3/3, the worse of both clamps.</summary>
+        public double ClampError(RodSupports supports)
+        {
+            double[] lengths = JointLengths(supports);
+            double whole = TotalLength;
+            double fromProximal = 0.0;
+            double fromDistal = 0.0;
+            double s = 0.0;
+            for (int k = 0; k <= ElementCount; k++)
+            {
+                fromProximal += lengths[k] * (whole - s) * (whole - s);
+                fromDistal += lengths[k] * s * s;
+                s += k < ElementCount ? Length[k] : 0.0;
+            }
+            double exact = whole * whole * whole / 3.0;
+            return Math.Max(supports.HasProximalJoint ? Math.Abs(fromProximal / exact - 1.0) : 0.0,
+                supports.HasDistalJoint ? Math.Abs(fromDistal / exact - 1.0) : 0.0);
+        }
+
         private (EndWeights Proximal, EndWeights Distal) JointRules(RodSupports supports)
         {
             int n = ElementCount;
             bool isLong = n >= (supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3);
-            return isLong ? (Rule(supports, 0, 1), Rule(supports, n - 1, -1)) : (ShortRule(supports), ShortRule(supports));
+            return isLong ? (Rule(supports, 0, 1), Rule(supports, n - 1, -1))
+                : (ShortRule(supports), ShortRule(supports));
         }
 
         private double WeightOf(int joint, RodSupports supports, (EndWeights Proximal, EndWeights Distal) rules)

@@ -161,7 +161,7 @@ namespace Guidewire.Core
             return real < 0.0 ? -1.0 * q : q;
         }
 
-        private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
+        internal static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
         {
             var profile = new WireProfile(parameters.Material, parameters.Scene.GuidewireLength);
             ElementLayout.Lengths(parameters, 1.0, out double[] positions);

@@ -17,8 +17,8 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint, without twist, 1/m.</summary>
         public double Curvature => Math.Sqrt(_curvatureSquared);
 
-        /// <summary>Largest strain of the outermost fibre of the core: its radius times the change of a joint's curvature
-        /// from rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
+        /// <summary>Largest strain of the outermost fibre of the core: its radius times the change of a joint's
+        /// curvature from rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
         public double Strain { get; private set; }
 
         /// <summary>When that strain was the largest, s.</summary>

@@ -47,6 +47,12 @@ namespace Guidewire.Core
             "wireSections[*i*] from *a* to *b* is *f:G3* of an element long and only contributes to the average of "
             + "that element; give it a numberRodElements of its own", "the section is coarser than it was given");
 
+        /// <summary>Elements at a clamp for which its rule has another order.</summary>
+        public static readonly WarningKind ClampElements = AtStart("clampElements",
+            "the elements at a clamp are too few or too different for its rule of fourth order: the deflection by a "
+            + "load at the other end is *p:G2* % off; equal elements there, or more, avoid that",
+            "by more than 1 %, of a wire of one material");
+
         /// <summary>An element of a start file that is sheared by much.</summary>
         public static readonly WarningKind ShearedStart = AtStart("shearedStart",
             "*file*: *which element of the start is sheared*",
@@ -119,8 +125,8 @@ namespace Guidewire.Core
 
         /// <summary>A motion that a disturbance would leave.</summary>
         public static readonly WarningKind Unstable = AfterReason("unstable",
-            "the wire ends where it is unstable, as beyond a critical load: any disturbance would grow, and a symmetric "
-            + "motion has none; a small load across the wire shows where it goes",
+            "the wire ends where it is unstable, as beyond a critical load: any disturbance would grow, and a "
+            + "symmetric motion has none; a small load across the wire shows where it goes",
             "the second derivative of the energy has a negative eigenvalue at the end, and the wire has not moved by "
             + "1e-4 L along its mode");
 

@@ -20,6 +20,7 @@ namespace Guidewire.Io
         };
 
         private const string Steps = "maxSimulationSteps";
+        private const double OddClamp = 0.01;    // of a deflection
         private const int MaxSteps = 1_000_000_000;
 
         private readonly GivenParameters _given = new GivenParameters();
@@ -390,6 +391,7 @@ namespace Guidewire.Io
             SimulationParameters simulation = Values.Simulation;
             double l = simulation.Scene.GuidewireLength / simulation.Scene.NumberRodElements;
             WarnOfSections(simulation);
+            WarnOfClamps(simulation);
             if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning(WarningTable.ElementLength, length.Source, (double)length.Value, l);
@@ -405,6 +407,19 @@ namespace Guidewire.Io
             if (simulation.Pbd.BendStiffness > l)
             {
                 AddWarning(WarningTable.BendStiffness, simulation.Pbd.BendStiffness, l);
+            }
+        }
+
+        private void WarnOfClamps(SimulationParameters simulation)
+        {
+            if (Method != Solver.Pbd && simulation.Material.ClampRule == ClampRule.FourthOrder
+                && simulation.Scene.Sheath == null && simulation.Scene.Catheters.Count == 0)
+            {
+                double error = ParameterConflict.ClampError(simulation);
+                if (error > OddClamp)
+                {
+                    AddWarning(WarningTable.ClampElements, 100.0 * error);
+                }
             }
         }
 
