@@ -3,8 +3,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>The link of a wire between two clamps, against Gauss's integral, and runs that lose turns whatever these
-    /// are from.</summary>
+    /// <summary>The link of a wire between two clamps, against Gauss's integral, and runs that lose turns, whatever
+    /// these are from.</summary>
     public sealed class LinkMonitorTests
     {
         private const int N = 60;
