@@ -77,8 +77,8 @@ namespace Guidewire.Core
             Array.Clear(_swing, 0, _swing.Length);
         }
 
-        /// <summary>Whether the wire is where any disturbance grows, and has not noticed: K has a negative eigenvalue,
-        /// and along its mode the wire is not yet displaced, nor does it move. A straight or symmetric motion stays so
+        /// <summary>Whether the wire is where any disturbance grows, and has not noticed. Its forces are almost in
+        /// balance, K has a negative eigenvalue, and along its mode the wire is not yet displaced, nor does it move. A straight or symmetric motion stays so
         /// in a computation beyond its critical load.</summary>
         /// <param name="time">s.</param>
         public bool IsUnstable(double time)
@@ -90,7 +90,7 @@ namespace Guidewire.Core
             SetMotion();
             _terms.SetTime(_scene.Schedule, time);
             _stability ??= new EquilibriumStability(_scene.Rod, _scene.Supports, _all, _system, Neutral * _bendForce);
-            return !_stability.IsStable(_scene.Shape)
+            return _stability.IsNearSaddle(_scene.Shape)
                 && _stability.AwayFromSaddle(_scene.Shape, _motion, _time) <= Unnoticed * _length;
         }
 

@@ -31,7 +31,8 @@ namespace Guidewire.Core.Tests
             Row.Holds("tip load, Gregory's weights: compliance, 3 EI/L³", TipCompliance(n, rule), 1.0, Rounding);
 
         // One element at the clamp, the other nine equal. The rule takes a parabola off any three elements, and the
-        // moment times its lever, (L - s)^2, is one. Beyond a ratio of 2.7 the third joint would have less than a tenth of its length.
+        // moment times its lever, (L - s)^2, is one. Beyond a ratio of 2.7 the third joint would have less than a tenth
+        // of its length.
         [TestCase(0.4)]
         [TestCase(0.7)]
         [TestCase(1.5)]
