@@ -81,6 +81,10 @@ namespace Guidewire.Core
             new Rule("insertionSpeed", p => p.IsMaterial && p.Drive.InsertionSpeed != 0.0 && !p.MovesSphere0,
                 MovingDrive),
 
+            new Rule("coreDiameter", p => p.IsMaterial && p.Material.CoreDiameter > 2.0 * p.Material.WireRadius,
+                "at most twice wireRadius: it is what is solid in the wire"),
+            new Rule("wireSections", p => p.IsMaterial && HasCoreTooWide(p.Material),
+                "a coreDiameter of at most twice the wireRadius there"),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
@@ -193,6 +197,19 @@ namespace Guidewire.Core
             return broken == null ? null : new ParameterConflict(broken.Key, broken.Needed(facts));
         }
 
+        /// <summary>Error of the deflection of a clamped wire by the lengths of its elements (<see
+        /// cref="MaterialRod.ClampError"/>).</summary>
+        public static double ClampError(SimulationParameters parameters)
+        {
+            double[] lengths = ElementLayout.Lengths(parameters, 1.0, out _);
+            return MaterialScene.CreateRod(parameters, lengths).ClampError(new RodSupports
+            {
+                Proximal = parameters.Drive.Kind == Drive.Force ? ProximalEnd.Free : parameters.Scene.ProximalEnd,
+                Distal = parameters.Scene.DistalEnd,
+                Clamp = parameters.Material.ClampRule,
+            });
+        }
+
         private static Rule OfCatheters(Predicate<Facts> holds, string needed) =>
             new Rule("catheters", p => p.Scene.Catheters.Count > 0 && !holds(p), needed);
 
@@ -218,6 +235,19 @@ namespace Guidewire.Core
                 // Where a section begins or ends is where something changes.
                 if (!(CrossSection.At(material, section.From).StretchStiffness > 0.0)
                     || !(CrossSection.At(material, section.To).StretchStiffness > 0.0))
+                {
+                    return true;
+                }
+            }
+            return false;
+        }
+
+        private static bool HasCoreTooWide(MaterialParameters material)
+        {
+            foreach (WireSection section in material.Sections)
+            {
+                CrossSection here = CrossSection.At(material, section.From);
+                if (here.CoreRadius > here.Radius)
                 {
                     return true;
                 }

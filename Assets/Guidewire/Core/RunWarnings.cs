@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Globalization;
 
 namespace Guidewire.Core
 {
@@ -15,12 +16,14 @@ namespace Guidewire.Core
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
+        private readonly SelfOverlap _overlap;
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
         /// <param name="isCovered">As in <see cref="RimMonitor"/>.</param>
         public RunWarnings(SimulationParameters parameters, Func<ContactShape, bool> isCovered)
         {
             _length = parameters.Scene.GuidewireLength;
+            _overlap = new SelfOverlap(parameters);
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
                 wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), isCovered);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
@@ -50,7 +53,13 @@ namespace Guidewire.Core
             }
             if (extremes != null && extremes.Strain > OddStrain)
             {
-                yield return WarningTable.Strain.With(100.0 * extremes.Strain);
+                yield return WarningTable.Strain.With(100.0 * extremes.Strain,
+                    (extremes.IsFirstStep(extremes.StrainTime) ? "in the first step, at t = " : "at t = ")
+                    + extremes.StrainTime.ToString("G4", CultureInfo.InvariantCulture));
+            }
+            if (_overlap.Warning is RunWarning overlap)
+            {
+                yield return overlap;
             }
             if (contacts != null && Shortfall.Counts(contacts.DriveShortfall, contacts.DriveAsked, _length))
             {
@@ -74,15 +83,39 @@ namespace Guidewire.Core
         }
 
         /// <summary>The wire starts in this state.</summary>
-        public void Begin(RodState state) => _rims.Begin(state);
+        /// <param name="coaxial">Null without a catheter.</param>
+        public void Begin(RodState state, CoaxialRecord? coaxial)
+        {
+            _rims.Begin(state);
+            TakeOverlap(state, coaxial, 0.0);
+        }
 
         /// <summary>Takes the state at the end of a step.</summary>
+        /// <param name="coaxial">Null without a catheter.</param>
         /// <param name="time">s.</param>
-        public void Update(RodState state, ContactRecord? contacts, double time) => _rims.Update(state, contacts, time);
+        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time)
+        {
+            _rims.Update(state, contacts, time);
+            TakeOverlap(state, coaxial, time);
+        }
+
+        private void TakeOverlap(RodState state, CoaxialRecord? coaxial, double time)
+        {
+            _overlap.Take(0, state.Positions, time);
+            int k = 1;
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                _overlap.Take(k++, one.Positions, time);
+            }
+        }
 
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
-        public void Serialize(Snapshot snapshot, RodState state) => _rims.Serialize(snapshot, state);
+        public void Serialize(Snapshot snapshot, RodState state)
+        {
+            _rims.Serialize(snapshot, state);
+            _overlap.Serialize(snapshot);
+        }
 
         private static double LengthOf(RodState state)
         {

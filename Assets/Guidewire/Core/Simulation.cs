@@ -36,7 +36,7 @@ namespace Guidewire.Core
             _stopRule = new StopRule(
                 parameters.Drive.Steering == null ? parameters.Method.MaxSimulationSteps : int.MaxValue);
             _clock = new StepClock(parameters.Method.TimeStep);
-            _warnings.Begin(State);
+            _warnings.Begin(State, Coaxial());
             // That of a run that goes on stays as it is: each time it was built from, its bits would change.
             _start = parameters.Scene.Start is RodStart known && known.IsReached ? known
                 : State.ToStart(proximalFrame, distalFrame);
@@ -199,7 +199,7 @@ namespace Guidewire.Core
             {
                 _clock.Advance();
             }
-            _warnings.Update(State, Contacts, Time);
+            _warnings.Update(State, Contacts, Coaxial(), Time);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {

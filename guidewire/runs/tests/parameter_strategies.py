@@ -72,7 +72,8 @@ def wire_sections(draw, scene: Mapping[str, Any]) -> list[dict]:
     length = length_of(scene, "guidewireLength")
     own = {"youngsModulus": log_uniform(1e6, 1e12), "shearModulus": log_uniform(1e6, 1e12),
            "density": log_uniform(100.0, 3e4), "wireRadius": log_uniform(1e-5, 2e-3), "restCurvature": around(100.0),
-           "innerRadius": st.floats(0.0, 0.9e-5), "shearFactor": st.floats(0.3, 1.0),
+           "innerRadius": st.floats(0.0, 0.9e-5), "coreDiameter": log_uniform(1e-6, 2e-5),
+           "shearFactor": st.floats(0.3, 1.0),
            "axialStiffness": log_uniform(1.0, 1e6), "shearStiffness": log_uniform(1.0, 1e6),
            "bendingStiffness1": log_uniform(1e-7, 1e-2), "bendingStiffness2": log_uniform(1e-7, 1e-2),
            "torsionalStiffness": log_uniform(1e-7, 1e-2), "massPerLength": log_uniform(1e-5, 0.1),
@@ -91,6 +92,12 @@ def inner_radii(draw, scene: Mapping[str, Any]) -> float:
     """Less than the wire's radius and those of its sections."""
     radii = [scene.get("wireRadius", 5e-4), *(s.get("wireRadius", 1.0) for s in scene.get("wireSections") or [])]
     return draw(st.floats(0.0, 0.99)) * min(radii)
+
+
+def core_diameters(scene: Mapping[str, Any]) -> st.SearchStrategy:
+    """None, or up to twice the wire's radius and those of its sections."""
+    radii = [scene.get("wireRadius", 5e-4), *(s.get("wireRadius", 1.0) for s in scene.get("wireSections") or [])]
+    return st.one_of(st.none(), st.floats(0.01, 1.0).map(lambda part: part * 2.0 * min(radii)))
 
 
 def stiffness_of(key: str) -> Callable[[Mapping[str, Any]], st.SearchStrategy]:
@@ -209,7 +216,7 @@ VALUES: dict[str, st.SearchStrategy] = {
 }
 # Those that have to fit the rest of the scene.
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
-    "wireSections": wire_sections, "innerRadius": inner_radii,
+    "wireSections": wire_sections, "innerRadius": inner_radii, "coreDiameter": core_diameters,
     **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
     "loadTables": load_tables, "startFile": start_files, "start": lambda scene: st.just(None),
     "duration": lambda scene: st.just(None),  # takes the place of maxSimulationSteps

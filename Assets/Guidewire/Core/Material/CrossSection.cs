@@ -35,6 +35,10 @@ namespace Guidewire.Core
         /// <summary>Radius of the surface, m.</summary>
         public double Radius;
 
+        /// <summary>Radius of the thickest solid part, m: its surface is strained by this times the change of
+        /// curvature. Of a spring coil it is that of the coil's wire, which bends and twists by less.</summary>
+        public double CoreRadius;
+
         /// <summary>What a joint sees of it.</summary>
         public JointSide Side => new JointSide
         {
@@ -54,6 +58,7 @@ namespace Guidewire.Core
             double area = Math.PI * radius * radius;
             CrossSection round = Of(area, 0.25 * area * radius * radius, youngsModulus, shearModulus, density);
             round.Radius = radius;
+            round.CoreRadius = radius;
             return round;
         }
 
@@ -76,7 +81,11 @@ namespace Guidewire.Core
         /// last one with a value applies.</summary>
         public static CrossSection At(MaterialParameters material, double position)
         {
-            var wire = new WireSection { AxialStiffness = material.AxialStiffness };
+            var wire = new WireSection
+            {
+                AxialStiffness = material.AxialStiffness,
+                CoreDiameter = material.CoreDiameter,
+            };
             foreach (WireSection section in material.Sections)
             {
                 if (position >= section.From && position < section.To)
@@ -93,6 +102,7 @@ namespace Guidewire.Core
                 : Tube(radius, inner, young, shear, density);
             here.ShearStiffness *= wire.ShearFactor ?? material.ShearFactor;
             here.Radius = radius;
+            here.CoreRadius = 0.5 * wire.CoreDiameter ?? radius;
             here.RestCurvature = wire.RestCurvature ?? material.RestCurvature;
             here.TakeDirect(wire);
             return here;
@@ -161,6 +171,7 @@ namespace Guidewire.Core
             rod.RotaryInertia2[j] = RotaryInertia2;
             rod.RestCurvature[j] = RestCurvature;
             rod.Radius[j] = Radius;
+            rod.CoreRadius[j] = CoreRadius;
         }
     }
 }

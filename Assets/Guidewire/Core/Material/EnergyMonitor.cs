@@ -87,6 +87,17 @@ namespace Guidewire.Core
                 motion / Math.Max(_maxPutIn, putIn), _step);
         }
 
+        /// <summary>What of the largest energy that was put in is in the wire no more, where its ends did no
+        /// work.</summary>
+        public double FractionLost
+        {
+            get
+            {
+                double most = Math.Max(_maxPutIn, _start + _loadWork);
+                return (_start + _loadWork - Motion() - _terms.StoredEnergy(_shape)) / most;
+            }
+        }
+
         /// <summary>The wire as it is now is the start.</summary>
         public void Start()
         {

@@ -22,6 +22,7 @@ namespace Guidewire.Core
         private const double FiniteTurn = 0.5;          // rad, or shift over L
         private const double SameEnergy = 1e-9;         // of the sum of the terms' magnitudes
         private const double NoEnergy = 1e-12;          // of EI/L
+        private const double LargestUnbalanced = 0.1;   // force on a node, of EI/L^2
         private const int PowerIterations = 40;
         private const int MaxHalvings = 40;
 
@@ -36,6 +37,7 @@ namespace Guidewire.Core
         private readonly RodShape _moved;
         private readonly double _length;
         private readonly double _neutral;  // N
+        private readonly double _bendForce; // N
         private readonly double _noEnergy; // J
 
         /// <summary>Makes one for a rod under these terms.</summary>
@@ -49,7 +51,8 @@ namespace Guidewire.Core
             _system = system;
             _neutral = neutral;
             _length = rod.TotalLength;
-            _noEnergy = NoEnergy * rod.BendForce * _length;
+            _bendForce = rod.BendForce;
+            _noEnergy = NoEnergy * _bendForce * _length;
             _gradient = new RodVector[system.VectorCount];
             _work = new RodVector[system.VectorCount];
             for (int k = 0; k < MotionCount; k++)
@@ -98,6 +101,34 @@ namespace Guidewire.Core
             double shift = Factorise(shape, 0.0) == 0 ? 0.0 : LowestShift(shape);
             eigenvalue = FindMode(0) - shift;
             return _modes[0];
+        }
+
+        /// <summary>Whether the rod is near an equilibrium with an eigenvalue so negative that rounding cannot have made
+        /// it of a 0. In a violent motion, far from any, its sign says nothing.</summary>
+        public bool IsNearSaddle(RodShape shape)
+        {
+            if (Factorise(shape, _neutral) == 0)
+            {
+                return false;
+            }
+            Array.Copy(_gradient, _work, _work.Length);
+            _system.Project(_work);
+            return RodVectors.Largest(_work, _length) <= LargestUnbalanced * _bendForce;
+        }
+
+        /// <summary>How far the rod is from the unstable equilibrium near it, and goes on in a time, along the mode of
+        /// the smallest eigenvalue, m: the largest shift, or turn times L.</summary>
+        /// <param name="motion">Velocities.</param>
+        /// <param name="time">s.</param>
+        public double AwayFromSaddle(RodShape shape, RodVector[] motion, double time)
+        {
+            RodVector[] mode = LowestMode(shape, out double eigenvalue);
+            double away = RodVectors.Dot(_gradient, mode, mode.Length) / eigenvalue;
+            Array.Copy(motion, _work, _work.Length);
+            _system.ApplyMetric(_work);
+            double speed = RodVectors.Dot(mode, _work);
+            return _length * RodStep.Size(mode, shape.ElementCount, _length, out _, mode.Length)
+                * (Math.Abs(away) + time * Math.Abs(speed));
         }
 
         private int Factorise(RodShape shape, double shift) =>

@@ -34,6 +34,10 @@ namespace Guidewire.Core
         /// over what came out, by the mean of the moments before and after the step. NaN without walls.</summary>
         public double Work { get; internal set; }
 
+        /// <summary>What of <see cref="Force"/> moves the wire against the drag of massDamping, N; NaN with
+        /// catheters.</summary>
+        public double Drag { get; internal set; } = double.NaN;
+
         /// <summary>Direction of the last element, a unit vector.</summary>
         public Vector3d TipDirection { get; private set; }
 

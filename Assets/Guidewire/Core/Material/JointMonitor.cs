@@ -44,6 +44,9 @@ namespace Guidewire.Core
         /// <summary>The rod has other elements.</summary>
         public void Remesh() => _rod.SetJoints(_supports, _joints);
 
+        /// <summary>The wire has all its turns in this shape at this time, s.</summary>
+        public void Begin(RodShape shape, double time) => _link.Begin(shape, TurnAt(time));
+
         /// <summary>What the wire has lost of its twist in this shape, or is about to, in one line; or null.</summary>
         /// <param name="time">s; the clamps have turned as they should by then.</param>
         /// <param name="done">How much of what the ends are asked to do at this time they have done, above 0 to
@@ -51,8 +54,10 @@ namespace Guidewire.Core
         public string? FindLost(RodShape shape, double time, double done = 1.0)
         {
             return FindTurned(shape, time, done)
-                ?? _link.FindLost(shape, done * (_schedule.Distal.TurnAt(time) - _schedule.Hub.TurnAt(time)));
+                ?? _link.FindLost(shape, done * TurnAt(time));
         }
+
+        private double TurnAt(double time) => _schedule.Distal.TurnAt(time) - _schedule.Hub.TurnAt(time);
 
         /// <summary>The joint that is turned too far in this shape, its angle and what would help, in one line; or
         /// null.</summary>

@@ -8,71 +8,169 @@ namespace Guidewire.Core
     /// <remarks>The wire does not meet itself. Wound up beyond the couple at which it stays straight (couples of 2
     /// sqrt(EI T) under a tension T) it bends into a loop; a loop that passes through the wire, or over an end, takes
     /// two turns along (Calugareanu: twist and writhe change by 2 together), and what is left may well be in balance.
-    /// No wire does that. It shows once the wire is stretched out again: where every element points forward, d3 . axis
-    /// above 0, its orientation is a turn psi about the axis and then a tilt of less than 90 degrees, and psi from
-    /// clamp to clamp is the turn that the clamps have made, bent or not (Fuller). Where an element points back, or
-    /// an end moves in six degrees of freedom, nothing is said.</remarks>
+    /// No wire does that. What a wire keeps is its link, twist and writhe, with both ends extended along their
+    /// clamps: it changes by the turns of the clamps alone, wherever the twist is from. Seen along one direction v the
+    /// link is the sum of the signed crossings and of the turns against the normal v x t of the picture. From tangent
+    /// a to tangent b on the great circle that normal turns, against what is carried along without twist, by
+    /// atan2(D, 1 - v.a - v.b + a.b) - atan2(D, 1 + v.a + v.b + a.b), D = v . (a x b): half the difference of the
+    /// areas to the south pole -v and to the north pole v. Neither depends on v in sum. Where an end moves in six
+    /// degrees of freedom, its extension sweeps across the wire, and nothing is said.</remarks>
     internal sealed class LinkMonitor
     {
         private readonly RodSchedule _schedule;
         private readonly bool _isOn;
-        private readonly double _start;  // psi from clamp to clamp before the clamps turn, radians
+        private Vector3d _along;             // the picture's axes: v, and two across
+        private Vector3d _right;
+        private Vector3d _up;
+        private readonly Vector3d[] _tangent;    // of the extension, the elements, the other extension
+        private readonly Vector3d[] _picture;    // nodes, seen along v
+        private double _start;               // link less the turns of the clamps, radians
 
         /// <summary>A monitor of a wire at its start, whose clamps have not turned yet.</summary>
         public LinkMonitor(RodSupports supports, RodSchedule schedule, RodShape start)
         {
             _schedule = schedule;
-            _isOn = !schedule.HasMotions && supports.HasProximalJoint && supports.HasDistalJoint
-                && Measure(start, out _start);
+            _isOn = !schedule.HasMotions && supports.HasProximalJoint && supports.HasDistalJoint;
+            _tangent = new Vector3d[_isOn ? start.X.Length + 1 : 0];
+            _picture = new Vector3d[_isOn ? start.X.Length : 0];
+            Begin(start, 0.0);
+        }
+
+        /// <summary>The wire has all its turns in this shape.</summary>
+        /// <param name="turn">Of the distal clamp against the proximal one, radians.</param>
+        public void Begin(RodShape shape, double turn)
+        {
+            if (!_isOn)
+            {
+                return;
+            }
+            // Oblique, so that no wire in a plane of the scene is seen edge on.
+            Quaterniond frame = shape.ProximalFrame;
+            _along = Quaterniond.Rotate(frame, new Vector3d(0.6, 0.8, 0.1));
+            _along = (1.0 / _along.Length) * _along;
+            Vector3d axis = frame.Director3;
+            _right = axis - Vector3d.Dot(axis, _along) * _along;
+            _right = (1.0 / _right.Length) * _right;
+            _up = Vector3d.Cross(_along, _right);
+            _start = Measure(shape) - turn;
         }
 
         /// <summary>How many turns the wire has lost, and why, in one line; or null.</summary>
         /// <param name="turn">Of the distal clamp against the proximal one, radians.</param>
         public string? FindLost(RodShape shape, double turn)
         {
-            if (!_isOn || turn == 0.0 || !Measure(shape, out double measured))
-            {
-                return null;
-            }
-            double lost = Math.Round((turn + _start - measured) / (2.0 * Math.PI));
-            if (lost == 0.0)
+            double lost = _isOn ? Math.Round((turn + _start - Measure(shape)) / (2.0 * Math.PI)) : 0.0;
+            if (!(Math.Abs(lost) >= 1.0))
             {
                 return null;
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "of {0:G4} turns between its clamps the wire has lost {1}: it has formed loops and passed through "
-                + "itself, as there is no self-contact; fewer turns (distalRotation, twistPerStep) or a pull "
-                + "(axialForce, distalDisplacement) keep it "
-                + "straight", Math.Abs(turn) / (2.0 * Math.PI), Math.Abs(lost));
+                + "itself, as there is no self-contact; fewer turns (distalRotation, twistPerStep, those of a start) "
+                + "or a pull (axialForce, distalDisplacement) keep it straight",
+                Math.Abs(turn + _start) / (2.0 * Math.PI), Math.Abs(lost));
         }
 
-        /// <summary>psi from clamp to clamp, radians, joint by joint; false where an element does not point
-        /// forward.</summary>
-        private bool Measure(RodShape shape, out double turn)
+        /// <summary>The link with both ends extended, times 2 pi.</summary>
+        internal double Measure(RodShape shape)
         {
-            Quaterniond back = _schedule.Hub.Frame.Conjugate;
-            turn = 0.0;
-            if (!Twist(back * shape.ProximalFrame, out double before))
+            int n = shape.ElementCount;
+            Quaterniond before = shape.ProximalFrame;
+            _tangent[0] = before.Director3;
+            double link = 0.0;
+            for (int j = 0; j <= n; j++)
             {
-                return false;
-            }
-            for (int j = 0; j <= shape.ElementCount; j++)
-            {
-                if (!Twist(back * (j < shape.ElementCount ? shape.Q[j] : shape.DistalFrame), out double psi))
+                Quaterniond frame = shape.DistalFrame;
+                _tangent[j + 1] = frame.Director3;
+                if (j < n)
                 {
-                    return false;
+                    Vector3d chord = shape.X[j + 1] - shape.X[j];
+                    _tangent[j + 1] = (1.0 / chord.Length) * chord;
+                    frame = Swing(shape.Q[j].Director3, _tangent[j + 1]) * shape.Q[j];
                 }
-                turn += Math.IEEERemainder(psi - before, 2.0 * Math.PI);
-                before = psi;
+                Quaterniond turn = before.Conjugate * frame;
+                link += Math.IEEERemainder(2.0 * Math.Atan2(turn.Z, turn.W), 2.0 * Math.PI)
+                    - NormalTurn(_tangent[j], _tangent[j + 1]);
+                before = frame;
             }
-            return true;
+            return link + 2.0 * Math.PI * Crossings(shape);
         }
 
-        // q = tilt times turn about e3: psi = 2 atan2(z, w); d3 . e3 = w^2 + z^2 - x^2 - y^2.
-        private static bool Twist(in Quaterniond q, out double psi)
+        // The rotation by the shortest way from a unit vector to another.
+        private static Quaterniond Swing(in Vector3d from, in Vector3d to)
         {
-            psi = 2.0 * Math.Atan2(q.Z, q.W);
-            return q.W * q.W + q.Z * q.Z > q.X * q.X + q.Y * q.Y;
+            Vector3d axis = Vector3d.Cross(from, to);
+            double real = 1.0 + Vector3d.Dot(from, to);
+            double scale = 1.0 / Math.Sqrt(axis.LengthSquared + real * real);
+            return new Quaterniond(scale * axis.X, scale * axis.Y, scale * axis.Z, scale * real);
+        }
+
+        private double NormalTurn(in Vector3d a, in Vector3d b)
+        {
+            double area = Vector3d.Dot(_along, Vector3d.Cross(a, b));
+            double sum = Vector3d.Dot(_along, a) + Vector3d.Dot(_along, b);
+            double dot = 1.0 + Vector3d.Dot(a, b);
+            return Math.Atan2(area, dot - sum) - Math.Atan2(area, dot + sum);
+        }
+
+        // Signed, as v sees the wire with its extensions; none where all of it goes to the right.
+        private int Crossings(RodShape shape)
+        {
+            int n = shape.ElementCount;
+            bool isForward = true;
+            for (int j = 0; j <= n + 1; j++)
+            {
+                isForward &= Vector3d.Dot(_tangent[j], _right) > 0.0;
+            }
+            if (isForward)
+            {
+                return 0;
+            }
+            double longest = 0.0;
+            for (int i = 0; i <= n; i++)
+            {
+                Vector3d x = shape.X[i];
+                _picture[i] = new Vector3d(Vector3d.Dot(x, _right), Vector3d.Dot(x, _up), 0.0);
+                longest = i == 0 ? 0.0 : Math.Max(longest, Vector3d.Distance(_picture[i - 1], _picture[i]));
+            }
+            int sum = Crossing(shape, -1, n);
+            for (int i = 0; i < n; i++)
+            {
+                sum += i > 0 ? Crossing(shape, -1, i) : 0;
+                sum += i < n - 1 ? Crossing(shape, i, n) : 0;
+                for (int j = NearPairs.Next(_picture, n, i, i + 2, longest, longest); j < n;
+                    j = NearPairs.Next(_picture, n, i, j + 1, longest, longest))
+                {
+                    sum += Crossing(shape, i, j);
+                }
+            }
+            return sum;
+        }
+
+        // Of two elements, where -1 is the proximal extension and n the distal one.
+        private int Crossing(RodShape shape, int i, int j)
+        {
+            (Vector3d a, Vector3d u, double aEnd) = Line(shape, i);
+            (Vector3d b, Vector3d w, double bEnd) = Line(shape, j);
+            Vector3d between = b - a;
+            double across = Vector3d.Dot(_along, Vector3d.Cross(u, w));
+            double s = Vector3d.Dot(_along, Vector3d.Cross(between, w)) / across;
+            double t = Vector3d.Dot(_along, Vector3d.Cross(between, u)) / across;
+            if (!(s >= 0.0 && s < aEnd && t >= 0.0 && t < bEnd))
+            {
+                return 0;
+            }
+            // The proximal extension is followed towards the wire, against its line.
+            double above = Vector3d.Dot(_along, a + s * u - b - t * w) * across * (i < 0 ? -1.0 : 1.0);
+            return Math.Sign(above);
+        }
+
+        private (Vector3d Start, Vector3d Direction, double End) Line(RodShape shape, int j)
+        {
+            int n = shape.ElementCount;
+            return j < 0 ? (shape.X[0], -_tangent[0], double.PositiveInfinity)
+                : j == n ? (shape.X[n], _tangent[n + 1], double.PositiveInfinity)
+                : (shape.X[j], shape.X[j + 1] - shape.X[j], 1.0);
         }
     }
 }

@@ -6,8 +6,7 @@ namespace Guidewire.Core
     /// units.</summary>
     internal sealed class MaterialRod
     {
-        // Gregory's end weights for the trapezoidal rule, fourth order.
-        private static readonly double[] GregoryWeights = { 3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0 };
+        private const double LeastWeight = 0.1;    // of a joint by the rule of fourth order
 
         private readonly JointSide[]?[] _sides;  // of an element that is not the same all along: start and end
 
@@ -28,6 +27,7 @@ namespace Guidewire.Core
             RotaryInertia2 = new double[Capacity];
             RestCurvature = new Vector3d[Capacity];
             Radius = new double[Capacity];
+            CoreRadius = new double[Capacity];
             _sides = new JointSide[]?[Capacity];
         }
 
@@ -75,6 +75,10 @@ namespace Guidewire.Core
 
         /// <summary>Radius of the surface that touches walls, m; the largest along an element.</summary>
         public double[] Radius { get; }
+
+        /// <summary>Radius of the thickest solid part, m: that of the surface unless <see
+        /// cref="MaterialParameters.CoreDiameter"/> says otherwise; the largest along an element.</summary>
+        public double[] CoreRadius { get; }
 
         /// <summary>The length L of all elements at rest, m.</summary>
         public double TotalLength
@@ -154,6 +158,7 @@ namespace Guidewire.Core
             RotaryInertia2[j] = other.RotaryInertia2[element];
             RestCurvature[j] = other.RestCurvature[element];
             Radius[j] = other.Radius[element];
+            CoreRadius[j] = other.CoreRadius[element];
             _sides[j] = other._sides[element];
         }
 
@@ -178,8 +183,13 @@ namespace Guidewire.Core
 
         /// <summary>The n+1 joints: 0 and n at the ends, k between elements k-1 and k. A joint stands for half of the
         /// element on either side, times its weight; its compliance is the sum of theirs.</summary>
-        /// <remarks>Gregory's weights need three joints from each clamp of their own, on elements that are all alike;
-        /// elsewhere the half element replaces them.</remarks>
+        /// <remarks>Gregory's weights need three joints from each clamp of their own, on elements of one material. The
+        /// trapezoidal rule has the error -l^3 f''/12 on each element; from the third joint on, on equal elements, the
+        /// sum is l^2 f'/12 there. The three weights take it off a parabola: with the positions 0, a, b of the joints
+        /// and l the third element, corrections c to the lengths that the joints stand for have the sum 0, and
+        /// c1 a + c2 b = l^2/12, c1 a^2 + c2 b^2 = l^2 b/6 - (a^3 + (b - a)^3)/6. For equal elements that is Gregory's
+        /// 3/8, 7/6, 23/24. Where a joint would have less than a tenth of its length, and on other materials, the
+        /// half element replaces them.</remarks>
         public Joint[] Joints(RodSupports supports)
         {
             var joints = new Joint[Capacity + 1];
@@ -191,7 +201,7 @@ namespace Guidewire.Core
         public void SetJoints(RodSupports supports, Joint[] joints)
         {
             int n = ElementCount;
-            (ClampRule Proximal, ClampRule Distal) rules = JointRules(supports);
+            (EndWeights Proximal, EndWeights Distal) rules = JointRules(supports);
             for (int k = 0; k <= n; k++)
             {
                 int before = Math.Max(k - 1, 0);
@@ -224,7 +234,7 @@ namespace Guidewire.Core
         /// <summary>Sets the same.</summary>
         public void SetJointLengths(RodSupports supports, double[] lengths)
         {
-            (ClampRule Proximal, ClampRule Distal) rules = JointRules(supports);
+            (EndWeights Proximal, EndWeights Distal) rules = JointRules(supports);
             for (int k = 0; k <= ElementCount; k++)
             {
                 lengths[k] = WeightOf(k, supports, rules)
@@ -232,18 +242,38 @@ namespace Guidewire.Core
             }
         }
 
-        private (ClampRule Proximal, ClampRule Distal) JointRules(RodSupports supports)
+        /// <summary>Error of the deflection of a clamped wire of one material under a load at its other end, of which
+        /// the joints' lengths are a quadrature: sum w (L - s)^2 against L^3/3, the worse of both clamps.</summary>
+        public double ClampError(RodSupports supports)
+        {
+            double[] lengths = JointLengths(supports);
+            double whole = TotalLength;
+            double fromProximal = 0.0;
+            double fromDistal = 0.0;
+            double s = 0.0;
+            for (int k = 0; k <= ElementCount; k++)
+            {
+                fromProximal += lengths[k] * (whole - s) * (whole - s);
+                fromDistal += lengths[k] * s * s;
+                s += k < ElementCount ? Length[k] : 0.0;
+            }
+            double exact = whole * whole * whole / 3.0;
+            return Math.Max(supports.HasProximalJoint ? Math.Abs(fromProximal / exact - 1.0) : 0.0,
+                supports.HasDistalJoint ? Math.Abs(fromDistal / exact - 1.0) : 0.0);
+        }
+
+        private (EndWeights Proximal, EndWeights Distal) JointRules(RodSupports supports)
         {
             int n = ElementCount;
             bool isLong = n >= (supports.HasProximalJoint && supports.HasDistalJoint ? 6 : 3);
-            return isLong ? (Rule(supports, 0), Rule(supports, n - GregoryWeights.Length))
+            return isLong ? (Rule(supports, 0, 1), Rule(supports, n - 1, -1))
                 : (ShortRule(supports), ShortRule(supports));
         }
 
-        private double WeightOf(int joint, RodSupports supports, (ClampRule Proximal, ClampRule Distal) rules)
+        private double WeightOf(int joint, RodSupports supports, (EndWeights Proximal, EndWeights Distal) rules)
         {
-            return (supports.HasProximalJoint ? Weight(rules.Proximal, joint) : 1.0)
-                * (supports.HasDistalJoint ? Weight(rules.Distal, ElementCount - joint) : 1.0);
+            return (supports.HasProximalJoint ? rules.Proximal.At(joint) : 1.0)
+                * (supports.HasDistalJoint ? rules.Distal.At(ElementCount - joint) : 1.0);
         }
 
         private JointSide Even(int j)
@@ -257,36 +287,60 @@ namespace Guidewire.Core
             };
         }
 
-        /// <summary>The rule at a clamp whose three elements begin with this one.</summary>
-        private ClampRule Rule(RodSupports supports, int first)
+        /// <summary>The weights at a clamp.</summary>
+        /// <param name="first">The element at it.</param>
+        /// <param name="step">To the next one.</param>
+        private EndWeights Rule(RodSupports supports, int first, int step)
         {
-            for (int j = first; j < first + GregoryWeights.Length; j++)
+            if (supports.Clamp != ClampRule.FourthOrder)
             {
-                if (_sides[j] != null || Math.Abs(Length[j] - Length[first]) > 1e-9 * Length[first]
-                    || !Even(j).IsLike(Even(first)))
+                return ShortRule(supports);
+            }
+            bool areEqual = true;
+            for (int k = 0; k < 3; k++)
+            {
+                int j = first + k * step;
+                if (_sides[j] != null || !Even(j).IsLike(Even(first)))
                 {
                     return ShortRule(supports);
                 }
+                areEqual &= Math.Abs(Length[j] - Length[first]) <= 1e-9 * Length[first];
             }
-            return supports.Clamp;
+            if (areEqual)
+            {
+                return EndWeights.Gregory;
+            }
+            double a = Length[first];
+            double next = Length[first + step];
+            double l = Length[first + 2 * step];
+            double b = a + next;
+            double linear = l * l / 12.0;
+            double square = (l * l * b - a * a * a - next * next * next) / 6.0;
+            double c2 = (square - a * linear) / (b * (b - a));
+            double c1 = (linear - c2 * b) / a;
+            var weights = new EndWeights(0.5 - (c1 + c2) / a, 1.0 + 2.0 * c1 / b, 1.0 + 2.0 * c2 / (next + l));
+            return weights.Least >= LeastWeight ? weights : ShortRule(supports);
         }
 
-        private static ClampRule ShortRule(RodSupports supports) =>
-            supports.Clamp == ClampRule.FourthOrder ? ClampRule.HalfElement : supports.Clamp;
+        private static EndWeights ShortRule(RodSupports supports) =>
+            supports.Clamp == ClampRule.WholeElement ? new EndWeights(1.0, 1.0, 1.0) : new EndWeights(0.5, 1.0, 1.0);
 
-        /// <summary>Weight of the joint that stands <paramref name="index"/> joints from a clamp (0: the clamp's
-        /// own).</summary>
-        private static double Weight(ClampRule rule, int index)
+        /// <summary>Weights of the joints from a clamp on, that of the clamp first; further ones have 1.</summary>
+        private readonly struct EndWeights
         {
-            switch (rule)
-            {
-                case ClampRule.FourthOrder:
-                    return index < GregoryWeights.Length ? GregoryWeights[index] : 1.0;
-                case ClampRule.HalfElement:
-                    return index == 0 ? 0.5 : 1.0;
-                default:
-                    return 1.0;
-            }
+            public static readonly EndWeights Gregory = new EndWeights(3.0 / 8.0, 7.0 / 6.0, 23.0 / 24.0);
+
+            private readonly double _first;
+            private readonly double _second;
+            private readonly double _third;
+
+            public EndWeights(double first, double second, double third) =>
+                (_first, _second, _third) = (first, second, third);
+
+            /// <summary>The smallest, of the first one twice: of equal elements it is about a half.</summary>
+            public double Least => Math.Min(2.0 * _first, Math.Min(_second, _third));
+
+            public double At(int index) => index == 0 ? _first : index == 1 ? _second : index == 2 ? _third : 1.0;
         }
     }
 }

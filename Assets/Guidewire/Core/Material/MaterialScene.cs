@@ -30,8 +30,8 @@ namespace Guidewire.Core
             Schedule.Hub.Shift(scene.Displacement);
             Drive = new MaterialDrive(parameters, scene, Supports.HasSpring);
             StartsStraight = parameters.Scene.Start == null && parameters.Scene.StartShape == StartShape.Straight;
-            Joints = new JointMonitor(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
             AlignTurns();
+            Joints = new JointMonitor(this, parameters.Method.MaxSimulationSteps * parameters.Method.TimeStep);
         }
 
         /// <summary>Coaxial instruments as one rod, as a scene of its own.</summary>
@@ -107,6 +107,7 @@ namespace Guidewire.Core
             _scene.Take(start);
             Shape.ProximalFrame = Schedule.Hub.FrameTurned(Schedule.Hub.TurnAt(0.0));
             AlignTurns();
+            Joints.Begin(Shape, 0.0);
         }
 
         /// <summary>Writes a moment of the rod into a state: positions and velocities in units, orientations and
@@ -160,7 +161,7 @@ namespace Guidewire.Core
             return real < 0.0 ? -1.0 * q : q;
         }
 
-        private static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
+        internal static MaterialRod CreateRod(SimulationParameters parameters, double[] lengths)
         {
             var profile = new WireProfile(parameters.Material, parameters.Scene.GuidewireLength);
             ElementLayout.Lengths(parameters, 1.0, out double[] positions);

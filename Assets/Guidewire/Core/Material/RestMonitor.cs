@@ -20,6 +20,7 @@ namespace Guidewire.Core
         private const double Interval = 0.1;           // of t
         private const double Regularisation = 1e-6;    // of EI/L^2; a wire may turn about its own load for nothing
         private const double MaxRegularisation = 0.01;  // of the softest element's EI/L^2
+        private const double Unnoticed = 1e-4;         // of L: a disturbance that has not grown
         private const double Neutral = 1.01e-4;        // of EI/L^2: eigenvalues above its negative may be 0
 
         private readonly MaterialScene _scene;
@@ -67,16 +68,30 @@ namespace Guidewire.Core
         /// <summary>The rod has other elements.</summary>
         public void Remesh()
         {
-            if (_threshold > 0.0)
+            SetScales();
+            _nextCheck = 0.0;
+            _tangent?.Remesh();
+            _system.Remesh();
+            _stability = null;
+            Array.Clear(_motion, 0, _motion.Length);
+            Array.Clear(_swing, 0, _swing.Length);
+        }
+
+        /// <summary>Whether the wire is where any disturbance grows, and has not noticed. Its forces are almost in
+        /// balance, K has a negative eigenvalue, and along its mode the wire is not yet displaced, nor does it move. A straight or symmetric motion stays so
+        /// in a computation beyond its critical load.</summary>
+        /// <param name="time">s.</param>
+        public bool IsUnstable(double time)
+        {
+            if (_tangent != null)
             {
-                SetScales();
-                _nextCheck = 0.0;
-                _tangent?.Remesh();
-                _system.Remesh();
-                _stability = null;
-                Array.Clear(_motion, 0, _motion.Length);
-                Array.Clear(_swing, 0, _swing.Length);
+                return false;
             }
+            SetMotion();
+            _terms.SetTime(_scene.Schedule, time);
+            _stability ??= new EquilibriumStability(_scene.Rod, _scene.Supports, _all, _system, Neutral * _bendForce);
+            return _stability.IsNearSaddle(_scene.Shape)
+                && _stability.AwayFromSaddle(_scene.Shape, _motion, _time) <= Unnoticed * _length;
         }
 
         private void SetScales()

@@ -17,15 +17,25 @@ namespace Guidewire.Core
         /// <summary>Largest curvature of any joint, without twist, 1/m.</summary>
         public double Curvature => Math.Sqrt(_curvatureSquared);
 
-        /// <summary>Largest strain of the outermost fibre: the radius times the change of a joint's curvature from
-        /// rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
+        /// <summary>Largest strain of the outermost fibre of the core: its radius times the change of a joint's
+        /// curvature from rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
         public double Strain { get; private set; }
+
+        /// <summary>When that strain was the largest, s.</summary>
+        public double StrainTime { get; private set; }
+
+        /// <summary>Length of the run's first step, s: 0 where it is over. A wire that sets out suddenly often has its
+        /// largest values there.</summary>
+        internal double FirstStep { get; set; }
 
         /// <summary>Largest force of the hub along its axis, thrust or pull, N; NaN without walls.</summary>
         public double AxialForce { get; private set; } = double.NaN;
 
         /// <summary>When the hub's force was the largest, s; NaN without walls.</summary>
         public double AxialForceTime { get; private set; } = double.NaN;
+
+        /// <summary>What the drag of massDamping was in that force, N; NaN without walls.</summary>
+        public double AxialForceDrag { get; private set; } = double.NaN;
 
         /// <summary>Largest torque of the hub about its axis, in either sense, N m; NaN without walls.</summary>
         public double AxialTorque { get; private set; } = double.NaN;
@@ -64,7 +74,8 @@ namespace Guidewire.Core
         /// <summary>Takes what the wire's shape alone says.</summary>
         /// <param name="joints">The n + 1 joints.</param>
         /// <param name="lengths">The length that each of them stands for, m.</param>
-        internal void TakeShape(RodTerms terms, Joint[] joints, double[] lengths, RodShape shape)
+        /// <param name="time">s.</param>
+        internal void TakeShape(RodTerms terms, Joint[] joints, double[] lengths, RodShape shape, double time)
         {
             MaterialRod rod = terms.Rod;
             int n = shape.ElementCount;
@@ -106,23 +117,32 @@ namespace Guidewire.Core
                 // An end without a clamp has no joint, and no turn.
                 double bend = (k > 0 || terms.Supports.HasProximalJoint) && (k < n || terms.Supports.HasDistalJoint)
                     ? perLength * Math.Sqrt(change.X * change.X + change.Y * change.Y) : 0.0;
-                strain = Math.Max(strain, Math.Max(rod.Radius[before], rod.Radius[after]) * bend
+                strain = Math.Max(strain, Math.Max(rod.CoreRadius[before], rod.CoreRadius[after]) * bend
                     + Math.Max(_stretch[before], _stretch[after]));
             }
             _curvatureSquared = largest;
-            Strain = strain;
+            TakeStrain(strain, time);
         }
 
+        /// <summary>Whether a time is that of the first step, in which the wire sets out.</summary>
+        public bool IsFirstStep(double time) => time > 0.0 && time <= FirstStep;
+
         /// <summary>Takes a strain of an instrument; what is not a number is more than any.</summary>
-        internal void TakeStrain(double strain) =>
+        /// <param name="time">s.</param>
+        internal void TakeStrain(double strain, double time)
+        {
+            StrainTime = strain <= Strain ? StrainTime : time;
             Strain = strain <= Strain ? Strain : double.IsNaN(strain) ? double.MaxValue : strain;
+        }
 
         /// <summary>Takes what the hub does.</summary>
         /// <param name="force">Along its axis, N.</param>
         /// <param name="torque">About it, N m.</param>
         /// <param name="time">s.</param>
-        internal void TakeHub(double force, double torque, double time)
+        /// <param name="drag">What of the force the drag takes, N.</param>
+        internal void TakeHub(double force, double torque, double time, double drag)
         {
+            AxialForceDrag = AxialForce >= Math.Abs(force) ? AxialForceDrag : Math.Sign(force) * drag;
             AxialForceTime = AxialForce >= Math.Abs(force) ? AxialForceTime : time;
             AxialForce = Larger(AxialForce, Math.Abs(force));
             AxialTorqueTime = AxialTorque >= Math.Abs(torque) ? AxialTorqueTime : time;
@@ -169,6 +189,8 @@ namespace Guidewire.Core
         {
             _curvatureSquared = snapshot.Serialize(_curvatureSquared);
             Strain = snapshot.Serialize(Strain);
+            StrainTime = snapshot.Serialize(StrainTime);
+            AxialForceDrag = snapshot.Serialize(AxialForceDrag);
             AxialForce = snapshot.Serialize(AxialForce);
             AxialForceTime = snapshot.Serialize(AxialForceTime);
             AxialTorque = snapshot.Serialize(AxialTorque);

@@ -102,6 +102,7 @@ namespace Guidewire.Core
             private double _rotary2;
             private Vector3d _curvature;
             private double _radius;   // the largest
+            private double _core;
 
             public void Add(in CrossSection piece, double weight)
             {
@@ -115,6 +116,7 @@ namespace Guidewire.Core
                 _rotary2 += weight * piece.RotaryInertia2;
                 _curvature += weight * piece.RestCurvature;
                 _radius = Math.Max(_radius, piece.Radius);
+                _core = Math.Max(_core, piece.CoreRadius);
             }
 
             public CrossSection Result()
@@ -131,6 +133,7 @@ namespace Guidewire.Core
                     RotaryInertia2 = _rotary2,
                     RestCurvature = _curvature,
                     Radius = _radius,
+                    CoreRadius = _core,
                 };
             }
         }

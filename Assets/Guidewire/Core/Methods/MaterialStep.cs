@@ -1,3 +1,5 @@
+using System.Collections.Generic;
+
 namespace Guidewire.Core
 {
     /// <summary>Common base of the steps of all methods for a material: the wire, the monitors that end a run, and the
@@ -96,6 +98,24 @@ namespace Guidewire.Core
             Failure = Scene.Joints.FindLost(Shape, Time);
             SteadyState = Rest.FindRest(Time);
             PredictionError = Vector3d.Distance(predictedTip, Shape.X[Shape.ElementCount]) / Scene.Metres;
+        }
+
+        /// <inheritdoc/>
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            if (Rest.IsUnstable(Time))
+            {
+                warnings.Add(WarningTable.Unstable.With());
+            }
+        }
+
+        /// <summary>A wire that was restored has lost no turns before.</summary>
+        protected void BeginTurns(Snapshot snapshot, double time)
+        {
+            if (!snapshot.IsWritten)
+            {
+                Scene.Joints.Begin(Shape, time);
+            }
         }
 
         /// <summary>Writes the wire as it is into a state.</summary>

@@ -25,6 +25,10 @@ namespace Guidewire.Core
         /// <summary>Radius of the hollow of a tube, m, less than that of the wire; 0: none.</summary>
         public double InnerRadius { get; set; }
 
+        /// <summary>Diameter of the thickest solid part, m: of the core, or of a coil's wire; null: the wire's own.
+        /// </summary>
+        public double? CoreDiameter { get; set; }
+
         /// <summary>A = pi (r^2 - a^2), m^2.</summary>
         public double Area => Math.PI * (WireRadius * WireRadius - InnerRadius * InnerRadius);
 

@@ -31,6 +31,9 @@ namespace Guidewire.Core
         /// <summary>Radius of a tube's hollow, m.</summary>
         public double? InnerRadius { get; set; }
 
+        /// <summary>Diameter of the thickest solid part, m: the core, or the wire of a coil.</summary>
+        public double? CoreDiameter { get; set; }
+
         /// <summary>What of GA resists shear.</summary>
         public double? ShearFactor { get; set; }
 
@@ -67,7 +70,7 @@ namespace Guidewire.Core
         public bool IsMarker => Attenuation.HasValue && !NumberRodElements.HasValue && !RestCurvature.HasValue
             && !(YoungsModulus ?? ShearModulus ?? Density ?? WireRadius ?? InnerRadius ?? ShearFactor ?? AxialStiffness
                 ?? ShearStiffness ?? BendingStiffness1 ?? BendingStiffness2 ?? TorsionalStiffness ?? MassPerLength
-                ?? RotaryInertia).HasValue;
+                ?? RotaryInertia ?? CoreDiameter).HasValue;
 
         /// <summary>The first key of which another section has another value than this one; null where there is
         /// none.</summary>
@@ -101,6 +104,7 @@ namespace Guidewire.Core
             YoungsModulus = over.YoungsModulus ?? YoungsModulus;
             ShearModulus = over.ShearModulus ?? ShearModulus;
             Density = over.Density ?? Density;
+            CoreDiameter = over.CoreDiameter ?? (over.WireRadius.HasValue ? 2.0 * over.WireRadius : CoreDiameter);
             WireRadius = over.WireRadius ?? WireRadius;
             InnerRadius = over.InnerRadius ?? InnerRadius;
             ShearFactor = over.ShearFactor ?? ShearFactor;

@@ -68,6 +68,12 @@ namespace Guidewire.Core
             "wireSections[*i*] from *a* to *b* is *f:G3* of an element long and only contributes to the average of "
             + "that element; give it a numberRodElements of its own", "the section is coarser than it was given");
 
+        /// <summary>Elements at a clamp for which its rule has another order.</summary>
+        public static readonly WarningKind ClampElements = AtStart("clampElements",
+            "the elements at a clamp are too few or too different for its rule of fourth order: the deflection by a "
+            + "load at the other end is *p:G2* % off; equal elements there, or more, avoid that",
+            "by more than 1 %, of a wire of one material");
+
         /// <summary>An element of a start file that is sheared by much.</summary>
         public static readonly WarningKind ShearedStart = AtStart("shearedStart",
             "*file*: *which element of the start is sheared*",
@@ -138,6 +144,19 @@ namespace Guidewire.Core
             + "(docs/verification.md); a shorter timeStep or another integrator conserves it better",
             "direct: by more than 1 %");
 
+        /// <summary>A motion that a disturbance would leave.</summary>
+        public static readonly WarningKind Unstable = AfterReason("unstable",
+            "the wire ends where it is unstable, as beyond a critical load: any disturbance would grow, and a "
+            + "symmetric motion has none; a small load across the wire shows where it goes",
+            "the second derivative of the energy has a negative eigenvalue at the end, and the wire has not moved by "
+            + "1e-4 L along its mode");
+
+        /// <summary>Energy that the scheme takes.</summary>
+        public static readonly WarningKind EnergyLost = AfterReason("energyLost",
+            "the scheme took *p:0* % of the energy of a motion without damping; its own error reached *e:G2* of a "
+            + "radian or of L in a step: a timeStepError or a shorter timeStep keeps it",
+            "direct with an error estimate, without walls and moving ends: more than 10 % of all that was put in");
+
         /// <summary>explicit: substeps beyond stability.</summary>
         public static readonly WarningKind SubstepUnstable = AfterReason("substepUnstable",
             "the substep of *h:G4* s is above *s:G4* s, where explicit steps become unstable; raise substeps",
@@ -159,9 +178,16 @@ namespace Guidewire.Core
 
         /// <summary>Bent to less than five times its radius.</summary>
         public static readonly WarningKind Strain = AtEnd("strain",
-            "the outermost fibre was strained by up to *p:0* %: a real instrument would have kinked",
-            "direct: `strain` of `extremes` above 20 %, a bend of less than five radii. Twist does not count. `stress` "
-            + "shows where");
+            "the outermost fibre was strained by up to *p:0* % *when* s: a real instrument would have kinked",
+            "direct: `strain` of `extremes` above 20 %, of the core a bend of less than five radii (`coreDiameter`). "
+            + "Twist does not count. `stress` shows where");
+
+        /// <summary>An instrument that goes through itself.</summary>
+        public static readonly WarningKind SelfOverlap = AtEnd("selfOverlap",
+            "*instrument* goes through itself: at t = *t:G4* s the axes of its parts at *a:G4* and *b:G4* units from "
+            + "the proximal end are *r:G2* of a diameter apart",
+            "the nearest of all steps, beyond what bending brings together. Without self-contact an instrument does "
+            + "not meet itself");
 
         /// <summary>A drive that the walls kept back.</summary>
         public static readonly WarningKind DriveShortfall = AtEnd("driveShortfall",

@@ -16,6 +16,10 @@ namespace Guidewire.Io
         /// <summary>Inner radius, m; 0 for a wire.</summary>
         public double InnerRadius { get; set; }
 
+        /// <summary>Diameter of the solid core of the shaft, m; null: the wire is solid, or the wall of a
+        /// catheter.</summary>
+        public double? CoreDiameter { get; set; }
+
         /// <summary>The length, m.</summary>
         public double Length { get; set; }
 
@@ -63,6 +67,10 @@ namespace Guidewire.Io
 
         /// <summary>EI at its distal end, N m^2.</summary>
         public double BendingStiffness;
+
+        /// <summary>Diameter of the thickest solid part there, m, such as the wire of its coil; null: the shaft's core
+        /// goes on.</summary>
+        public double? CoreDiameter;
 
         /// <summary>Whether EI changes linearly from that of the section before; else it is uniform.</summary>
         public bool IsTapered;

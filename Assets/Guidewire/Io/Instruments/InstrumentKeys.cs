@@ -7,7 +7,8 @@ namespace Guidewire.Io
     /// <summary>The parameter keys that an instrument sets.</summary>
     /// <remarks>The tip stands at the end of the wire, whatever its length: a shorter wire has a shorter shaft. Each
     /// piece of a taper is a section of one element, whose EI has the compliance of the taper over it: for EI linear
-    /// from a to b its mean is 1/EI = ln(b/a)/(b - a). Bends are rest curvatures about d1. The
+    /// from a to b its mean is 1/EI = ln(b/a)/(b - a). A core of one material has the diameter c (EI/EI_0)^(1/4)
+    /// where the shaft has c and EI_0. Bends are rest curvatures about d1. The
     /// attenuation of platinum is that of NIST's tables (Hubbell and Seltzer, 2004).</remarks>
     internal static class InstrumentKeys
     {
@@ -22,8 +23,10 @@ namespace Guidewire.Io
         /// <param name="instrument">The instrument.</param>
         /// <param name="length">Length of the wire in units, or null for the instrument's.</param>
         /// <param name="metresPerUnit">Length of a unit, m.</param>
-        public static JObject Of(Instrument instrument, double? length, double metresPerUnit)
+        /// <param name="radius">Of the wire, m, or null for the instrument's; no core is thicker.</param>
+        public static JObject Of(Instrument instrument, double? length, double metresPerUnit, double? radius = null)
         {
+            double thickest = 2.0 * Math.Min(radius ?? instrument.Radius, instrument.Radius);
             double whole = length * metresPerUnit ?? instrument.Length;
             List<Piece> pieces = Pieces(instrument, whole);
             double shaft = pieces.Count > 0 ? pieces[0].From : whole;
@@ -33,6 +36,7 @@ namespace Guidewire.Io
                 ["numberRodElements"] = Count(shaft, ShaftElement),
                 ["wireRadius"] = instrument.Radius,
                 ["innerRadius"] = instrument.InnerRadius,
+                ["coreDiameter"] = Core(instrument.CoreDiameter, thickest),
                 ["shearFactor"] = instrument.InnerRadius > 0.0 ? 0.5 : 0.9,
                 ["bendingStiffness"] = instrument.BendingStiffness,
                 ["torsionalStiffness"] = instrument.TorsionalRatio * instrument.BendingStiffness,
@@ -47,7 +51,12 @@ namespace Guidewire.Io
             }
             foreach (Piece piece in pieces)
             {
-                sections.Add(Section(instrument, piece, metresPerUnit, whole));
+                JObject section = Section(instrument, piece, metresPerUnit, whole);
+                if (CoreOf(instrument, piece, whole) is double core)
+                {
+                    section["coreDiameter"] = Core(core, thickest);
+                }
+                sections.Add(section);
             }
             keys["wireSections"] = sections;
             return keys;
@@ -72,6 +81,26 @@ namespace Guidewire.Io
                 ["to"] = to / metresPerUnit,
                 ["attenuation"] = Platinum * part,
             });
+        }
+
+        private static JToken Core(double? diameter, double thickest) =>
+            diameter is double core ? Math.Min(core, thickest) : JValue.CreateNull();
+
+        // Of the section that a piece is in, or of the shaft's core, going on with EI.
+        private static double? CoreOf(Instrument instrument, in Piece piece, double whole)
+        {
+            double start = whole - instrument.DistalLength;
+            double middle = 0.5 * (piece.From + piece.To);
+            (double? core, double stiffness) = (instrument.CoreDiameter, instrument.BendingStiffness);
+            foreach (DistalSection section in instrument.Sections)
+            {
+                if (section.CoreDiameter.HasValue && middle > start && middle < start + section.Length)
+                {
+                    (core, stiffness) = (section.CoreDiameter, section.BendingStiffness);
+                }
+                start += section.Length;
+            }
+            return core * Math.Pow(piece.BendingStiffness / stiffness, 0.25);
         }
 
         private static double AxialStiffness(Instrument instrument, double bendingStiffness)

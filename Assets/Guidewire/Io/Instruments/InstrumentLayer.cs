@@ -20,8 +20,8 @@ namespace Guidewire.Io
 
         private static readonly string[] WireKeys =
         {
-            "wireRadius", "innerRadius", "shearFactor", "bendingStiffness", "torsionalStiffness", "axialStiffness",
-            "density", "restCurvature", "wireSections",
+            "wireRadius", "innerRadius", "coreDiameter", "shearFactor", "bendingStiffness", "torsionalStiffness",
+            "axialStiffness", "density", "restCurvature", "wireSections",
         };
 
         // Keys that state the same property in another form.
@@ -52,7 +52,8 @@ namespace Guidewire.Io
             (Instrument instrument, string path) =
                 InstrumentLibrary.Read((string)named.Value!, named.Source, file, held);
             JObject keys = InstrumentKeys.Of(
-                instrument, Number(given, "guidewireLength"), Number(given, "metresPerUnit") ?? 1e-3);
+                instrument, Number(given, "guidewireLength"), Number(given, "metresPerUnit") ?? 1e-3,
+                Stands(given, "wireRadius", replacesFile) ? Number(given, "wireRadius") : null);
             foreach (string key in SceneKeys)
             {
                 if (!given.Has(key))

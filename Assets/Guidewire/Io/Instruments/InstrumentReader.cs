@@ -22,8 +22,8 @@ namespace Guidewire.Io
             JObject read = content == null ? JsonText.ReadObject(file)
                 : JsonText.ParseObject(PlainFile.Decode(content), file);
             var fields = new InstrumentFields(file, "", read, "title", "kind", "diameter", "innerDiameter", "length",
-                "bendingStiffness", "flexuralModulus", "torsionalRatio", "density", "friction", "distalSections",
-                "tip", "radiopaque");
+                "coreDiameter", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density", "friction",
+                "distalSections", "tip", "radiopaque");
             fields.Text("title");
             bool isHollow = fields.Word("kind", Kinds) == "catheter";
             if (isHollow != fields.Has("innerDiameter"))
@@ -48,6 +48,7 @@ namespace Guidewire.Io
             {
                 throw fields.Wrong("length", "100 m at most");
             }
+            instrument.CoreDiameter = ReadCore(fields, instrument);
             instrument.BendingStiffness = ReadStiffness(fields, instrument);
             ReadSections(fields, instrument);
             ReadTip(fields, instrument);
@@ -80,6 +81,16 @@ namespace Guidewire.Io
             }
         }
 
+        private static double? ReadCore(InstrumentFields fields, Instrument instrument)
+        {
+            if (!fields.Has("coreDiameter"))
+            {
+                return null;
+            }
+            double core = fields.Quantity("coreDiameter", Dimension.Length);
+            return core <= 2.0 * instrument.Radius ? core : throw fields.Wrong("coreDiameter", "at most the diameter");
+        }
+
         // A flexural modulus is that of the solid or hollow section of the given diameters: EI = E pi (d^4 - a^4)/64.
         private static double ReadStiffness(InstrumentFields fields, Instrument instrument)
         {
@@ -98,12 +109,14 @@ namespace Guidewire.Io
 
         private static void ReadSections(InstrumentFields fields, Instrument instrument)
         {
-            foreach (InstrumentFields section in fields.List("distalSections", "length", "bendingStiffness", "profile"))
+            foreach (InstrumentFields section in fields.List("distalSections", "length", "bendingStiffness",
+                "coreDiameter", "profile"))
             {
                 instrument.Sections.Add(new DistalSection
                 {
                     Length = section.Quantity("length", Dimension.Length),
                     BendingStiffness = section.Quantity("bendingStiffness", Dimension.Stiffness),
+                    CoreDiameter = ReadCore(section, instrument),
                     IsTapered = section.Word("profile", Profiles) == "linear",
                 });
             }

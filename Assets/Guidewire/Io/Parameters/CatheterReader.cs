@@ -25,7 +25,8 @@ namespace Guidewire.Io
 
         private static readonly string[] Shared =
         {
-            "instrument", "wireRadius", "youngsModulus", "shearModulus", "density", "shearFactor", "bendingStiffness",
+            "instrument", "wireRadius", "coreDiameter", "youngsModulus", "shearModulus", "density", "shearFactor",
+            "bendingStiffness",
             "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
             "rotationSpeed", "driveFile", "tipForce", "distributedForce", "pointLoads",
         };

@@ -21,6 +21,7 @@ namespace Guidewire.Io
 
         private const string Steps = "maxSimulationSteps";
         private const double PoissonRounding = 1e-3;    // E and G are written with few digits
+        private const double OddClamp = 0.01;    // of a deflection
         private const int MaxSteps = 1_000_000_000;
 
         private readonly GivenParameters _given = new GivenParameters();
@@ -396,6 +397,7 @@ namespace Guidewire.Io
             {
                 WarnOfModuli(simulation.Material);
             }
+            WarnOfClamps(simulation);
             if (_given.TryGet("rodElementLength", out var length) && Math.Abs((double)length.Value - l) > 1e-9 * l)
             {
                 AddWarning(WarningTable.ElementLength, length.Source, (double)length.Value, l);
@@ -415,6 +417,19 @@ namespace Guidewire.Io
         }
 
         // Sections that say nothing, too little, or what another one says otherwise.
+        private void WarnOfClamps(SimulationParameters simulation)
+        {
+            if (Method != Solver.Pbd && simulation.Material.ClampRule == ClampRule.FourthOrder
+                && simulation.Scene.Sheath == null && simulation.Scene.Catheters.Count == 0)
+            {
+                double error = ParameterConflict.ClampError(simulation);
+                if (error > OddClamp)
+                {
+                    AddWarning(WarningTable.ClampElements, 100.0 * error);
+                }
+            }
+        }
+
         private void WarnOfSections(SimulationParameters simulation)
         {
             IReadOnlyList<WireSection> sections = simulation.Material.Sections;

@@ -17,6 +17,7 @@ namespace Guidewire.Io
             new Number("density", "kg/m^3"),
             new Number("wireRadius", "m"),
             new Number("innerRadius", "m") { MayBeZero = true },
+            new Number("coreDiameter", "m"),
             new Number("shearFactor", ""),
             new Number("axialStiffness", "EA, N"),
             new Number("shearStiffness", "GA, N"),

@@ -67,6 +67,8 @@ namespace Guidewire.Io
             OfHub("hubForce", "N", "force of the hub on the wire along its axis; a push is positive", h => h.Force,
                 "force"),
             OfHub("hubTorque", "N m", "torque of the hub on the wire about its axis", h => h.Torque, "torque"),
+            Number("drag", "N", "what of the hub's force moves the wire against massDamping", QuantitySwitch.Never,
+                m => m.Of(m.Hub?.Drag)).InSummary("hub", "drag"),
             Vectors("tipPosition", QuantityPlace.Run, "units", "position of the last node", QuantitySwitch.Never,
                 m => m.Hub == null ? default : m.Of(m.State.Positions[m.State.ElementCount]))
                 .InAnswer(StatePart.Instruments, "hub").InSummary("hub", "tipPosition"),

@@ -139,8 +139,10 @@ namespace Guidewire.Io
             {
                 ["curvature"] = Finite(extremes.Curvature),
                 ["strain"] = Finite(extremes.Strain),
+                ["strainTime"] = Finite(extremes.StrainTime),
                 ["axialForce"] = Finite(extremes.AxialForce),
                 ["axialForceTime"] = Finite(extremes.AxialForceTime),
+                ["axialForceDrag"] = Finite(extremes.AxialForceDrag),
                 ["axialTorque"] = Finite(extremes.AxialTorque),
                 ["axialTorqueTime"] = Finite(extremes.AxialTorqueTime),
                 ["elementForce"] = Finite(extremes.ElementForce),
@@ -150,6 +152,11 @@ namespace Guidewire.Io
                 ["wallWork"] = Finite(extremes.WallWork),
                 ["frictionPower"] = Finite(extremes.FrictionPower),
                 ["frictionWork"] = Finite(extremes.FrictionWork),
+                ["inFirstStep"] = new JArray(new[]
+                {
+                    ("strain", extremes.StrainTime), ("axialForce", extremes.AxialForceTime),
+                    ("axialTorque", extremes.AxialTorqueTime), ("elementForce", extremes.ElementForceTime),
+                }.Where(one => extremes.IsFirstStep(one.Item2)).Select(one => one.Item1)),
             };
         }
 

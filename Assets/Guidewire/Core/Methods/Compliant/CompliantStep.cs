@@ -93,7 +93,11 @@ namespace Guidewire.Core
         protected override double Time => _time;
 
         /// <inheritdoc/>
-        public override void AddWarnings(List<RunWarning> warnings) => _convergence.AddWarnings(warnings);
+        public override void AddWarnings(List<RunWarning> warnings)
+        {
+            base.AddWarnings(warnings);
+            _convergence.AddWarnings(warnings);
+        }
 
         /// <inheritdoc/>
         public override ContactRecord? Contacts => _walls?.Record;
@@ -181,6 +185,7 @@ namespace Guidewire.Core
             {
                 Energy.Start();
             }
+            BeginTurns(snapshot, _time);
         }
 
         private void SerializeOwn(Snapshot snapshot)

@@ -9,6 +9,8 @@ namespace Guidewire.Core
     internal sealed class MonitoredRod
     {
         private const int MaxSlips = 60;
+        private const double Rounding = 1e-9;     // of a step
+        private const double MaxEnergyLoss = 0.1;  // of what was put in, by the scheme, before a warning
         private const double MaxSpinLoss = 0.01;  // of a free wire's angular momentum, before a warning
 
         private readonly RodDynamics _dynamics;
@@ -27,6 +29,7 @@ namespace Guidewire.Core
         private readonly StepFailure _texts;
         private readonly RunExtremes _extremes;
         private double _hubWork;            // J
+        private double _outside;            // energy of what is in a sheath before the rod, J
         private Vector3d _free;             // where the last node would be without forces at the step's end, m
         private Vector3d _heldFrom;         // of the spring, when the step began, m
         private double _exit;               // length in a sheath, the same, m
@@ -72,7 +75,8 @@ namespace Guidewire.Core
             _extremes = report.Extremes;
             _joints = scene.Rod.Joints(scene.Supports);
             _jointLengths = scene.Rod.JointLengths(scene.Supports);
-            _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape);
+            _extremes.FirstStep = (1.0 + Rounding) * method.TimeStep;
+            _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape, Time);
             FollowEnds();
             _energy.Start();  // the hub's spring is in place only now
             if (scene.Supports.Proximal == ProximalEnd.Free && scene.Supports.Distal == DistalEnd.Free)
@@ -99,7 +103,7 @@ namespace Guidewire.Core
             Contacts?.Remesh(rod.ElementCount + 1);
             rod.SetJoints(_scene.Supports, _joints);
             rod.SetJointLengths(_scene.Supports, _jointLengths);
-            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
+            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape, Time);
             FollowEnds();
             _energy.Remesh();
         }
@@ -267,7 +271,7 @@ namespace Guidewire.Core
         {
             _spinLoss?.Take(Terms.Rod, Shape, Spins, length,
                 Math.Max(1, _dynamics.Control.Steps - _innerSteps));
-            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape);
+            _extremes.TakeShape(Terms, _joints, _jointLengths, Shape, Time);
             if (_elementForces == null)
             {
                 return;
@@ -275,7 +279,7 @@ namespace Guidewire.Core
             _elementForces.Take(Shape, Contacts!, _extremes, Time);
             if (Terms.Walls()!.HoldsStart)
             {
-                _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time);
+                _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time, Drag);
             }
             if (Terms.Walls()!.Barrier.Lag != null)
             {
@@ -284,6 +288,20 @@ namespace Guidewire.Core
             if (Terms.Walls()!.Friction != null)
             {
                 _extremes.TakeFriction(Dissipated - _dissipated, length);
+            }
+        }
+
+        // Of massDamping along the hub's axis, N.
+        private double Drag
+        {
+            get
+            {
+                Vector3d momentum = Vector3d.Zero;
+                for (int i = 0; i <= Shape.ElementCount; i++)
+                {
+                    momentum += Terms.Mass.Nodal[i] * Velocities[i];
+                }
+                return Terms.Rod.MassDamping * Vector3d.Dot(momentum, Terms.HubAxis(Shape));
             }
         }
 
@@ -304,6 +322,7 @@ namespace Guidewire.Core
             _hub.Take(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
                 Schedule.Hub.AheadAt(Time));
             _hub.Work = _monitor == null ? double.NaN : _hubWork;
+            _hub.Drag = Drag;
             return _hub;
         }
 
@@ -320,6 +339,17 @@ namespace Guidewire.Core
             {
                 warnings.Add(WarningTable.Rounding.With(_dynamics.Newton.BalanceRounding.OfSupports));
             }
+            if (_rest.IsUnstable(Time))
+            {
+                warnings.Add(WarningTable.Unstable.With());
+            }
+            if (_dynamics.HasErrorEstimate && Terms.Rod.MassDamping == 0.0 && Terms.Rod.MaterialDamping == 0.0
+                && Terms.Contact == null && Terms.Supports.Coaxial == null && _ends.Work == 0.0
+                && _energy.FractionLost > MaxEnergyLoss)
+            {
+                warnings.Add(WarningTable.EnergyLost.With(100.0 * _energy.FractionLost,
+                    _dynamics.Control.LargestError));
+            }
             if (_spinLoss != null && _spinLoss.Expected > MaxSpinLoss)
             {
                 warnings.Add(WarningTable.SpinLost.With(_spinLoss.LargestTurn, 100.0 * _spinLoss.Expected));
@@ -332,8 +362,24 @@ namespace Guidewire.Core
             _stress ??= new StressRecord(_jointLengths);
             Terms.SetTime(Schedule, Time);
             _stress.Take(Terms, Shape, Terms.Mass.KineticEnergy(Velocities, Spins));
+            _stress.TakeEnergies(_stress.KineticEnergy, _stress.ElasticEnergy, _stress.PotentialEnergy + _outside);
             return _stress;
         }
+
+        /// <summary>Weight and motion of the rod, J. What comes in from a sheath has had neither, and what goes there
+        /// keeps none: the account takes note of both.</summary>
+        public double Carried
+        {
+            get
+            {
+                Terms.SetTime(Schedule, Time);
+                return Terms.Loads.Value(Shape) + Terms.Mass.KineticEnergy(Velocities, Spins);
+            }
+        }
+
+        /// <summary>Of what came in or went the account keeps this, J, as the energy of what is in the
+        /// sheath.</summary>
+        public void Leave(double carried) => _outside += carried;
 
         /// <summary>Gives the solver's report on its own work.</summary>
         public SolverReport Report()
@@ -379,6 +425,10 @@ namespace Guidewire.Core
             {
                 _energy.Start();
             }
+            if (!snapshot.IsWritten)
+            {
+                _scene.Joints.Begin(Shape, Time);
+            }
         }
 
         /// <summary>Writes or restores all that a step may touch, for a <see cref="StepStart"/>.
@@ -395,6 +445,7 @@ namespace Guidewire.Core
             _spinLoss?.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             snapshot.Serialize(ref _hubWork);
+            snapshot.Serialize(ref _outside);
             Contacts?.Serialize(snapshot);
             Contacts?.SerializeDisplacements(snapshot);
             if (!snapshot.IsWritten)
@@ -408,6 +459,7 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref _startFactorisations);
             snapshot.Serialize(ref _hubWork);
+            snapshot.Serialize(ref _outside);
             _dynamics.Clock.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
             _ends.SerializeWork(snapshot);
@@ -422,6 +474,7 @@ namespace Guidewire.Core
         {
             snapshot.Serialize(ref _startFactorisations);
             snapshot.Serialize(ref _hubWork);
+            snapshot.Serialize(ref _outside);
             _results.Serialize(snapshot);
             snapshot.OptionalSection("spin", _spinLoss == null ? (Action<Snapshot>?)null : _spinLoss.Serialize);
             _energy.Serialize(snapshot);

@@ -46,6 +46,7 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void AddWarnings(List<RunWarning> warnings)
         {
+            base.AddWarnings(warnings);
             if (!(TimeStep / _substeps <= _stable))
             {
                 warnings.Add(WarningTable.SubstepUnstable.With(TimeStep / _substeps, _stable));
@@ -104,6 +105,7 @@ namespace Guidewire.Core
             {
                 Energy.Start();
             }
+            BeginTurns(snapshot, _time);
         }
 
         private void SerializeOwn(Snapshot snapshot)

@@ -56,6 +56,28 @@ namespace Guidewire.Core.Tests
             Assert.That((string?)handler.ToJson()["instrument"], Is.EqualTo("own"));
         }
 
+        // A solid core of one material: EI goes with the fourth power of its diameter. The last section has its own.
+        [Test]
+        public void Core_TapersWithTheFourthRootOfEI_UpToASectionsOwn()
+        {
+            const string Quantity = "{'value': '0.8 mm', 'basis': 'assumed', 'source': 'here'},";
+            Write("own", Own.Replace("'torsionalRatio'", "'coreDiameter': " + Quantity + " 'torsionalRatio'")
+                .Replace("{'length': {'value': '0.02 m'", "{'coreDiameter': " + Quantity.Replace("0.8", "0.1")
+                    + " 'length': {'value': '0.02 m'"));
+            MaterialParameters material = Load("'instrument': 'own'").Values.Simulation.Material;
+            Assert.That(CrossSection.At(material, 10.0).CoreRadius, Is.EqualTo(0.4e-3).Within(1e-12));
+            CrossSection taper = CrossSection.At(material, 950.0);
+            Assert.That(taper.CoreRadius,
+                Is.EqualTo(0.4e-3 * Math.Pow(taper.BendStiffness1 / Stiffness, 0.25)).Within(1e-12));
+            Assert.That(CrossSection.At(material, 995.0).CoreRadius, Is.EqualTo(0.05e-3).Within(1e-12));
+            Assert.That(CrossSection.At(Load("'instrument': 'own', 'wireRadius': 5.1e-4").Values.Simulation.Material,
+                10.0).CoreRadius, Is.EqualTo(0.4e-3).Within(1e-12));
+            Write("own", Own.Replace("'torsionalRatio'",
+                "'coreDiameter': " + Quantity.Replace("0.8", "2.1") + " 'torsionalRatio'"));
+            Assert.That(() => Load("'instrument': 'own'"), Throws.InstanceOf<ParameterException>()
+                .With.Message.Contains("coreDiameter").And.Message.Contains("at most the diameter"));
+        }
+
         // A ring of 0.1 mm in a wall from 0.5 to 1 mm; 9.307/mm of solid platinum.
         [Test]
         public void Marker_IsASectionThatOnlyPicturesSee()

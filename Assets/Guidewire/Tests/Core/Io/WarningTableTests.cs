@@ -65,6 +65,7 @@ namespace Guidewire.Core.Tests
             ["poissonRatio"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'youngsModulus': 200e9",
             ["sectionShort"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
                 + " 50, 'to': 52, 'wireRadius': 0.001}]",
+            ["clampElements"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 1",
             ["shearedStart"] = "'guidewireLength': 100, 'numberRodElements': 2, 'deltaThreshold': 0, 'displacement': 0,"
                 + " 'maxSimulationSteps': 1, 'start': {'positions': [[0, 0, 0], [0, 0, 50], [0, 0, 100]],"
                 + " 'orientations': [[0, 0, 0, 1], [0.70710678, 0, 0, 0.70710678]]}",
@@ -88,6 +89,9 @@ namespace Guidewire.Core.Tests
                 + " 'shearModulus': 4e17, 'gravity': [0, 9.81, 0], 'maxSimulationSteps': 2, 'massDamping': 10",
             ["spinLost"] = Wire.Replace("clamped", "free") + ", 'numberRodElements': 10, 'tipForce': [0, 0.05, 0],"
                 + " 'maxSimulationSteps': 100",
+            ["unstable"] = Wire + ", 'numberRodElements': 10, 'tipForce': [0, 0, -10], 'maxSimulationSteps': 2",
+            ["energyLost"] = Wire.Replace("clamped", "free").Replace("0.01", "0.0005") + ", 'numberRodElements': 10,"
+                + " 'startShape': 'helix', 'startRadius': 12, 'integrator': 'esdirk3', 'maxSimulationSteps': 100",
             ["substepUnstable"] = Wire.Replace("direct", "explicit") + ", 'numberRodElements': 10, 'substeps': 1,"
                 + " 'maxSimulationSteps': 1",
             ["passages"] = Plane + ", 'displacementPerStep': 20, 'maxSimulationSteps': 3",
@@ -95,6 +99,8 @@ namespace Guidewire.Core.Tests
             ["length"] = "'stretchStiffness': 0.001, 'displacement': 30, 'maxSimulationSteps': 3, 'deltaThreshold': 0",
             ["strain"] = Wire + ", 'numberRodElements': 100, 'tipMoment': [3, 0, 0], 'initialState': 'equilibrium',"
                 + " 'maxSimulationSteps': 1",
+            ["selfOverlap"] = Wire.Replace("clamped", "free").Replace("0.01", "1e-5") + ", 'numberRodElements': 80,"
+                + " 'startShape': 'helix', 'startRadius': 3, 'startTurns': 5.3, 'maxSimulationSteps': 1",
             ["driveShortfall"] = Sideways + ", 'maxSimulationSteps': 9",
             ["play"] = Coaxial + "'catheters': [{" + Catheter + "}]",
             ["openRim"] = Driven + ", 'displacementDirection': [0, 0, 1], 'displacementPerStep': 1,"

@@ -294,6 +294,7 @@ namespace Guidewire.Core
             }
             CoaxialJoints joints = from.Rod.Joints;
             bool movesWindow = from == this && first != joints.First;
+            double carried = movesWindow ? Whole.Carried : 0.0;
             RodMotion motion = was.Motion;
             if (from == this)
             {
@@ -325,6 +326,10 @@ namespace Guidewire.Core
                     Dynamics.Terms.Walls()!.Spring.HeldPosition(Dynamics.Shape)) / _setup.Wire.Metres;
             }
             TakeLoads();
+            if (movesWindow)
+            {
+                Whole.Leave(carried - Whole.Carried);
+            }
         }
 
         // With the nodes that were set, on the axis until their own state is read.

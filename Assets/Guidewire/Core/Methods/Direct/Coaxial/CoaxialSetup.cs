@@ -81,12 +81,12 @@ namespace Guidewire.Core
 
         /// <summary>Takes what the forces at the hubs strain the instruments by, friction in lumens among
         /// them.</summary>
-        public void TakeStrains(CoaxialRecord[] records, SolverReport report)
+        public void TakeStrains(CoaxialRecord[] records, SolverReport report, double time)
         {
-            report.Extremes?.TakeStrain(Math.Abs(records[0].WireForce) / StretchAtHub(Instruments.Length - 1));
+            report.Extremes?.TakeStrain(Math.Abs(records[0].WireForce) / StretchAtHub(Instruments.Length - 1), time);
             for (int i = 0; i < records.Length; i++)
             {
-                report.Extremes?.TakeStrain(Math.Abs(records[i].Force) / StretchAtHub(i));
+                report.Extremes?.TakeStrain(Math.Abs(records[i].Force) / StretchAtHub(i), time);
             }
         }
 

@@ -150,7 +150,7 @@ namespace Guidewire.Core
             if (_records.HasFriction)
             {
                 Coaxial();
-                Setup.TakeStrains(_records.All, _report);
+                Setup.TakeStrains(_records.All, _report, Dynamics.Time);
             }
         }
 

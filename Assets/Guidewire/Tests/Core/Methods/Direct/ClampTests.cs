@@ -30,6 +30,48 @@ namespace Guidewire.Core.Tests
         public void FourthOrderClamp_IsExactUnderATipLoad(ClampRule rule, int n) =>
             Row.Holds("tip load, Gregory's weights: compliance, 3 EI/L³", TipCompliance(n, rule), 1.0, Rounding);
 
+        // One element at the clamp, the other nine equal. The rule takes a parabola off any three elements, and the
+        // moment times its lever, (L - s)^2, is one. Beyond a ratio of 2.7 the third joint would have less than a tenth
+        // of its length.
+        [TestCase(0.4)]
+        [TestCase(0.7)]
+        [TestCase(1.5)]
+        [TestCase(2.7)]
+        public void FourthOrderClamp_IsExactUnderATipLoad_WithUnequalElements(double ratio)
+        {
+            MaterialRod rod = MaterialRod.Round(10, Rods.Length, Rods.Radius, Rods.Young, Rods.Shear, Rods.Density);
+            for (int j = 0; j < 10; j++)
+            {
+                rod.Length[j] = (j == 0 ? ratio : 1.0) * Rods.Length / (9.0 + ratio);
+            }
+            var supports = new RodSupports { Clamp = ClampRule.FourthOrder };
+            double force = Small * 3.0 * Rods.BendForce;
+            RodShape shape = Rods.AtRest(rod, supports, Vector3d.Zero, new Vector3d(0.0, force, 0.0), Vector3d.Zero);
+            double shear = force * Rods.Length / rod.ShearStiffness[0];
+            Row.Holds("tip load, first element of " + ratio + " l: compliance, 3 EI/L³",
+                (shape.X[10].Y - shear) / (Small * Rods.Length), 1.0, 1e-8);
+            Assert.That(rod.ClampError(supports), Is.LessThan(1e-12));
+        }
+
+        // One element of 50 mm before three of 10 mm: the half element's rule takes the trapezoid of (L - s)^2.
+        [Test]
+        public void ElementsTooUnequal_AreToldWithTheirError()
+        {
+            double[] length = { 50.0, 10.0, 10.0, 10.0 };
+            var rod = new MaterialRod(4);
+            double sum = 0.0;
+            double left = 80.0;
+            for (int j = 0; j < 4; j++)
+            {
+                rod.SetRound(j, Rods.Radius, Rods.Young, Rods.Shear, Rods.Density);
+                rod.Length[j] = 1e-3 * length[j];
+                sum += 0.5 * length[j] * (left * left + (left - length[j]) * (left - length[j]));
+                left -= length[j];
+            }
+            Assert.That(rod.ClampError(new RodSupports { Clamp = ClampRule.FourthOrder }),
+                Is.EqualTo(3.0 * sum / (80.0 * 80.0 * 80.0) - 1.0).Within(1e-12));
+        }
+
         [Test]
         public void HalfElementClamp_IsOfOrderTwo()
         {

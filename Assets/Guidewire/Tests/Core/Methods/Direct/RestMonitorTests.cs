@@ -8,6 +8,34 @@ namespace Guidewire.Core.Tests
     {
         private const double Threshold = 0.001;   // units: 1 um
 
+        // Euler's load of a cantilever, pi^2 EI/(4 L^2): a straight wire stays straight on either side of it.
+        [TestCase(0.98, true)]
+        [TestCase(1.02, false)]
+        [TestCase(3.0, false)]
+        public void StraightMotionBeyondItsCriticalLoad_IsNotReliable(double share, bool isReliable)
+        {
+            SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, 1e-3, 100);
+            parameters.Material.MassDamping = 50.0;
+            parameters.Scene.TipForce = new Vector3d(0.0, 0.0, -0.25 * share * Math.PI * Math.PI * Rods.BendForce);
+            Simulation run = Wires.Finish(parameters);
+            Assert.That(run.IsReliable, Is.EqualTo(isReliable), run.Reason);
+            Assert.That(run.Reason, isReliable ? Does.Not.Contain("unstable") : Does.Contain("unstable"));
+        }
+
+        // Far from any equilibrium: a thin wire that whips in a plane, and one that falls freely.
+        [TestCase(false)]
+        [TestCase(true)]
+        public void ViolentMotion_IsNotCalledUnstable(bool falls)
+        {
+            SimulationParameters parameters = Rods.Clamped(30, Solver.Direct, falls ? 0.01 : 1e-4, falls ? 50 : 600);
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.ProximalEnd = falls ? ProximalEnd.Free : ProximalEnd.Clamped;
+            parameters.Material.WireRadius = falls ? 5e-4 : 1e-4;
+            parameters.Scene.TipForce = new Vector3d(0.0, falls ? 0.0 : 0.02, 0.0);
+            parameters.Scene.TipForceReleaseTime = 3e-3;
+            Assert.That(Wires.Finish(parameters).Reason, Does.Not.Contain("unstable"));
+        }
+
         [TestCase(1e-4, ProximalEnd.Clamped, 0.02)]
         [TestCase(0.5e-3, ProximalEnd.Held, 0.5, Category = "Long")]
         public void SwingingWire_IsNotAtRest_InSmallSteps(double radius, ProximalEnd end, double force)

@@ -41,6 +41,42 @@ namespace Guidewire.Core.Tests
             Assert.That(run.Contacts!.Passages, Is.Zero);
         }
 
+        // At constant speed along a smooth tube the hub alone does work: on the weight of what is simulated.
+        [TestCase(9.0, 0.02)]
+        [TestCase(-9.0, 0.02)]
+        [TestCase(9.0, -0.02)]
+        [TestCase(0.0, 0.02)]
+        public void Energy_IsTheHubsWork_AlsoWhereAnElementComesOrGoes_UnderGravity(double gravity, double speed)
+        {
+            SimulationParameters parameters = Straight(60, -10.0);
+            parameters.Material.MassDamping = 0.0;
+            parameters.Scene.Gravity = new Vector3d(0.0, 0.0, gravity);
+            parameters.Scene.GuidewireOffset = speed < 0.0 ? -200.0 : -295.0;
+            parameters.Drive.InsertionSpeed = speed;
+            parameters.Method.MaxSimulationSteps = 200;
+            Simulation run = Simulation.Create(parameters);
+            double before = 0.0;
+            double workBefore = 0.0;
+            double most = 0.0;
+            double usual = 0.0;
+            int outside = 0;
+            int events = 0;
+            Wires.Finish(run, () =>
+            {
+                StressRecord stress = run.Stress()!;
+                double energy = stress.KineticEnergy + stress.ElasticEnergy + stress.PotentialEnergy;
+                HubRecord hub = run.Hub()!;
+                double error = Math.Abs(energy - before - (hub.Work - workBefore));
+                most = run.StepCount > 40 ? Math.Max(most, error) : 0.0;
+                usual = Math.Max(usual, Math.Abs(hub.Work - workBefore));
+                events += hub.SpheresInBody != outside ? 1 : 0;
+                (before, workBefore, outside) = (energy, hub.Work, hub.SpheresInBody!.Value);
+            });
+            TestContext.Out.WriteLine("error " + most + " of " + usual + ", events " + events);
+            Assert.That(events, Is.GreaterThan(5));
+            Assert.That(most, Is.LessThan(1e-12));
+        }
+
         [Test]
         public void ForceAndTorque_HaveNoJumpWhereAnElementComesIn()
         {
