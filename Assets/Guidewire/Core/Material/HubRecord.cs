@@ -34,6 +34,10 @@ namespace Guidewire.Core
         /// over what came out, by the mean of the moments before and after the step. NaN without walls.</summary>
         public double Work { get; internal set; }
 
+        /// <summary>The end of the first step in which the hub slipped at its force limit, s; NaN where it has
+        /// not.</summary>
+        public double SlippedFrom { get; internal set; } = double.NaN;
+
         /// <summary>Direction of the last element, a unit vector.</summary>
         public Vector3d TipDirection { get; private set; }
 

@@ -101,9 +101,9 @@ namespace Guidewire.Core
 
         /// <summary>direct: a hub that exceeded its limit.</summary>
         public static readonly WarningKind HubForce = AfterReason("hubForce",
-            "*hub* had up to *F:G3* N, above its hubForceLimit of *L:G3* N, in *k* of the steps: every displacement "
-            + "that was tried needed more", "with `catheters`: the force jumps past the limit, often in the first "
-            + "step, when bent tips that start straight spring to the walls");
+            "*hub* had up to *F:G3* N, above its hubForceLimit of *L:G3* N, in *k* of the steps: it slips no "
+            + "faster than its slipSpeed, or every displacement that was tried needed more", "the force jumps past the "
+            + "limit, often in the first step, when bent tips that start straight spring to the walls");
 
         /// <summary>direct: a wire too stiff for its elements.</summary>
         public static readonly WarningKind Rounding = AfterReason("rounding",

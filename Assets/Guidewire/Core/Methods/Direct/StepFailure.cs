@@ -61,7 +61,7 @@ namespace Guidewire.Core
                 {
                     return advice == null ? Shorter : "; " + advice;
                 }
-                return _walls.Spring.HasLimit ? "" : Limit;
+                return _walls.Spring.Limit.IsLimited ? "" : Limit;
             }
         }
 

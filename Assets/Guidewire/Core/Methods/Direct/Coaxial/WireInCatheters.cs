@@ -48,7 +48,12 @@ namespace Guidewire.Core
         public override CoaxialRecord? Coaxial()
         {
             Chain.TakeTime();
-            return _records.Take(Dynamics, Chain.Rod.Joints, _each);
+            CoaxialRecord outermost = _records.Take(Dynamics, Chain.Rod.Joints, _each);
+            for (int i = 0; i < _records.All.Length; i++)
+            {
+                _records.All[i].SlippedFrom = Slips[i].Record.SlippedFrom;
+            }
+            return outermost;
         }
 
         /// <inheritdoc/>
@@ -67,9 +72,9 @@ namespace Guidewire.Core
                 if (Drives[k].FallsShort)
                 {
                     warnings.Add(WarningTable.HubShortfall.With(name, Drives[k].Slip,
-                        (Slips[k].IsLimited ? "it slipped at its hubForceLimit, or " : "") + stops));
+                        Slips[k].Record.Why is string slipped ? slipped + ", or " + stops : stops));
                 }
-                if (Slips[k].FindExcess(name) is RunWarning excess)
+                if (Slips[k].Record.FindExcess(name) is RunWarning excess)
                 {
                     warnings.Add(excess);
                 }
@@ -131,6 +136,7 @@ namespace Guidewire.Core
         {
             CoaxialRecord record = Coaxial()!;
             Quaterniond[] q = Wire.Shape.Q;
+            _hub.SlippedFrom = Slips[Slips.Length - 1].Record.SlippedFrom;
             _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
                 record.WireTwist, record.LargestCurvature);
             return _hub;
