@@ -10,6 +10,8 @@ namespace Guidewire.Core
     /// that.</remarks>
     internal sealed class CoaxialChain
     {
+        private const double LeftOfGap = 0.5;     // of the least one, where a node goes
+
         private readonly MethodParameters _method;
         private readonly CoaxialSetup _setup;
         private readonly MaterialDrive[] _drives;
@@ -272,6 +274,17 @@ namespace Guidewire.Core
             return hasOthers;
         }
 
+        // Whether nodes that are there are not to be.
+        private bool HasFewer()
+        {
+            bool hasFewer = false;
+            for (int i = 1; i < _active.Length; i++)
+            {
+                hasFewer |= _nodes.Beyond[i] < Rod.Joints.BeyondOf(i);
+            }
+            return hasFewer;
+        }
+
         // From where a chain is, this one or that of other instruments.
         private void Remesh(CoaxialChain from, int first, bool[]? isOther = null, double shift = 0.0)
         {
@@ -280,6 +293,7 @@ namespace Guidewire.Core
             double time = was.Time;
             double turn = was.ProximalTurn;
             double thrust = 0.0;
+            double gap = from == this && HasFewer() ? was.Terms.Walls()?.Barrier.LeastGap(was.Shape) ?? 0.0 : 0.0;
             Vector3d held = default;
             if (_hasWindow)
             {
@@ -318,6 +332,10 @@ namespace Guidewire.Core
                 Rod.SetLengths();
             }
             Begin(time, turn, former.Walls(), movesWindow ? _change.Entered : (int?)null);
+            if (gap > 0.0)
+            {
+                Dynamics.Terms.Walls()!.Barrier.Open(Dynamics.Shape, LeftOfGap * gap);
+            }
             if (_hasWindow)
             {
                 // An element that leaves may have another force than the springs that take its place.
