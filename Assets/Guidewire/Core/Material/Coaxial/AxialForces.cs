@@ -12,7 +12,10 @@ namespace Guidewire.Core
     ///   c = 1/sum 1/C_i - sum of c before it, C_i = sum of c_i from its hub to the element's end.
     /// So a force on one beyond all others stretches that one by C_i, and one without stiffness changes nothing. An
     /// element's rest length is then l + e - c sum N_i, with e of the outermost one; at a tip e has what the one that
-    /// goes on is longer than the chain is before it. What is before the chain in a sheath is as one more element of
+    /// goes on is longer than the chain is before it. The force of the hubs of those that go on strains what of them is
+    /// inside, and no other: the tip around them bears the rest Q of the element's thrust (M^2/2B of a mouth). So that
+    /// element is longer by (c - l/sum EA) Q, with Q of the last step: it hardly depends on strains, while c holds the
+    /// force of a tip that is pressed. What is before the chain in a sheath is as one more element of
     /// all of them.
     ///
     /// Directions of loads are those of the shape that <see cref="Take"/> had last.</remarks>
@@ -27,6 +30,8 @@ namespace Guidewire.Core
         private readonly double[] _slide;       // of each instrument at the nodes, m
         private readonly double[] _compliance;  // of the chain, m/N
         private readonly double[] _leadForce;   // of each before the chain, N
+        private readonly double[] _mean;        // N of each in an element, N
+        private readonly double[] _borne;       // Q by the first instrument that goes on, N
 
         /// <summary>Makes one of a chain without loads.</summary>
         public AxialForces(CoaxialJoints joints)
@@ -41,6 +46,8 @@ namespace Guidewire.Core
             _slide = new double[joints.Count * (capacity + 1)];
             _compliance = new double[capacity];
             _leadForce = new double[joints.Count];
+            _mean = new double[joints.Count * capacity];
+            _borne = new double[joints.Count];
         }
 
         // Elements.
@@ -55,6 +62,7 @@ namespace Guidewire.Core
             Array.Clear(_strain, 0, N);
             Array.Clear(_slide, 0, _joints.Count * (N + 1));
             Array.Clear(_leadForce, 0, _leadForce.Length);
+            Array.Clear(_mean, 0, _joints.Count * N);
         }
 
         /// <summary>There are no loads.</summary>
@@ -191,8 +199,27 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the rest length of element j of the chain, m.</summary>
-        public double RestLengthOf(int j) =>
-            _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j];
+        public double RestLengthOf(int j) => _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j]
+            - _compliance[j] * _force[j] + (_compliance[j] - _joints[j].Axial) * BorneAt(j);
+
+        /// <summary>Gives Q of element j, the part of its thrust that the tip before it bears, N; 0 where none
+        /// is.</summary>
+        public double BorneAt(int j) => _joints.IsTip(j) ? _borne[_joints.CarrierOf(j)] : 0.0;
+
+        /// <summary>Sets Q of an element at a tip, N.</summary>
+        /// <returns>By how much the element becomes longer, m.</returns>
+        public double SetBorne(int j, double borne)
+        {
+            ref double own = ref _borne[_joints.CarrierOf(j)];
+            double change = (_compliance[j] - _joints[j].Axial) * (borne - own);
+            own = borne;
+            return change;
+        }
+
+        /// <summary>What the hub of an instrument has to push for the thrust of an element, N less: the loads on it
+        /// before that element.</summary>
+        public double LoadBefore(int instrument, int element) =>
+            _leadForce[instrument] - _mean[instrument * N + element];
 
         /// <summary>Takes the directions of the loads.</summary>
         /// <returns>The largest change of what an element is longer by, m.</returns>
@@ -232,14 +259,15 @@ namespace Guidewire.Core
             snapshot.Serialize(_force, N);
             snapshot.Serialize(_strain, N);
             snapshot.Serialize(_slide, _joints.Count * (N + 1));
+            snapshot.Serialize(_borne);
             if (_joints.First > 0)
             {
                 snapshot.Serialize(_leadForce);
             }
         }
 
-        // Whether an instrument is in all of an element at a tip.
-        private bool GoesOn(int instrument, int element)
+        /// <summary>Whether an instrument is in all of an element at a tip.</summary>
+        public bool GoesOn(int instrument, int element)
         {
             return instrument == _joints.CarrierOf(element)
                 || _joints.Hubs.Ends[instrument] >= _joints.Stations[element + 1];
@@ -266,6 +294,7 @@ namespace Guidewire.Core
                 Vector3d axis = shape.Q[j].Director3;
                 double levered = Vector3d.Dot(axis, _levered[instrument * N + j]);
                 _force[j] += force + levered;
+                _mean[instrument * N + j] = force + levered;
                 double length = _joints.Stations[j + 1] - _joints.Stations[j];
                 double part = Math.Min(1.0, (_joints.Hubs.Ends[instrument] - _joints.Stations[j]) / length);
                 double mean = part > 0.0 ? force + levered / part : 0.0;

@@ -11,8 +11,9 @@ namespace Guidewire.Core
     /// couples c
     ///   E' = -1/2 sum m_i^2 A_i' - m . (F' + sum R(t) F_i') + e' - C' cos t - S' sin t + dE/dt (z_b - z_a) w'
     ///       - sum (1/2 c^2 (1/K)' + c r').
-    /// Of an element of the station's length s, compliances a along and b across its axis, force N and shear force V of
-    /// the chain, and f of the loads alone, E' = -N (s' - f a') - 1/2 (N^2 + f^2) a' and what V adds. Where borders of
+    /// Of an element of the station's length s, compliances a along and b across its axis, of which c is without what is
+    /// before it, force N and shear force V of the chain, f of the loads alone and Q of what a tip bears,
+    /// E' = -N (s' - f a' + Q (a' - c')) - 1/2 (N^2 + f^2) a' and what V adds. Where borders of
     /// two instruments are in one place E has a kink, and E' is that of one side; of two tips, that beyond the outer
     /// one.</remarks>
     internal sealed class Release
@@ -28,6 +29,7 @@ namespace Guidewire.Core
         private readonly CoaxialPieces _shared;   // what is there
         private readonly double[] _own;           // of the compliance of each from its hub on
         private readonly double[] _station;       // speeds of nodes
+        private readonly double[] _force;         // of the hubs inside, N
 
         /// <summary>Of these instruments.</summary>
         /// <param name="angles">The bending of several, with their angles; null of one.</param>
@@ -43,6 +45,7 @@ namespace Guidewire.Core
             _after = _joints.CreatePieces();
             _shared = _joints.CreatePieces();
             _own = new double[_joints.Count];
+            _force = new double[_joints.Count];
             _station = new double[_joints.Capacity + 1];
         }
 
@@ -53,6 +56,31 @@ namespace Guidewire.Core
             SetSpeeds(instrument, 0.0);
             return OfLead(shape, terms, out double compliance) + RateOf(shape, 0, _joints.ElementCount, compliance)
                 + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
+        }
+
+        /// <summary>Takes what the tips bear of the thrust of those that go on.</summary>
+        /// <returns>The largest change of an element's length, m.</returns>
+        public double TakeBorne(RodShape shape, RodTerms terms)
+        {
+            double largest = 0.0;
+            AxialForces axial = _rod.Axial;
+            for (int i = 1; i < _joints.Count; i++)
+            {
+                _force[i] = InnerForce(shape, terms, i);
+            }
+            for (int j = 1; j < _joints.ElementCount; j++)
+            {
+                if (_joints.IsTip(j))
+                {
+                    double borne = -_stretch.Stress(shape, j, out _).Z;
+                    for (int i = _joints.CarrierOf(j); i < _joints.Count; i++)
+                    {
+                        borne -= axial.GoesOn(i, j) ? _force[i] + axial.LoadBefore(i, j) : 0.0;
+                    }
+                    largest = Math.Max(largest, Math.Abs(axial.SetBorne(j, borne)));
+                }
+            }
+            return largest;
         }
 
         /// <summary>What the outer hub has of the force along the axis besides that on its node, N: -dE/dD, D the
@@ -260,7 +288,7 @@ namespace Guidewire.Core
             }
             Vector3d n = _stretch.Stress(shape, j, out _);
             double load = _rod.Axial.LoadOn(j);
-            double length = grows - along * load;
+            double length = grows - along * load + (along - _after.Axial) * _rod.Axial.BorneAt(j);
             double across = _rod.Rod.ShearStiffness[j];
             double acrossRate = (grows - across * _after.Shear) / _joints[j].Shear;
             return -n.Z * length - 0.5 * along * (n.Z * n.Z + load * load)

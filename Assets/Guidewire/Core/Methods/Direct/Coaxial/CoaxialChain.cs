@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -40,7 +41,8 @@ namespace Guidewire.Core
             var hubs = new CoaxialHubs(Array.ConvertAll(drives, drive => drive.Hub), setup.Axis, setup.Sheath);
             _hubs = hubs;
             Wire = new InnerInstrument(setup, hubs, drives.Length - 1);
-            _nodes = new CoaxialNodes(setup.Instruments, hubs);
+            _nodes = new CoaxialNodes(setup.Instruments, hubs, setup.Wire.Walls
+                .Where(wall => wall.Softness != null).Select(wall => wall.Softness!).ToArray());
             _hasWindow = setup.Sheath != null;
             _torques = new double[drives.Length];
             _active = new int[drives.Length];
@@ -121,6 +123,16 @@ namespace Guidewire.Core
             if (Dynamics.Terms.CoaxialLoads != null)
             {
                 CoaxialSetup.TakeLoads(_scene, Dynamics.Terms);
+            }
+        }
+
+        /// <summary>A step begins, at the end of the one before: takes what tips bear.</summary>
+        public void TakeBorne()
+        {
+            if (Rod.Joints.InnerCount > 0)
+            {
+                TakeTime();
+                CoaxialSetup.TakeBorne(_scene, Dynamics.Terms);
             }
         }
 

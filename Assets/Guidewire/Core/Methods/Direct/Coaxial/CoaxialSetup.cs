@@ -229,6 +229,15 @@ namespace Guidewire.Core
             return change;
         }
 
+        /// <summary>Takes what of the thrust of instruments the tips around them bear, in a shape in balance.</summary>
+        /// <returns>The largest change of what an element is longer by, m.</returns>
+        public static double TakeBorne(MaterialScene scene, RodTerms terms)
+        {
+            double change = terms.Release!.TakeBorne(scene.Shape, terms);
+            scene.Supports.Coaxial!.SetLengths();
+            return change;
+        }
+
         /// <summary>Sets how long and how soft the part before the chain is where the hubs are.</summary>
         public static void SetLead(MaterialScene scene, RodTerms terms)
         {
@@ -256,7 +265,7 @@ namespace Guidewire.Core
             string? failure = null;
             for (int k = 0; k < MaxSearches && failure == null && change > SameLength * scene.Rod.TotalLength; k++)
             {
-                change = k == 0 ? change : TakeLoads(scene, terms);
+                change = k == 0 ? change : Math.Max(TakeLoads(scene, terms), TakeBorne(scene, terms));
                 failure = new RestShape(scene, terms, Math.Min(method.SolverTolerance, 1e-9),
                     RestShape.IterationFactor * method.MaxNewtonIterations, report).Find(scene.Shape);
             }

@@ -16,7 +16,7 @@ namespace Guidewire.Core
     {
         private const double Close = 0.02;      // of the limit
         private const int MaxTrials = 24;
-        private const int MaxRefined = 6;       // of them after the first one with no more than the limit
+        private const int MaxRefined = 10;      // of them after the first one with no more than the limit
         private const double Near = 1.0 / 64.0; // of the shortest displacement: the first one from what was found last
         private const double Growth = 4.0;      // of it from one trial to the next
         private const double Same = 1e-6;       // of what is asked: it is as before

@@ -151,7 +151,7 @@ namespace Guidewire.Core.Tests
         public void SpringThatGivesWay_HasTheDerivativesOfItsEnergy([Values(0.0, 2.0)] double limit)
         {
             MaterialRod rod = MaterialRod.Round(1, 0.1, 0.4e-3, 60e9, 23e9, 6450.0);
-            var spring = new SupportSpring(rod, limit) { Axis = new Vector3d(0.48, 0.6, 0.64) };
+            var spring = new SupportSpring(rod, HubLimit.OfForce(limit)) { Axis = new Vector3d(0.48, 0.6, 0.64) };
             var shape = new RodShape(1);
             shape.X[0] = new Vector3d(-3e-6, -1e-6, 2e-6);
             const double Step = 1e-7;
