@@ -38,6 +38,10 @@ namespace Guidewire.Core
         /// not.</summary>
         public double SlippedFrom { get; internal set; } = double.NaN;
 
+        /// <summary>With catheters, by how much the force is uncertain, N: root mean square over the run; else NaN.
+        /// </summary>
+        public double ForceError { get; internal set; } = double.NaN;
+
         /// <summary>Direction of the last element, a unit vector.</summary>
         public Vector3d TipDirection { get; private set; }
 

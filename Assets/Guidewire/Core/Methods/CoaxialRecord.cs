@@ -96,6 +96,9 @@ namespace Guidewire.Core
         /// has not.</summary>
         public double SlippedFrom { get; internal set; } = double.NaN;
 
+        /// <summary>By how much that force is uncertain, N: root mean square over the run.</summary>
+        public double ForceError { get; internal set; }
+
         /// <summary>Displacement that the catheter's hub was asked, there and back both counted, m.</summary>
         public double CommandedDisplacement { get; private set; }
 

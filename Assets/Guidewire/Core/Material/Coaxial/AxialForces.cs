@@ -14,7 +14,7 @@ namespace Guidewire.Core
     /// element's rest length is then l + e - c sum N_i, with e of the outermost one; at a tip e has what the one that
     /// goes on is longer than the chain is before it. The force of the hubs of those that go on strains what of them is
     /// inside, and no other: the tip around them bears the rest Q of the element's thrust (M^2/2B of a mouth). So that
-    /// element is longer by (c - l/sum EA) Q, with Q of the last step: it hardly depends on strains, while c holds the
+    /// element and the next one are longer by (c - l/sum EA) Q, with Q of the last step: it hardly depends on strains, while c holds the
     /// force of a tip that is pressed. What is before the chain in a sheath is as one more element of
     /// all of them.
     ///
@@ -199,12 +199,41 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the rest length of element j of the chain, m.</summary>
-        public double RestLengthOf(int j) => _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j]
-            - _compliance[j] * _force[j] + (_compliance[j] - _joints[j].Axial) * BorneAt(j);
+        public double RestLengthOf(int j)
+        {
+            int tip = _joints.IsTip(j) || !_joints.IsTip(j - 1) ? j : j - 1;
+            double borne = BorneAt(tip);
+            return _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j]
+                + (borne == 0.0 ? 0.0
+                    : ShareOf(j, tip, 0.0, out _) * BorneLengthAt(tip));
+        }
 
         /// <summary>Gives Q of element j, the part of its thrust that the tip before it bears, N; 0 where none
         /// is.</summary>
         public double BorneAt(int j) => _joints.IsTip(j) ? _borne[_joints.CarrierOf(j)] : 0.0;
+
+        /// <summary>By how much Q makes element j, at a tip, and the next one longer, m.</summary>
+        public double BorneLengthAt(int j) => (_compliance[j] - _joints[j].Axial) * BorneAt(j);
+
+        /// <summary>The fraction by which an element takes part in what Q makes the one at a tip longer by. That may
+        /// be very short: so it and the next one do by their lengths.</summary>
+        /// <param name="tip">The one at the tip.</param>
+        /// <param name="grows">Derivative of that one's length.</param>
+        /// <param name="rate">The fraction's derivative.</param>
+        public double ShareOf(int j, int tip, double grows, out double rate)
+        {
+            rate = 0.0;
+            if (tip + 1 >= N || _joints.IsTip(tip + 1))
+            {
+                return j == tip ? 1.0 : 0.0;
+            }
+            double own = _joints.Stations[tip + 1] - _joints.Stations[tip];
+            double both = _joints.Stations[tip + 2] - _joints.Stations[tip];
+            double share = own / both;
+            rate = (1.0 - share) * grows / both;
+            rate = j == tip ? rate : -rate;
+            return j == tip ? share : 1.0 - share;
+        }
 
         /// <summary>Sets Q of an element at a tip, N.</summary>
         /// <returns>By how much the element becomes longer, m.</returns>

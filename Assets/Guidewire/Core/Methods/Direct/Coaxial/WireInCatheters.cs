@@ -11,6 +11,7 @@ namespace Guidewire.Core
         private readonly InnerInstrument[] _each;      // the outermost one first, the wire last
         private readonly HubRecord _hub;
         private readonly WireStress _stress;
+        private readonly HubForceErrors _errors;
 
         /// <summary>At their start.</summary>
         /// <param name="timeStep">s.</param>
@@ -27,6 +28,7 @@ namespace Guidewire.Core
             }
             _hub = new HubRecord(setup.Wire.Rod.JointLengths(setup.Wire.Supports));
             _stress = new WireStress(setup, Wire);
+            _errors = new HubForceErrors(drives.Length);
         }
 
         /// <inheritdoc/>
@@ -52,6 +54,7 @@ namespace Guidewire.Core
             for (int i = 0; i < _records.All.Length; i++)
             {
                 _records.All[i].SlippedFrom = Slips[i].Record.SlippedFrom;
+                _records.All[i].ForceError = _errors.Of(i);
             }
             return outermost;
         }
@@ -77,6 +80,10 @@ namespace Guidewire.Core
                 if (Slips[k].Record.FindExcess(name) is RunWarning excess)
                 {
                     warnings.Add(excess);
+                }
+                if (_errors.FindWarning(k, name) is RunWarning uncertain)
+                {
+                    warnings.Add(uncertain);
                 }
             }
         }
@@ -136,6 +143,7 @@ namespace Guidewire.Core
         {
             CoaxialRecord record = Coaxial()!;
             Quaterniond[] q = Wire.Shape.Q;
+            _hub.ForceError = _errors.Of(Slips.Length - 1);
             _hub.SlippedFrom = Slips[Slips.Length - 1].Record.SlippedFrom;
             _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
                 record.WireTwist, record.LargestCurvature);
@@ -153,9 +161,9 @@ namespace Guidewire.Core
         protected override void Take()
         {
             base.Take();
+            _errors.Take(Dynamics, Chain.Rod.Joints, Coaxial()!.Force);
             if (_records.HasFriction)
             {
-                Coaxial();
                 Setup.TakeStrains(_records.All, _report);
             }
         }
@@ -184,6 +192,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        protected override void SerializeRecords(Snapshot snapshot) => _records.Serialize(snapshot);
+        protected override void SerializeRecords(Snapshot snapshot)
+        {
+            _records.Serialize(snapshot);
+            _errors.Serialize(snapshot);
+        }
     }
 }
