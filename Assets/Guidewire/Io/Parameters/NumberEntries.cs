@@ -81,7 +81,7 @@ namespace Guidewire.Io
             _word = word;
         }
 
-        public override string Allowed => WithUnit("\"" + _word + "\", null or a number" + _range.Text);
+        public override string Allowed => WithUnit("null or a number" + _range.Text + ", or \"" + _word + "\"");
 
         internal override JToken Write(RunParameters source) =>
             double.IsNaN(Get(source)) ? new JValue(_word) : base.Write(source);

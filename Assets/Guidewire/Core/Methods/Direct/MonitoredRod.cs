@@ -97,7 +97,6 @@ namespace Guidewire.Core
             _scene.Joints.Remesh();
             _ends.Remesh();
             _rest.Remesh();
-            _texts.Remesh();
             if (_monitor != null)
             {
                 Terms.Walls()!.Spring.Position = Schedule.Hub.PositionAt(Time);

@@ -38,6 +38,53 @@ namespace Guidewire.Core.Tests
             Assert.That(slip.Record.FindExcess("a hub"), Is.Null);
         }
 
+        // Its force would take 3 mm to fall to the limit, and it goes no farther than it may.
+        [Test]
+        public void HubGoesNoFartherThanItSlipsInAStep([Values(-3e-3, 3e-3)] double rest, [Values(1e-3, 1e-4)] double most)
+        {
+            var slip = new HubSlip(HubLimit.OfForce(Limit), Shortest, most);
+            double asked = Asked * Math.Sign(rest);
+            double Force(double u) => 1e4 * (u - rest);
+            double largest = Math.Max(most, Asked);
+            slip.Begin(asked, 0.0);
+            double moved = asked;
+            int trials = 1;
+            while (slip.NeedsAnother(moved, 0.0, Force(moved), false))
+            {
+                moved = slip.Displacement ?? asked;
+                Assert.That(moved, Is.InRange(-most, largest).Or.InRange(-largest, most));
+                Assert.That(Math.Abs(moved), Is.LessThanOrEqualTo(Math.Max(most, Asked)));
+                Assert.That(trials++, Is.LessThan(MaxTrials));
+            }
+            slip.EndStep(Force(moved), 0.5);
+            Assert.That(moved, Is.EqualTo(Math.Sign(rest) * largest), "towards where it has no force");
+            Assert.That(slip.Record.FindExcess("the hub"), Is.Not.Null);
+            Assert.That(slip.Record.SlippedFrom, Is.EqualTo(0.5));
+        }
+
+        // 2 mu P of two fingers, and Euler's load of a clamped shaft of 20 mm.
+        [TestCase(1e-5, 4.0 * Math.PI * Math.PI * 1e-5 / (0.02 * 0.02))]
+        [TestCase(1e-2, 10.0)]
+        public void HandPushesNoHarderThanItsGripAndTheShaftBear_AndPullsWithItsGrip(double bending, double push)
+        {
+            HubLimit limit = HubLimit.OfHand(bending);
+            Assert.That(limit.Push, Is.EqualTo(push).Within(1e-12));
+            Assert.That(limit.Pull, Is.EqualTo(10.0));
+            Assert.That(limit.Excess(push + 1.0), Is.EqualTo(1.0).Within(1e-12));
+            Assert.That(limit.Excess(-11.0), Is.EqualTo(-1.0));
+            Assert.That(limit.Excess(-9.0), Is.Zero);
+            Assert.That(limit.Excess(double.NaN), Is.NaN);
+            var drive = new DriveParameters { Kind = Drive.Displace };
+            var material = new MaterialParameters { WireRadius = 2e-4, YoungsModulus = 60e9 };
+            Assert.That(HubLimit.Of(drive, material).IsOfHand);
+            drive.HubForceLimit = 0.0;
+            Assert.That(HubLimit.Of(drive, material).IsLimited, Is.False);
+            drive.HubForceLimit = 0.3;
+            Assert.That(HubLimit.Of(drive, material).Pull, Is.EqualTo(0.3));
+            drive = new DriveParameters { Kind = Drive.Hold };
+            Assert.That(HubLimit.Of(drive, material).IsLimited, Is.False, "nothing moves a hub");
+        }
+
         // Of the two forces on either side of the jump it has the smaller one, whichever the search ends at.
         [TestCase(0.2, -0.1)]
         [TestCase(0.1, -0.2)]
