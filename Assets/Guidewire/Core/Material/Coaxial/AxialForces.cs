@@ -21,6 +21,8 @@ namespace Guidewire.Core
     /// Directions of loads are those of the shape that <see cref="Take"/> had last.</remarks>
     internal sealed class AxialForces
     {
+        private const double Follow = 0.25;     // of a change of Q, taken in a step: all at once may swing
+
         private readonly CoaxialJoints _joints;
         private readonly Vector3d[] _load;      // on each element, of each instrument, N
         private readonly Vector3d[] _levered;   // times the fraction of its length where they are
@@ -235,13 +237,16 @@ namespace Guidewire.Core
             return j == tip ? share : 1.0 - share;
         }
 
+        /// <summary>Takes Q of all tips from the same instruments in another chain.</summary>
+        public void TakeBorne(AxialForces other) => Array.Copy(other._borne, _borne, _borne.Length);
+
         /// <summary>Sets Q of an element at a tip, N.</summary>
         /// <returns>By how much the element becomes longer, m.</returns>
         public double SetBorne(int j, double borne)
         {
             ref double own = ref _borne[_joints.CarrierOf(j)];
             double change = (_compliance[j] - _joints[j].Axial) * (borne - own);
-            own = borne;
+            own += Follow * (borne - own);
             return change;
         }
 
@@ -289,10 +294,8 @@ namespace Guidewire.Core
             snapshot.Serialize(_strain, N);
             snapshot.Serialize(_slide, _joints.Count * (N + 1));
             snapshot.Serialize(_borne);
-            if (_joints.First > 0)
-            {
-                snapshot.Serialize(_leadForce);
-            }
+            snapshot.Serialize(_mean, _joints.Count * N);
+            snapshot.Serialize(_leadForce);
         }
 
         /// <summary>Whether an instrument is in all of an element at a tip.</summary>

@@ -85,6 +85,7 @@ namespace Guidewire.Core
             if (setup.HasStart)
             {
                 TakeLoads();
+                TakeBorne();
             }
         }
 
@@ -329,6 +330,7 @@ namespace Guidewire.Core
             }
             _hubs.SetLeads(_leads, time);
             _sheathed = _hubs.SheathedAt(time);
+            Rod.Axial.TakeBorne(from.Rod.Axial);
             Rod.Remesh(_nodes.Beyond, _leads, _sheathed, first);
             _change.Begin(joints, isOther, shift);
             _change.Take(motion, Dynamics.Motion);

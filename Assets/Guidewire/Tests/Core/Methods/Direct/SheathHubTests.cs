@@ -112,7 +112,7 @@ namespace Guidewire.Core.Tests
             Simulation run = Simulation.Create(parameters);
             TimeTable asked = parameters.Drive.Table!.Insertion;
             double before = 0.0;
-            double fastest = 0.0;
+            int slips = 0;
             double largest = 0.0;
             Wires.Run(run, () =>
             {
@@ -120,10 +120,10 @@ namespace Guidewire.Core.Tests
                 double moved = Math.Abs(run.Hub()!.Insertion - before);
                 before = run.Hub()!.Insertion;
                 Assert.That(moved, Is.LessThanOrEqualTo(Math.Max(way, 0.01 * speed) + 1e-12));
-                fastest = Math.Max(fastest, moved / 0.01);
+                slips += way < 0.01 * speed && Math.Abs(moved - 0.01 * speed) < 1e-12 ? 1 : 0;
                 largest = Math.Max(largest, Math.Abs(run.Hub()!.Force));
             });
-            Assert.That(fastest, Is.EqualTo(speed).Within(1e-6), "the snap asks for more");
+            Assert.That(slips, Is.GreaterThan(0), "the snap asks for more");
             Assert.That(largest, Is.GreaterThan(1.1e-3));
             Assert.That(run.Reason, Does.Contain("above its hubForceLimit of 0.001 N"));
             Assert.That(run.Hub()!.SlippedFrom, Is.InRange(0.0, run.Time));

@@ -20,7 +20,7 @@ namespace Guidewire.Core.Tests
         [TestCase(160, Category = "Long")]
         public void WireThatLiesOnAPlane_IsPushedWithoutForce_AndBearsThatOfAnElastica(int elements)
         {
-            SimulationSession run = Open("'solver': 'direct', 'guidewireLength': 120, 'numberRodElements': "
+            SimulationSession run = Open("'solver': 'direct', 'guidewireLength': 110, 'numberRodElements': "
                 + elements + ", 'guidewireOffset': -90, 'wireRadius': 0.00025, 'youngsModulus': 2e9, 'shearModulus': 8e8,"
                 + " 'massDamping': 50, 'proximalEnd': 'clamped', 'drive': 'displace', 'insertionSpeed': 0.008,"
                 + " 'timeStep': 0.02, 'deltaThreshold': 0, 'maxSimulationSteps': 170, 'hubForceLimit': null,"
