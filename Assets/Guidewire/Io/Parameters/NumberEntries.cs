@@ -83,6 +83,8 @@ namespace Guidewire.Io
 
         public override string Allowed => WithUnit("null or a number" + _range.Text + ", or \"" + _word + "\"");
 
+        internal override JToken? FromText(string text) => text == _word ? new JValue(text) : base.FromText(text);
+
         internal override JToken Write(RunParameters source) =>
             double.IsNaN(Get(source)) ? new JValue(_word) : base.Write(source);
 

@@ -168,6 +168,7 @@ namespace Guidewire.Core
         private void SetSpeeds(int instrument, double exit)
         {
             _speeds.Exit = exit;
+            Array.Clear(_station, 0, _joints.OuterCount + 1);    // other nodes were there
             for (int i = 1; i < _joints.Count; i++)
             {
                 _speeds.Instruments[i] = i == instrument ? 1.0 : 0.0;
@@ -200,6 +201,7 @@ namespace Guidewire.Core
         private double RateOf(RodShape shape, int from, int to, double compliance)
         {
             _angles?.SetIdleTwists(shape);
+            (_tipGrows, _borneRate, _borneLength) = (0.0, 0.0, 0.0);
             double sum = 0.0;
             for (int i = 0; i < _joints.Count; i++)
             {
@@ -335,13 +337,14 @@ namespace Guidewire.Core
             double along = _rod.Axial.ComplianceRateOf(j, _after.Axial, _own, before);
             before += along;
             double grows = _station[j + 1] - _station[j];
-            if (along == 0.0 && grows == 0.0 && _after.Shear == 0.0 && !_joints.IsTip(j - 1))
+            double borne = BorneRate(j, grows, along);
+            if (along == 0.0 && grows == 0.0 && _after.Shear == 0.0 && borne == 0.0)
             {
                 return 0.0;
             }
             Vector3d n = _stretch.Stress(shape, j, out _);
             double load = _rod.Axial.LoadOn(j);
-            double length = grows - along * load + BorneRate(j, grows, along);
+            double length = grows - along * load + borne;
             double across = _rod.Rod.ShearStiffness[j];
             double acrossRate = (grows - across * _after.Shear) / _joints[j].Shear;
             return -n.Z * length - 0.5 * along * (n.Z * n.Z + load * load)

@@ -86,7 +86,7 @@ namespace Guidewire.Core.Tests
                 + " 'hubForceLimit': 0.1, 'maxSimulationSteps': 12",
             ["hubForce"] = Coaxial + "'insertionSpeed': 0.008, 'hubForceLimit': 1e-6, 'wireSections': [{'from': 100,"
                 + " 'to': 120, 'restCurvature': [40, 0, 0]}], 'catheters': [{" + Catheter + ", 'hubForceLimit': 1e-6}]",
-            ["hubForceError"] = Slant + "'maxSimulationSteps': 150, 'numberRodElements': 40, " + SlantCatheter,
+            ["hubForceError"] = Slant + "'maxSimulationSteps': 150, 'numberRodElements': 22, " + SlantCatheter,
             ["rounding"] = Wire + ", 'numberRodElements': 10, 'distalEnd': 'clamped', 'youngsModulus': 1e18,"
                 + " 'shearModulus': 4e17, 'gravity': [0, 9.81, 0], 'maxSimulationSteps': 2, 'massDamping': 10",
             ["spinLost"] = Wire.Replace("clamped", "free") + ", 'numberRodElements': 10, 'tipForce': [0, 0.05, 0],"

@@ -16,7 +16,7 @@ namespace Guidewire.Core
     {
         private const double Close = 0.02;      // of the limit
         private const int MaxTrials = 24;
-        private const int MaxRefined = 10;      // of them after the first one with no more than the limit
+        private const int MaxRefined = 6;       // of them while what has no more than the limit lies beyond a jump
         private const double Near = 1.0 / 64.0; // of the shortest displacement: the first one from what was found last
         private const double Growth = 4.0;      // of it from one trial to the next
         private const double Same = 1e-6;       // of what is asked: it is as before
@@ -89,6 +89,11 @@ namespace Guidewire.Core
         public bool NeedsAnother(double moved, double around, double force, bool isOver)
         {
             bool isTooMuch = _limit.Excess(force) != 0.0;
+            if (_isLast && isTooMuch && _allowed.IsMade && _trials < MaxTrials && !isOver)
+            {
+                // Hubs inside have found other displacements than before.
+                (_isLast, _allowed, _refined) = (false, default, 0);
+            }
             if (!IsLimited || _isLast || (!isTooMuch && (Displacement == null
                 || (Math.Abs(force) >= (1.0 - Close) * _limit.Of(force) && force * (_asked - moved) >= 0.0))))
             {
@@ -105,7 +110,7 @@ namespace Guidewire.Core
                 _beyond = _allowed.IsMade ? _beyond : _asked > moved ? _thrust : _tension;
                 _allowed = trial;
             }
-            _refined += _allowed.IsMade ? 1 : 0;
+            _refined += _allowed.IsMade && _allowed.Force * (_asked - _allowed.Moved) < 0.0 ? 1 : 0;
             if (_trials++ >= MaxTrials || _refined > MaxRefined || isOver)
             {
                 return EndAtBest(moved, around);

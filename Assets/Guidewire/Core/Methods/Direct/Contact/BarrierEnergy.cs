@@ -21,8 +21,8 @@ namespace Guidewire.Core
         private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
         private const int MaxCuts = 40;             // of a motion out of a sheath
-        private const int MaxOpenings = 100;
-        private const double OverOpening = 1e-3;    // of what is lacking
+        private const int MaxOpenings = 40;
+        private const double OverOpening = 0.1;    // of what is lacking
 
         private readonly ContactShape[] _walls;
         private readonly WallLaw[] _laws;         // by wall

@@ -77,7 +77,8 @@ namespace Guidewire.Core.Tests
             {
                 BarrierEnergy energy = Create(TestShapes.Make(name), seed, out RodShape shape);
                 double least = energy.LeastGap(shape);
-                if (!(least > -0.5 * Radius && least < Gap) || energy.NodeGap(0, 0) < 2.0 * Gap)
+                if (!(least > -0.5 * Radius && least < Gap) || energy.NodeGap(0, 0) < 2.0 * Gap
+                    || energy.EdgeGap(0, 0) < 2.0 * Gap)
                 {
                     continue;
                 }
