@@ -107,10 +107,10 @@ namespace Guidewire.Core
 
         /// <summary>direct: elements too long for the forces of several hubs.</summary>
         public static readonly WarningKind HubForceError = AfterReason("hubForceError",
-            "the force of *hub* is uncertain by *e:G2* N, with *F:G3* N at most at any hub: beyond the tip around it an "
-            + "element is *r:G2* times as long as the bend, sqrt(B/f); shorter elements there, of numberRodElements or a "
-            + "section's, make it less", "with `catheters`: above 5 % of the largest force, or 0.5 times. The sum of all "
-            + "hubs' forces is not affected ([coaxial.md](coaxial.md))");
+            "the force of *hub* is uncertain by *e:G2* N, with *F:G3* N at most at any hub: beyond the tip around it "
+            + "an element is *r:G2* times as long as the bend, sqrt(B/f); shorter elements there, of numberRodElements "
+            + "or a section's, make it less", "with `catheters`: above 5 % of the largest force, or 0.5 times. The sum "
+            + "of all hubs' forces is not affected ([coaxial.md](coaxial.md))");
 
         /// <summary>direct: a wire too stiff for its elements.</summary>
         public static readonly WarningKind Rounding = AfterReason("rounding",

@@ -14,8 +14,8 @@ namespace Guidewire.Core
     /// element's rest length is then l + e - c sum N_i, with e of the outermost one; at a tip e has what the one that
     /// goes on is longer than the chain is before it. The force of the hubs of those that go on strains what of them is
     /// inside, and no other: the tip around them bears the rest Q of the element's thrust (M^2/2B of a mouth). So that
-    /// element and the next one are longer by (c - l/sum EA) Q, with Q of the last step: it hardly depends on strains, while c holds the
-    /// force of a tip that is pressed. What is before the chain in a sheath is as one more element of
+    /// element and the next one are longer by (c - l/sum EA) Q, with Q of the last step: it hardly depends on strains,
+    /// while c holds the force of a tip that is pressed. What is before the chain in a sheath is as one more element of
     /// all of them.
     ///
     /// Directions of loads are those of the shape that <see cref="Take"/> had last.</remarks>

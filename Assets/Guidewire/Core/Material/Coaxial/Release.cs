@@ -11,8 +11,8 @@ namespace Guidewire.Core
     /// couples c
     ///   E' = -1/2 sum m_i^2 A_i' - m . (F' + sum R(t) F_i') + e' - C' cos t - S' sin t + dE/dt (z_b - z_a) w'
     ///       - sum (1/2 c^2 (1/K)' + c r').
-    /// Of an element of the station's length s, compliances a along and b across its axis, of which c is without what is
-    /// before it, force N and shear force V of the chain, f of the loads alone and Q of what a tip bears,
+    /// Of an element of the station's length s, compliances a along and b across its axis, of which c is without what
+    /// is before it, force N and shear force V of the chain, f of the loads alone and Q of what a tip bears,
     /// E' = -N (s' - f a' + Q (a' - c')) - 1/2 (N^2 + f^2) a' and what V adds; the part with Q is shared by two elements. Where borders of
     /// two instruments are in one place E has a kink, and E' is that of one side; of two tips, that beyond the outer
     /// one.</remarks>
@@ -65,8 +65,8 @@ namespace Guidewire.Core
                 + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
         }
 
-        /// <summary>The same force, of nodes that go on with their instrument only some elements beyond the tip: what is
-        /// between slides past them. In the continuum it is that force. With elements as long as the bend beyond a
+        /// <summary>The same force, of nodes that go on with their instrument only some elements beyond the tip: what
+        /// is between slides past them. In the continuum it is that force. With elements as long as the bend beyond a
         /// tip the two differ by what contacts are worth that are handed from node to node.</summary>
         /// <remarks>A node of speed s is passed by its material at 1 - s, against the friction f of walls on it, which
         /// does the work (1 - s) f . t.</remarks>

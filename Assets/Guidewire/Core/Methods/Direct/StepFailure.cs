@@ -12,7 +12,7 @@ namespace Guidewire.Core
         // A step in which a disturbance would grow by much (a thrust beyond buckling) may end in any shape.
         private const string Shorter = "; in a motion a shorter timeStep, or a timeStepError, may help";
         private const string Limit = "; a hubForceLimit lets the hub slip";
-        private const string Elements = "; more elements (numberRodElements, or those of a catheter or section) may help";
+        private const string Elements = "; more elements (numberRodElements, or of a catheter or section) may help";
         private const string FewIterations = "; maxNewtonIterations is below its default, which may suffice";
 
         private const double OfElement = 0.01;     // by which a hub may be past its end
@@ -114,8 +114,8 @@ namespace Guidewire.Core
                 fromTip += _scene.Rod.Length[k];
             }
             string into = j > AtHub || walls.Barrier.Nodes.Inside(shape) > 0 ? ""
-                : "; that is at the outermost hub, which goes straight on where the vessel bends away from its axis: let"
-                + " it go less far, or start farther outside";
+                : "; that is at the outermost hub, which goes straight on where the vessel bends away from its axis:"
+                + " let it go less far, or start farther outside";
             return string.Format(CultureInfo.InvariantCulture, "{0}; the largest of {1} contact forces is {2:G3} N,"
                 + " {3:G4} units of wire before its tip, at ({4:G4}, {5:G4}, {6:G4}){7}", hub, contacts.Count,
                 contact.Force, fromTip / _scene.Metres, x.X, x.Y, x.Z, into);

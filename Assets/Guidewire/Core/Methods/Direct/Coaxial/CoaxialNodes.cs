@@ -6,9 +6,9 @@ namespace Guidewire.Core
     /// change.</summary>
     /// <remarks>A node comes in where it is 0.02 of its element's length beyond the tip to the end of a step, or the
     /// difference of the two radii where that is less: so far the ball of a tip inside lies in the one around it, and
-    /// misses no wall. Where a soft wall gives way the balls are those at its limit. It goes where it is half as far beyond it, and a step ends a part there: so what takes its place
-    /// lies where it was. The tip around an instrument is that of the next one around it which is beyond those around
-    /// it in turn.</remarks>
+    /// misses no wall. Where a soft wall gives way the balls are those at its limit. It goes where it is half as far
+    /// beyond it, and a step ends a part there: so what takes its place lies where it was. The tip around an
+    /// instrument is that of the next one around it which is beyond those around it in turn.</remarks>
     internal sealed class CoaxialNodes
     {
         /// <summary>The fraction of a step, or of an element's length, below which two moments are one.</summary>
