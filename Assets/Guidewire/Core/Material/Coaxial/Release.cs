@@ -13,9 +13,9 @@ namespace Guidewire.Core
     ///       - sum (1/2 c^2 (1/K)' + c r').
     /// Of an element of the station's length s, compliances a along and b across its axis, of which c is without what
     /// is before it, force N and shear force V of the chain, f of the loads alone and Q of what a tip bears,
-    /// E' = -N (s' - f a' + Q (a' - c')) - 1/2 (N^2 + f^2) a' and what V adds; the part with Q is shared by two elements. Where borders of
-    /// two instruments are in one place E has a kink, and E' is that of one side; of two tips, that beyond the outer
-    /// one.</remarks>
+    /// E' = -N (s' - f a' + Q (a' - c')) - 1/2 (N^2 + f^2) a' and what V adds; the part with Q is shared by two
+    /// elements. Where borders of two instruments are in one place E has a kink, and E' is that of one side; of two
+    /// tips, that beyond the outer one.</remarks>
     internal sealed class Release
     {
         private const int Ramp = 6;               // elements over which nodes come to go with their instrument
