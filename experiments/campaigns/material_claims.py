@@ -14,6 +14,7 @@ from guidewire.logs.paths import lengths_of, through_tips
 
 SAME = 1e-9  # of the wire's radius
 OF_DISPLACEMENT = 1e-6  # of the displacement that was asked for: node 0 is on a stiff spring
+SLIP_SPEED = 0.5  # m/s, slipSpeed by default
 SAME_HUB = 1e-9  # m between what a hub was asked, went and fell short
 DEEPEST = 0.05  # of the radius, from which on a wire of xpbd in a wall is to be warned of
 WARNED = "the wire penetrated a wall"
@@ -168,6 +169,27 @@ def order(scene: dict[str, Any], insertions: list[np.ndarray]) -> list[str]:
     hubs = [own, *(1e-3 * start + one for start, one in zip(reversed(starts), reversed(catheters)))]
     least = min((float((ahead - behind).min()) for behind, ahead in zip(hubs, hubs[1:])), default=0.0)
     return [f"a hub is {-least} m ahead of that around it"] if least < -1e-9 else []
+
+
+def speeds(scene: dict[str, Any], insertions: list[np.ndarray]) -> list[str]:
+    """Hubs that go faster than any of them is asked in that step and than they may slip; as `order`."""
+    hubs, steps = [scene, *scene.get("catheters", [])], len(insertions[0]) - 1
+    asked = np.max([_ways(scene, one, steps) for one in hubs], axis=0)
+    claims = []
+    for k, (one, insertion) in enumerate(zip(hubs, insertions)):
+        slips = one.get("slipSpeed", SLIP_SPEED) * scene["timeStep"]
+        over = np.abs(np.diff(insertion)) - np.maximum(asked, slips) - SAME_HUB
+        if over.max(initial=0.0) > 0.0:
+            claims.append(f"hub {k} goes {over.max()} m farther than it may in step {over.argmax() + 1}")
+    return claims
+
+
+def _ways(scene: dict[str, Any], driven: dict[str, Any], steps: int) -> np.ndarray:
+    """How far a hub is asked to go in each step, there or back, (steps,), m."""
+    if "driveFile" not in driven:
+        return np.full(steps, 1e-3 * abs(driven.get("displacementPerStep", 0.0)))
+    time, insertion, _ = np.loadtxt(driven["driveFile"], delimiter=",", skiprows=1).T
+    return np.abs(np.diff(np.interp(scene["timeStep"] * np.arange(steps + 1), time, insertion)))
 
 
 def force_sums(forces: list[np.ndarray], total: np.ndarray) -> list[str]:

@@ -121,6 +121,7 @@ def make(runner: Runner, seed: int, method: str, folder: Path, is_soft: bool = F
                                   for name in ("catheterExtension", "catheter2Extension") if name in arrays)
             beyond = material_claims.beyond(scene, forces)
             claims += material_claims.order(scene, insertions)
+            claims += material_claims.speeds(scene, insertions)
         said = (*summary["warnings"], summary["reason"])
         if beyond > MOST_BEYOND and not any("hubForceLimit" in one for one in said):
             claims.append(f"a hub is above its hubForceLimit by {beyond:.1%}, and nothing says so")

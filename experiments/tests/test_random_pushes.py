@@ -275,3 +275,12 @@ def test_the_outermost_instrument_of_several_is_looked_at_with_its_own_radius():
     on_nodes = [np.ones((2, 3, 3)), np.zeros((2, 5, 3))]
     assert material_claims.force_sums(on_nodes, np.full((2, 3), 3.0)) == []
     assert material_claims.force_sums(on_nodes, np.full((2, 3), 3.0 + 1e-8)) != []
+
+
+def test_a_hub_that_is_faster_than_asked_and_than_it_may_slip_breaks_a_claim():
+    scene = {"timeStep": 0.01, "displacementPerStep": 2.0, "catheters": [{"slipSpeed": 0.1}]}
+    slow, fast = np.array([0.0, 0.005, 0.003]), np.array([0.0, 0.0051, 0.0])
+    scene["catheters"][0]["displacementPerStep"] = 0.0
+    assert material_claims.speeds(scene, [slow, np.array([0.0, 0.002, 0.0])]) == []    # 0.5 m/s, and what is asked
+    assert len(material_claims.speeds(scene, [fast, np.zeros(3)])) == 1
+    assert len(material_claims.speeds(scene, [slow, np.array([0.0, 0.0021, 0.0])])) == 1

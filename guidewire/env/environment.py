@@ -27,6 +27,8 @@ from guidewire.env.task import Task, find_task
 from guidewire.sessions.session import Session, SessionError, State
 
 LEFT = "left the vessel"
+HUB = "a hub needs more than its hubForceLimit"
+_OVER_LIMIT = 0.01  # of a hubForceLimit, by which a hub may be above it
 _NO_EPISODE = "there was no episode yet: call reset() first"
 
 
@@ -99,7 +101,7 @@ class Environment(Env):
     Notes
     -----
     terminated: the target is reached, an instrument has left the vessel by an open end, or with `ends_unsafe` a force
-    was too large. truncated: the task's time is over, or the simulation has ended the run. `info` of every step holds
+    was too large, or a hub needed more than its hubForceLimit. truncated: the task's time is over, or the simulation has ended the run. `info` of every step holds
     "force", N, and "left", units, with catheters "instruments" with these of each; that of the last one also "report",
     see Report. Episodes are drawn by `np_random` alone, so the same seeds give the same bits.
     """
@@ -325,7 +327,10 @@ class Environment(Env):
             for _ in range(steps):
                 if self.session_state.outcome is not None:
                     break
-                forces = list(map(max, forces, report.add(*self._stepped(*motion))))
+                stepped = self._stepped(*motion)
+                if self._is_beyond_hubs():    # such forces are nobody's: none is rewarded or reported
+                    break
+                forces = list(map(max, forces, report.add(*stepped)))
         self._places = self._found()
         has_left = self._has_left()
         if not has_left:
@@ -345,7 +350,7 @@ class Environment(Env):
             self._is_running = False
         if self.render_mode == "human":
             self.render()
-        terminated = end in ("target", "force", LEFT)
+        terminated = end in ("target", "force", LEFT, HUB)
         return self._seen(), float(earned), terminated, bool(end) and not terminated, info
 
     def _begin(self, draw: Draw, start: Callable[[LoadedScene], State]) -> bool:
@@ -381,6 +386,8 @@ class Environment(Env):
     def _end(self, force: float, has_left: bool) -> str:
         if self.session_state.outcome is not None:
             return "simulation"
+        if self._is_beyond_hubs():
+            return HUB
         if self.ends_unsafe and force > self.safe_force:
             return "force"
         if has_left:
@@ -394,6 +401,13 @@ class Environment(Env):
         left."""
         return [self._route.place(one.positions[-1] if one.place is None else one.place.point)
                 for one in self._instruments]
+
+    def _is_beyond_hubs(self) -> bool:
+        """Whether a hub pushes or pulls with more than a hubForceLimit that the task names."""
+        parameters = self.session.parameters
+        limits = [one.get("hubForceLimit") for one in (parameters, *(parameters.get("catheters") or []))]
+        return any(isinstance(limit, (int, float)) and abs(one.hub.force) > (1.0 + _OVER_LIMIT) * limit > 0.0
+                   for limit, one in zip(limits, self._instruments))
 
     def _has_left(self) -> bool:
         """Whether a tip is out of the vessel beyond an end that is not its inlet."""

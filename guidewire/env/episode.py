@@ -47,7 +47,8 @@ class Report:
     ----------
     safe_force : limit of a safe success, N.
     success : whether the target was reached.
-    end : "target", "time", "force", "left the vessel", "simulation", or "" while it goes on.
+    end : "target", "time", "force", "left the vessel", "a hub needs more than its hubForceLimit", "simulation", or ""
+        while it goes on.
     reason : what the simulation said where it ended the episode.
     time : simulated, s.
     largest_force : of a wall on one sphere of any instrument after any time step, N.

@@ -94,7 +94,7 @@ class HeldInstruments:
         """Return the insertion of a hub that other hubs may stop and no force limit, m."""
         catheters = self._parameters.get("catheters") or []
         own = self._parameters if number == 0 else catheters[number - 1]
-        if not catheters or own.get("hubForceLimit"):
+        if not catheters or own.get("hubForceLimit") not in (None, 0, "hand"):
             return None
         return state.hub.insertion if number == 0 else state.catheters[number - 1].insertion
 

@@ -82,7 +82,7 @@ namespace Guidewire.Core
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             Barrier barrier = BarrierDefaults.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
             return DirectSetup.WallTermsOf(parameters, scene, barrier,
-                new SupportSpring(scene.Rod, parameters.Drive.HubForceLimit));
+                new SupportSpring(scene.Rod, HubLimit.Of(parameters.Drive, parameters.Material)));
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>

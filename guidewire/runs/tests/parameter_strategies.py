@@ -197,7 +197,8 @@ VALUES: dict[str, st.SearchStrategy] = {
     "displacement": st.floats(-30.0, 30.0), "displacementDirection": not_zero,
     "displacementPerStep": st.floats(-1.0, 1.0), "twistPerStep": st.floats(-0.3, 0.3), "externalForce": around(1.0),
     "insertionSpeed": st.floats(-0.05, 0.05), "rotationSpeed": st.floats(-5.0, 5.0),
-    "hubForceLimit": st.one_of(st.just(0), log_uniform(1e-3, 10.0)),
+    "hubForceLimit": st.one_of(st.sampled_from([0, None, "hand"]), log_uniform(1e-3, 10.0)),
+    "slipSpeed": st.one_of(st.just(0), log_uniform(1e-3, 10.0)),
     "totalMass": log_uniform(1e-4, 100.0), "stretchStiffness": st.floats(0.0, 3.0),
     "bendStiffness": log_uniform(1e-3, 100.0),
     "instrument": st.just(""),  # their runs are those of test_instruments.py

@@ -155,7 +155,7 @@ export class HeldInstruments {
     const catheters = this._parameters.catheters ?? [];
     this.steered.forEach((one, k) => {
       const own = k === 0 ? this._parameters : catheters[k - 1];
-      const isFree = !catheters.length || own.hubForceLimit;
+      const isFree = !catheters.length || (own.hubForceLimit && own.hubForceLimit !== "hand");
       const reached = isFree ? null : (k === 0 ? state.hub : state[`catheter${k}`])[0];
       one.add(moves[k][0], moves[k][1], step, reached);
     });

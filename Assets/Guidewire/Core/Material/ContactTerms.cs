@@ -15,6 +15,11 @@ namespace Guidewire.Core
         /// <summary>Gives the force of the support on node 0, N.</summary>
         public abstract Vector3d SupportForce(RodShape shape);
 
+        /// <summary>Adds minus the force of friction on the nodes.</summary>
+        public virtual void AddFriction(RodShape shape, RodVector[] gradient)
+        {
+        }
+
         /// <summary>Writes or restores what friction keeps from step to step.</summary>
         public abstract void SerializeFriction(Snapshot snapshot);
     }

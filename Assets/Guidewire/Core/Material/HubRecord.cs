@@ -37,6 +37,13 @@ namespace Guidewire.Core
         /// <summary>What of <see cref="Force"/> moves the wire against the drag of massDamping, N; NaN with
         /// catheters.</summary>
         public double Drag { get; internal set; } = double.NaN;
+        /// <summary>The end of the first step in which the hub slipped at its force limit, s; NaN where it has
+        /// not.</summary>
+        public double SlippedFrom { get; internal set; } = double.NaN;
+
+        /// <summary>With catheters, by how much the force is uncertain, N: root mean square over the run; else NaN.
+        /// </summary>
+        public double ForceError { get; internal set; } = double.NaN;
 
         /// <summary>Direction of the last element, a unit vector.</summary>
         public Vector3d TipDirection { get; private set; }

@@ -33,6 +33,7 @@ namespace Guidewire.Core
             _timeStep = parameters.Method.TimeStep;
             _metres = scene.UnitLength;
             _length = scene.UnitLength * parameters.Scene.GuidewireLength;
+            LargestSlip = drive.LargestSlip(parameters.Method.TimeStep);
             _speed = drive.InsertionSpeed != 0.0 ? drive.InsertionSpeed
                 : scene.UnitLength * drive.DisplacementPerStep / parameters.Method.TimeStep;
             _steering = scene.Steering;
@@ -54,6 +55,7 @@ namespace Guidewire.Core
             _timeStep = drive._timeStep;
             _metres = drive._metres;
             _length = drive._length;
+            LargestSlip = drive.LargestSlip;
             _steering = drive._steering;
             _table = drive._table;
             _followsSpring = true;
@@ -63,6 +65,9 @@ namespace Guidewire.Core
             drive.SerializeOwn(kept);
             SerializeOwn(kept.ToRead());
         }
+
+        /// <summary>How far the hub goes in a step where it slips, m, as far as that is not asked.</summary>
+        public double LargestSlip { get; }
 
         /// <summary>The hub that it moves.</summary>
         public HubMotion Hub { get; }

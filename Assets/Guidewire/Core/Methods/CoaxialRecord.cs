@@ -92,6 +92,13 @@ namespace Guidewire.Core
         /// <summary>Torque of the catheter's hub, N m.</summary>
         public double Torque { get; private set; }
 
+        /// <summary>The end of the first step in which the catheter's hub slipped at its force limit, s; NaN where it
+        /// has not.</summary>
+        public double SlippedFrom { get; internal set; } = double.NaN;
+
+        /// <summary>By how much that force is uncertain, N: root mean square over the run.</summary>
+        public double ForceError { get; internal set; }
+
         /// <summary>Displacement that the catheter's hub was asked, there and back both counted, m.</summary>
         public double CommandedDisplacement { get; private set; }
 

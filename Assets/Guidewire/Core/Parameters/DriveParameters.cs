@@ -31,8 +31,14 @@ namespace Guidewire.Core
         /// <summary>Displacement and turn of the proximal clamp over time, instead of the speeds, or null.</summary>
         public DriveTable? Table { get; set; }
 
-        /// <summary>The axial force in N at which the hub slips; 0: never.</summary>
-        public double HubForceLimit { get; set; }
+        /// <summary>The axial force in N at which the hub slips; 0: never; NaN: that of a hand.</summary>
+        public double HubForceLimit { get; set; } = double.NaN;
+
+        /// <summary>How fast a hub slips at most, m/s; 0: as fast as its force asks.</summary>
+        /// <remarks>A hand that reaches over L within T goes at most at 15/8 L/T (least jerk, Flash and Hogan 1985,
+        /// J Neurosci 5:1688), with 0.3 m in about a second some 0.5 m/s; fingers let a shaft through no
+        /// faster.</remarks>
+        public double SlipSpeed { get; set; } = 0.5;
 
         /// <summary>Force on sphere 0 in mass unit * unit / s^2; with <see cref="Core.Drive.Force"/>.</summary>
         public Vector3d ExternalForce { get; set; }
@@ -66,6 +72,11 @@ namespace Guidewire.Core
             return Steering != null ? 0.0
                 : System.Math.Max(speed * timeStep, unitLength * System.Math.Abs(DisplacementPerStep));
         }
+
+        /// <summary>The farthest that a hub slips in one step, m.</summary>
+        /// <param name="timeStep">s.</param>
+        internal double LargestSlip(double timeStep) =>
+            SlipSpeed > 0.0 ? SlipSpeed * timeStep : double.PositiveInfinity;
 
         /// <summary>The same values; lists and walls are shared.</summary>
         internal DriveParameters Copy() => (DriveParameters)MemberwiseClone();

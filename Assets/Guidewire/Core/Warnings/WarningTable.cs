@@ -128,9 +128,16 @@ namespace Guidewire.Core
 
         /// <summary>direct: a hub that exceeded its limit.</summary>
         public static readonly WarningKind HubForce = AfterReason("hubForce",
-            "*hub* had up to *F:G3* N, above its hubForceLimit of *L:G3* N, in *k* of the steps: every displacement "
-            + "that was tried needed more", "with `catheters`: the force jumps past the limit, often in the first "
-            + "step, when bent tips that start straight spring to the walls");
+            "*hub* had up to *F:G3* N, above its hubForceLimit of *L:G3* N, in *k* of the steps: it slips no "
+            + "faster than its slipSpeed, or every displacement that was tried needed more", "the force jumps past the "
+            + "limit, often in the first step, when bent tips that start straight spring to the walls");
+
+        /// <summary>direct: elements too long for the forces of several hubs.</summary>
+        public static readonly WarningKind HubForceError = AfterReason("hubForceError",
+            "the force of *hub* is uncertain by *e:G2* N, with *F:G3* N at most at any hub: beyond the tip around it "
+            + "an element is *r:G2* times as long as the bend, sqrt(B/f); shorter elements there, of numberRodElements "
+            + "or a section's, make it less", "with `catheters`: above 5 % of the largest force, or 0.5 times. The sum "
+            + "of all hubs' forces is not affected ([coaxial.md](coaxial.md))");
 
         /// <summary>direct: a wire too stiff for its elements.</summary>
         public static readonly WarningKind Rounding = AfterReason("rounding",

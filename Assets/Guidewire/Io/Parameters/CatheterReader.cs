@@ -28,7 +28,7 @@ namespace Guidewire.Io
             "instrument", "wireRadius", "coreDiameter", "youngsModulus", "shearModulus", "density", "shearFactor",
             "bendingStiffness",
             "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
-            "rotationSpeed", "driveFile", "tipForce", "distributedForce", "pointLoads",
+            "rotationSpeed", "driveFile", "slipSpeed", "tipForce", "distributedForce", "pointLoads",
         };
 
         private static readonly string[] Needed = { "length", "wireRadius", "lumenRadius" };    // or an instrument
@@ -78,7 +78,7 @@ namespace Guidewire.Io
             double start = 0.0;
             double friction = double.NaN;
             double lumenFriction = 0.0;
-            double hubForceLimit = 0.0;
+            var limit = new RunParameters(Solver.Direct);
             foreach (JProperty property in item.Properties())
             {
                 int at = Array.FindIndex(Names, name => name.Own == property.Name);
@@ -102,7 +102,12 @@ namespace Guidewire.Io
                 }
                 else if (property.Name == "hubForceLimit")
                 {
-                    hubForceLimit = NotNegative(property, source, where, " (N)");
+                    ParameterEntry entry = ParameterTable.Find("hubForceLimit")!;
+                    if (!entry.TryRead(limit, property.Value))
+                    {
+                        throw new ParameterException(source, where + "." + property.Name,
+                            property.Value.ToString(Formatting.None), entry.Allowed);
+                    }
                 }
                 else if (at >= 0 || Array.IndexOf(Shared, property.Name) >= 0)
                 {
@@ -135,7 +140,7 @@ namespace Guidewire.Io
             {
                 item["driveFile"] = handler.Values.DriveFile;
             }
-            own.Drive.HubForceLimit = hubForceLimit;
+            own.Drive.HubForceLimit = limit.Simulation.Drive.HubForceLimit;
             values.CatheterHashes += handler.Hash + "\n";
             return new Catheter
             {

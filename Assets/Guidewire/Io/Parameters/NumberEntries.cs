@@ -67,6 +67,41 @@ namespace Guidewire.Io
         }
     }
 
+    /// <summary>A real number within bounds, null for 0, or a word for what the program knows: the property then is no
+    /// number.</summary>
+    internal sealed class NumberOrWordEntry : ValueEntry<double>
+    {
+        private readonly NumberRange _range;
+        private readonly string _word;
+
+        public NumberOrWordEntry(string key, string unit, NumberRange range, string word, string help)
+            : base(key, unit, help)
+        {
+            _range = range;
+            _word = word;
+        }
+
+        public override string Allowed => WithUnit("null or a number" + _range.Text + ", or \"" + _word + "\"");
+
+        internal override JToken? FromText(string text) => text == _word ? new JValue(text) : base.FromText(text);
+
+        internal override JToken Write(RunParameters source) =>
+            double.IsNaN(Get(source)) ? new JValue(_word) : base.Write(source);
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            bool isWord = value.Type == JTokenType.String && (string?)value == _word;
+            double number = isWord ? double.NaN : 0.0;
+            if (!isWord && value.Type != JTokenType.Null
+                && (!NumberEntry.TryNumber(value, out number) || !_range.Contains(number)))
+            {
+                return false;
+            }
+            Set(target, number);
+            return true;
+        }
+    }
+
     /// <summary>A whole number within bounds.</summary>
     internal sealed class IntegerEntry : ValueEntry<int>
     {

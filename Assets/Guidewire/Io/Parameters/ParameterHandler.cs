@@ -416,7 +416,6 @@ namespace Guidewire.Io
             }
         }
 
-        // Sections that say nothing, too little, or what another one says otherwise.
         private void WarnOfClamps(SimulationParameters simulation)
         {
             if (Method != Solver.Pbd && simulation.Material.ClampRule == ClampRule.FourthOrder
@@ -430,6 +429,7 @@ namespace Guidewire.Io
             }
         }
 
+        // Sections that say nothing, too little, or what another one says otherwise.
         private void WarnOfSections(SimulationParameters simulation)
         {
             IReadOnlyList<WireSection> sections = simulation.Material.Sections;

@@ -47,7 +47,7 @@ namespace Guidewire.Io
                 {
                     text.Append("lumen=").Append(NumberText.Write(new JValue(catheter.LumenFriction))).Append('\n');
                 }
-                if (catheter.Drive.HubForceLimit > 0.0)
+                if (!double.IsNaN(catheter.Drive.HubForceLimit))
                 {
                     text.Append("limit=").Append(NumberText.Write(new JValue(catheter.Drive.HubForceLimit)))
                         .Append('\n');

@@ -45,8 +45,8 @@ namespace Guidewire.Io
         private static double Limit(DriveParameters drive, MaterialParameters material, double clearance)
         {
             double stiffness = material.YoungsModulus * material.SecondMomentOfArea;
-            return drive.HubForceLimit > 0.0 ? drive.HubForceLimit
-                : 2.0 * stiffness * Elastic / (clearance * material.WireRadius);
+            return !double.IsNaN(drive.HubForceLimit) ? drive.HubForceLimit
+                : Math.Min(HubLimit.Grip, 2.0 * stiffness * Elastic / (clearance * material.WireRadius));
         }
 
         // The widest place of the lumen in which the straight wire lies at the start, units: there it buckles first.

@@ -69,6 +69,10 @@ namespace Guidewire.Io
             OfHub("hubTorque", "N m", "torque of the hub on the wire about its axis", h => h.Torque, "torque"),
             Number("drag", "N", "what of the hub's force moves the wire against massDamping", QuantitySwitch.Never,
                 m => m.Of(m.Hub?.Drag)).InSummary("hub", "drag"),
+            Number("hubForceError", "N", "with catheters, by how much the hub's force is uncertain", QuantitySwitch.Never,
+                m => m.Of(m.Hub?.ForceError)).InSummary("hub", "forceError"),
+            Number("hubSlippedFrom", "s", "end of the first step in which the hub slipped", QuantitySwitch.Never,
+                m => m.Of(m.Hub?.SlippedFrom)).InSummary("hub", "slippedFrom"),
             Vectors("tipPosition", QuantityPlace.Run, "units", "position of the last node", QuantitySwitch.Never,
                 m => m.Hub == null ? default : m.Of(m.State.Positions[m.State.ElementCount]))
                 .InAnswer(StatePart.Instruments, "hub").InSummary("hub", "tipPosition"),
@@ -135,6 +139,10 @@ namespace Guidewire.Io
             AtCatheter("force", "N", "force of the catheter's hub on it along its axis; a push is positive",
                 c => c.Force),
             AtCatheter("torque", "N m", "torque of the catheter's hub on it about its axis", c => c.Torque),
+            Number("forceError", "N", "by how much that force is uncertain", QuantitySwitch.Never,
+                m => m.Of(m.Catheter.ForceError)).InSummary("catheters", "forceError"),
+            Number("slippedFrom", "s", "end of the first step in which the catheter's hub slipped",
+                QuantitySwitch.Never, m => m.Of(m.Catheter.SlippedFrom)).InSummary("catheters", "slippedFrom"),
             Vectors("tipPosition", QuantityPlace.Run, "units", "position of the catheter's last node",
                 QuantitySwitch.Never, m => m.Of(m.Catheter.Positions[m.Catheter.Positions.Length - 1]))
                 .InAnswer(StatePart.Instruments, "catheter").InSummary("catheters", "tipPosition"),

@@ -12,12 +12,17 @@ namespace Guidewire.Core
     ///   c = 1/sum 1/C_i - sum of c before it, C_i = sum of c_i from its hub to the element's end.
     /// So a force on one beyond all others stretches that one by C_i, and one without stiffness changes nothing. An
     /// element's rest length is then l + e - c sum N_i, with e of the outermost one; at a tip e has what the one that
-    /// goes on is longer than the chain is before it. What is before the chain in a sheath is as one more element of
+    /// goes on is longer than the chain is before it. The force of the hubs of those that go on strains what of them is
+    /// inside, and no other: the tip around them bears the rest Q of the element's thrust (M^2/2B of a mouth). So that
+    /// element and the next one are longer by (c - l/sum EA) Q, with Q of the last step: it hardly depends on strains,
+    /// while c holds the force of a tip that is pressed. What is before the chain in a sheath is as one more element of
     /// all of them.
     ///
     /// Directions of loads are those of the shape that <see cref="Take"/> had last.</remarks>
     internal sealed class AxialForces
     {
+        private const double Follow = 0.25;     // of a change of Q, taken in a step: all at once may swing
+
         private readonly CoaxialJoints _joints;
         private readonly Vector3d[] _load;      // on each element, of each instrument, N
         private readonly Vector3d[] _levered;   // times the fraction of its length where they are
@@ -27,6 +32,8 @@ namespace Guidewire.Core
         private readonly double[] _slide;       // of each instrument at the nodes, m
         private readonly double[] _compliance;  // of the chain, m/N
         private readonly double[] _leadForce;   // of each before the chain, N
+        private readonly double[] _mean;        // N of each in an element, N
+        private readonly double[] _borne;       // Q by the first instrument that goes on, N
 
         /// <summary>Makes one of a chain without loads.</summary>
         public AxialForces(CoaxialJoints joints)
@@ -41,6 +48,8 @@ namespace Guidewire.Core
             _slide = new double[joints.Count * (capacity + 1)];
             _compliance = new double[capacity];
             _leadForce = new double[joints.Count];
+            _mean = new double[joints.Count * capacity];
+            _borne = new double[joints.Count];
         }
 
         // Elements.
@@ -55,6 +64,7 @@ namespace Guidewire.Core
             Array.Clear(_strain, 0, N);
             Array.Clear(_slide, 0, _joints.Count * (N + 1));
             Array.Clear(_leadForce, 0, _leadForce.Length);
+            Array.Clear(_mean, 0, _joints.Count * N);
         }
 
         /// <summary>There are no loads.</summary>
@@ -191,8 +201,59 @@ namespace Guidewire.Core
         }
 
         /// <summary>Gives the rest length of element j of the chain, m.</summary>
-        public double RestLengthOf(int j) =>
-            _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j];
+        public double RestLengthOf(int j)
+        {
+            int tip = _joints.IsTip(j) || !_joints.IsTip(j - 1) ? j : j - 1;
+            double borne = BorneAt(tip);
+            return _joints.Stations[j + 1] - _joints.Stations[j] + _shift[j] - _compliance[j] * _force[j]
+                + (borne == 0.0 ? 0.0
+                    : ShareOf(j, tip, 0.0, out _) * BorneLengthAt(tip));
+        }
+
+        /// <summary>Gives Q of element j, the part of its thrust that the tip before it bears, N; 0 where none
+        /// is.</summary>
+        public double BorneAt(int j) => _joints.IsTip(j) ? _borne[_joints.CarrierOf(j)] : 0.0;
+
+        /// <summary>By how much Q makes element j, at a tip, and the next one longer, m.</summary>
+        public double BorneLengthAt(int j) => (_compliance[j] - _joints[j].Axial) * BorneAt(j);
+
+        /// <summary>The fraction by which an element takes part in what Q makes the one at a tip longer by. That may
+        /// be very short: so it and the next one do by their lengths.</summary>
+        /// <param name="tip">The one at the tip.</param>
+        /// <param name="grows">Derivative of that one's length.</param>
+        /// <param name="rate">The fraction's derivative.</param>
+        public double ShareOf(int j, int tip, double grows, out double rate)
+        {
+            rate = 0.0;
+            if (tip + 1 >= N || _joints.IsTip(tip + 1))
+            {
+                return j == tip ? 1.0 : 0.0;
+            }
+            double own = _joints.Stations[tip + 1] - _joints.Stations[tip];
+            double both = _joints.Stations[tip + 2] - _joints.Stations[tip];
+            double share = own / both;
+            rate = (1.0 - share) * grows / both;
+            rate = j == tip ? rate : -rate;
+            return j == tip ? share : 1.0 - share;
+        }
+
+        /// <summary>Takes Q of all tips from the same instruments in another chain.</summary>
+        public void TakeBorne(AxialForces other) => Array.Copy(other._borne, _borne, _borne.Length);
+
+        /// <summary>Sets Q of an element at a tip, N.</summary>
+        /// <returns>By how much the element becomes longer, m.</returns>
+        public double SetBorne(int j, double borne)
+        {
+            ref double own = ref _borne[_joints.CarrierOf(j)];
+            double change = (_compliance[j] - _joints[j].Axial) * (borne - own);
+            own += Follow * (borne - own);
+            return change;
+        }
+
+        /// <summary>What the hub of an instrument has to push for the thrust of an element, N less: the loads on it
+        /// before that element.</summary>
+        public double LoadBefore(int instrument, int element) =>
+            _leadForce[instrument] - _mean[instrument * N + element];
 
         /// <summary>Takes the directions of the loads.</summary>
         /// <returns>The largest change of what an element is longer by, m.</returns>
@@ -232,14 +293,13 @@ namespace Guidewire.Core
             snapshot.Serialize(_force, N);
             snapshot.Serialize(_strain, N);
             snapshot.Serialize(_slide, _joints.Count * (N + 1));
-            if (_joints.First > 0)
-            {
-                snapshot.Serialize(_leadForce);
-            }
+            snapshot.Serialize(_borne);
+            snapshot.Serialize(_mean, _joints.Count * N);
+            snapshot.Serialize(_leadForce);
         }
 
-        // Whether an instrument is in all of an element at a tip.
-        private bool GoesOn(int instrument, int element)
+        /// <summary>Whether an instrument is in all of an element at a tip.</summary>
+        public bool GoesOn(int instrument, int element)
         {
             return instrument == _joints.CarrierOf(element)
                 || _joints.Hubs.Ends[instrument] >= _joints.Stations[element + 1];
@@ -266,6 +326,7 @@ namespace Guidewire.Core
                 Vector3d axis = shape.Q[j].Director3;
                 double levered = Vector3d.Dot(axis, _levered[instrument * N + j]);
                 _force[j] += force + levered;
+                _mean[instrument * N + j] = force + levered;
                 double length = _joints.Stations[j + 1] - _joints.Stations[j];
                 double part = Math.Min(1.0, (_joints.Hubs.Ends[instrument] - _joints.Stations[j]) / length);
                 double mean = part > 0.0 ? force + levered / part : 0.0;

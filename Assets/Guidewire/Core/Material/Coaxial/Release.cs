@@ -11,12 +11,15 @@ namespace Guidewire.Core
     /// couples c
     ///   E' = -1/2 sum m_i^2 A_i' - m . (F' + sum R(t) F_i') + e' - C' cos t - S' sin t + dE/dt (z_b - z_a) w'
     ///       - sum (1/2 c^2 (1/K)' + c r').
-    /// Of an element of the station's length s, compliances a along and b across its axis, force N and shear force V of
-    /// the chain, and f of the loads alone, E' = -N (s' - f a') - 1/2 (N^2 + f^2) a' and what V adds. Where borders of
-    /// two instruments are in one place E has a kink, and E' is that of one side; of two tips, that beyond the outer
-    /// one.</remarks>
+    /// Of an element of the station's length s, compliances a along and b across its axis, of which c is without what
+    /// is before it, force N and shear force V of the chain, f of the loads alone and Q of what a tip bears,
+    /// E' = -N (s' - f a' + Q (a' - c')) - 1/2 (N^2 + f^2) a' and what V adds; the part with Q is shared by two
+    /// elements. Where borders of two instruments are in one place E has a kink, and E' is that of one side; of two
+    /// tips, that beyond the outer one.</remarks>
     internal sealed class Release
     {
+        private const int Ramp = 6;               // elements over which nodes come to go with their instrument
+
         private readonly CoaxialRod _rod;
         private readonly CoaxialJoints _joints;
         private readonly BendTwistTerm _bending;
@@ -28,6 +31,11 @@ namespace Guidewire.Core
         private readonly CoaxialPieces _shared;   // what is there
         private readonly double[] _own;           // of the compliance of each from its hub on
         private readonly double[] _station;       // speeds of nodes
+        private readonly double[] _force;         // of the hubs inside, N
+        private readonly RodVector[] _friction;
+        private double _tipGrows;                 // of the element at the last tip
+        private double _borneRate;                // of what Q makes it longer by
+        private double _borneLength;              // that, m
 
         /// <summary>Of these instruments.</summary>
         /// <param name="angles">The bending of several, with their angles; null of one.</param>
@@ -43,6 +51,8 @@ namespace Guidewire.Core
             _after = _joints.CreatePieces();
             _shared = _joints.CreatePieces();
             _own = new double[_joints.Count];
+            _force = new double[_joints.Count];
+            _friction = new RodVector[_joints.Capacity + 2];
             _station = new double[_joints.Capacity + 1];
         }
 
@@ -53,6 +63,62 @@ namespace Guidewire.Core
             SetSpeeds(instrument, 0.0);
             return OfLead(shape, terms, out double compliance) + RateOf(shape, 0, _joints.ElementCount, compliance)
                 + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
+        }
+
+        /// <summary>The same force, of nodes that go on with their instrument only some elements beyond the tip: what
+        /// is between slides past them. In the continuum it is that force. With elements as long as the bend beyond a
+        /// tip the two differ by what contacts are worth that are handed from node to node.</summary>
+        /// <remarks>A node of speed s is passed by its material at 1 - s, against the friction f of walls on it, which
+        /// does the work (1 - s) f . t.</remarks>
+        public double SmoothForce(RodShape shape, RodTerms terms, int instrument)
+        {
+            SetSpeeds(instrument, 0.0);
+            int first = _joints.TipOf(instrument - 1);
+            int last = _joints.TipOf(instrument);
+            int ramp = Math.Min(Ramp, last - first);
+            double tip = _joints.Stations[first];
+            double length = _joints.Stations[first + ramp] - tip;
+            for (int k = 0; k < ramp; k++)
+            {
+                _station[first + k] = (_joints.Stations[first + k] - tip) / length;
+            }
+            double force = OfLead(shape, terms, out double compliance)
+                + RateOf(shape, 0, _joints.ElementCount, compliance)
+                + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
+            Array.Clear(_friction, 0, shape.ElementCount + 2);
+            terms.Contact?.AddFriction(shape, _friction);
+            for (int k = first + 1; k < first + ramp; k++)
+            {
+                Vector3d along = Vector3d.Normalize(shape.X[k + 1] - shape.X[k - 1]);
+                force += (1.0 - _station[k]) * (_friction[k].X1 * along.X + _friction[k].X2 * along.Y
+                    + _friction[k].X3 * along.Z);
+            }
+            return force;
+        }
+
+        /// <summary>Takes what the tips bear of the thrust of those that go on.</summary>
+        /// <returns>The largest change of an element's length, m.</returns>
+        public double TakeBorne(RodShape shape, RodTerms terms)
+        {
+            double largest = 0.0;
+            AxialForces axial = _rod.Axial;
+            for (int i = 1; i < _joints.Count; i++)
+            {
+                _force[i] = InnerForce(shape, terms, i);
+            }
+            for (int j = 1; j < _joints.ElementCount; j++)
+            {
+                if (_joints.IsTip(j))
+                {
+                    double borne = -_stretch.Stress(shape, j, out _).Z;
+                    for (int i = _joints.CarrierOf(j); i < _joints.Count; i++)
+                    {
+                        borne -= axial.GoesOn(i, j) ? _force[i] + axial.LoadBefore(i, j) : 0.0;
+                    }
+                    largest = Math.Max(largest, Math.Abs(axial.SetBorne(j, borne)));
+                }
+            }
+            return largest;
         }
 
         /// <summary>What the outer hub has of the force along the axis besides that on its node, N: -dE/dD, D the
@@ -102,6 +168,7 @@ namespace Guidewire.Core
         private void SetSpeeds(int instrument, double exit)
         {
             _speeds.Exit = exit;
+            Array.Clear(_station, 0, _joints.OuterCount + 1);    // other nodes were there
             for (int i = 1; i < _joints.Count; i++)
             {
                 _speeds.Instruments[i] = i == instrument ? 1.0 : 0.0;
@@ -134,6 +201,7 @@ namespace Guidewire.Core
         private double RateOf(RodShape shape, int from, int to, double compliance)
         {
             _angles?.SetIdleTwists(shape);
+            (_tipGrows, _borneRate, _borneLength) = (0.0, 0.0, 0.0);
             double sum = 0.0;
             for (int i = 0; i < _joints.Count; i++)
             {
@@ -244,6 +312,21 @@ namespace Guidewire.Core
             return AddSide(ref rate, n, n - 1, _before) ? bending.LastAt(shape, rate, out _, out _, out _) : 0.0;
         }
 
+        // Of what a tip that bears thrust makes an element longer by.
+        private double BorneRate(int j, double grows, double along)
+        {
+            AxialForces axial = _rod.Axial;
+            if (_joints.IsTip(j))
+            {
+                _tipGrows = grows;
+                _borneRate = (along - _after.Axial) * axial.BorneAt(j);
+                _borneLength = axial.BorneLengthAt(j);
+                return axial.ShareOf(j, j, grows, out double rate) * _borneRate + rate * _borneLength;
+            }
+            return _joints.IsTip(j - 1)
+                ? axial.ShareOf(j, j - 1, _tipGrows, out double next) * _borneRate + next * _borneLength : 0.0;
+        }
+
         // Of stretch and shear.
         private double OfElement(RodShape shape, int j, ref double before)
         {
@@ -254,13 +337,14 @@ namespace Guidewire.Core
             double along = _rod.Axial.ComplianceRateOf(j, _after.Axial, _own, before);
             before += along;
             double grows = _station[j + 1] - _station[j];
-            if (along == 0.0 && grows == 0.0 && _after.Shear == 0.0)
+            double borne = BorneRate(j, grows, along);
+            if (along == 0.0 && grows == 0.0 && _after.Shear == 0.0 && borne == 0.0)
             {
                 return 0.0;
             }
             Vector3d n = _stretch.Stress(shape, j, out _);
             double load = _rod.Axial.LoadOn(j);
-            double length = grows - along * load;
+            double length = grows - along * load + borne;
             double across = _rod.Rod.ShearStiffness[j];
             double acrossRate = (grows - across * _after.Shear) / _joints[j].Shear;
             return -n.Z * length - 0.5 * along * (n.Z * n.Z + load * load)

@@ -21,6 +21,8 @@ namespace Guidewire.Core
         private readonly SolverReport _results;
         private readonly double _timeStep;  // s
         private readonly HeldEnds _ends;
+        private readonly SlipRecord? _slips;
+        private readonly double _mostSlip;  // of the hub in a step, m
         private readonly EnergyMonitor _energy;
         private readonly RestMonitor _rest;
         private StressRecord? _stress;
@@ -33,6 +35,7 @@ namespace Guidewire.Core
         private Vector3d _free;             // where the last node would be without forces at the step's end, m
         private Vector3d _heldFrom;         // of the spring, when the step began, m
         private double _exit;               // length in a sheath, the same, m
+        private bool _hasSlipped;           // in the last step
         private double _dissipated;         // by friction until then, J
         private long _innerSteps;           // until then
         private readonly Joint[] _joints;
@@ -59,6 +62,11 @@ namespace Guidewire.Core
             WallTerms? walls = dynamics.Terms.Walls();
             if (walls != null)
             {
+                if (walls.Spring.Limit.IsLimited)
+                {
+                    _slips = new SlipRecord(walls.Spring.Limit);
+                    _mostSlip = scene.Drive.LargestSlip;
+                }
                 walls.Spring.Position = scene.Schedule.Hub.PositionAt(dynamics.Time);
                 _monitor = new WallMonitor(scene.Rod, walls, scene.Metres);
                 dynamics.IntervalDone = EndInterval;
@@ -93,7 +101,6 @@ namespace Guidewire.Core
             _scene.Joints.Remesh();
             _ends.Remesh();
             _rest.Remesh();
-            _texts.Remesh();
             if (_monitor != null)
             {
                 Terms.Walls()!.Spring.Position = Schedule.Hub.PositionAt(Time);
@@ -141,6 +148,13 @@ namespace Guidewire.Core
             if (spring != null && Drive.Axis != Vector3d.Zero)
             {
                 spring.Axis = Drive.Axis;
+            }
+            if (_slips != null)
+            {
+                _hasSlipped = false;
+                double part = length / _timeStep;
+                spring!.MostBack = Math.Max(0.0, part * (Drive.Moved + _mostSlip));
+                spring.MostForward = Math.Max(0.0, part * (_mostSlip - Drive.Moved));
             }
             _exit = _scene.Supports.Winds ? _scene.Supports.Coaxial!.Joints.Sheathed : 0.0;
             _hubWork += 0.5 * SheathWork(_exit);
@@ -220,7 +234,7 @@ namespace Guidewire.Core
         // node: so the hub slips until its force is within the limit, by half as much once it has slipped too far.
         private void SlipHub(SupportSpring spring)
         {
-            if (!spring.HasLimit)
+            if (_slips == null)
             {
                 return;
             }
@@ -239,13 +253,17 @@ namespace Guidewire.Core
                 isTooFar |= needed * slip < 0.0;
                 slip = isTooFar ? Math.Sign(needed) * Math.Abs(0.5 * slip) : needed;
                 spring.Position -= slip * spring.Axis;
+                spring.MostBack = Math.Max(0.0, spring.MostBack - slip);
+                spring.MostForward = Math.Max(0.0, spring.MostForward + slip);
                 Drive.SlipHub(slip);
                 Terms.SetTime(Schedule, Time);
             }
             if (Drive.Insertion != asked)
             {
                 _hubWork += Terms.HubForce(Shape) * (Drive.Insertion - asked);
+                _hasSlipped = true;
             }
+            _slips.Take(_hasSlipped, Terms.HubForce(Shape), Time);
         }
 
         // Of the hub in this step against what drives the wire out of a sheath, by the moments of now, J.
@@ -317,10 +335,12 @@ namespace Guidewire.Core
             }
             _hub ??= new HubRecord(_jointLengths);
             // A hub that may slip has the force of where it has slipped to, not that of the step.
-            Vector3d force = Terms.Walls()?.Spring.HasLimit == true ? Terms.Walls()!.SupportForce(Shape)
+            Vector3d force = _slips != null && (_hasSlipped || !Terms.Walls()!.Spring.Limit.IsOfHand)
+                ? Terms.Walls()!.SupportForce(Shape)
                 : _dynamics.ReactionAt(0);
             _hub.Take(Terms, Shape, Drive, force, _dynamics.Reactions.HubTorque,
                 Schedule.Hub.AheadAt(Time));
+            _hub.SlippedFrom = _slips?.SlippedFrom ?? double.NaN;
             _hub.Work = _monitor == null ? double.NaN : _hubWork;
             _hub.Drag = Drag;
             return _hub;
@@ -333,7 +353,11 @@ namespace Guidewire.Core
             if (Drive.FallsShort)
             {
                 warnings.Add(WarningTable.HubShortfall.With("the hub", Drive.Slip,
-                    "it slipped at hubForceLimit, or the wire reached an end of its sheath"));
+                    _slips?.Why ?? "the wire reached an end of its sheath"));
+            }
+            if (_slips?.FindExcess("the hub") is RunWarning excess)
+            {
+                warnings.Add(excess);
             }
             if (_dynamics.Newton.BalanceRounding.OfSupports > 0.0)
             {
@@ -444,6 +468,8 @@ namespace Guidewire.Core
             _extremes.SerializeDisplacements(snapshot);
             _spinLoss?.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
+            _slips?.Serialize(snapshot);
+            snapshot.Serialize(ref _hasSlipped);
             snapshot.Serialize(ref _hubWork);
             snapshot.Serialize(ref _outside);
             Contacts?.Serialize(snapshot);
@@ -477,6 +503,7 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _outside);
             _results.Serialize(snapshot);
             snapshot.OptionalSection("spin", _spinLoss == null ? (Action<Snapshot>?)null : _spinLoss.Serialize);
+            snapshot.OptionalSection("slips", _slips == null ? (Action<Snapshot>?)null : SerializeSlips);
             _energy.Serialize(snapshot);
             Drive.Serialize(snapshot);
             _dynamics.Clock.Serialize(snapshot);
@@ -486,6 +513,12 @@ namespace Guidewire.Core
             _ends.SerializeWork(snapshot);
             _rest.Serialize(snapshot);
             _dynamics.SerializeHistory(snapshot, _timeStep);
+        }
+
+        private void SerializeSlips(Snapshot snapshot)
+        {
+            _slips!.Serialize(snapshot);
+            snapshot.Serialize(ref _hasSlipped);
         }
 
         private void FollowEnds() => _ends.Follow(Shape, HubTurn, _dynamics.DistalTurn);

@@ -23,12 +23,12 @@ namespace Guidewire.Core
 
         /// <summary>Begins with all of it.</summary>
         /// <param name="maxIterations">That one solution may take.</param>
-        /// <param name="limitedHubs">Hubs with a limit. Each one after the first doubles the work, because for each of
-        /// its displacements those of the hubs inside it are found anew.</param>
+        /// <param name="limitedHubs">Hubs with a limit. Each one after the first takes four times the work, because for
+        /// each of its displacements those of the hubs inside it are found anew.</param>
         public WorkLimit(int maxIterations, int limitedHubs = 0)
         {
             _maxIterations = maxIterations;
-            _times = 1 << Math.Max(0, limitedHubs - 1);
+            _times = 1 << 2 * Math.Max(0, limitedHubs - 1);
             _left = Max;
         }
 

@@ -39,9 +39,15 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Material,
             },
-            new NumberEntry("hubForceLimit", "N", NumberRange.NotNegative,
+            new NumberOrWordEntry("hubForceLimit", "N", NumberRange.NotNegative, "hand",
                 "between walls: the largest axial force with which the hub pushes or pulls; beyond it the hub slips; "
-                + "0: it never slips") { Methods = Takers.Only(Solver.Direct) },
+                + "\"hand\": 10 N, and no thrust under which 20 mm of the shaft, clamped, buckle; null or 0: it never "
+                + "slips") { Methods = Takers.Only(Solver.Direct) },
+            new NumberEntry("slipSpeed", "m/s", NumberRange.NotNegative,
+                "how fast a hub that slips goes at most; 0: as fast as it takes")
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new VectorEntry("externalForce", "mass unit * unit/s^2", true,
                 "force on sphere 0 with drive \"force\"")
             {

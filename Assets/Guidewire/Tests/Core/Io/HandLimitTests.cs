@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
     public sealed class HandLimitTests
     {
         private const string Tube = "{\"solver\": \"direct\", \"guidewireLength\": 100, \"numberRodElements\": 20,"
-            + " \"guidewireOffset\": 10, \"wireRadius\": 0.0004, \"youngsModulus\": 50e9, \"proximalEnd\": \"clamped\","
+            + " \"guidewireOffset\": 10, \"wireRadius\": 0.0004, \"youngsModulus\": 25e9, \"proximalEnd\": \"clamped\","
             + " \"vessel\": {\"shape\": \"tube\", \"radius\": 3, \"knots\": [[0, 0, 0], [0, 0, 200]]}}";
 
         private static SimulationSession Open(bool isSteered, CancellationToken cancellation, params string[] overrides)
@@ -24,7 +24,7 @@ namespace Guidewire.Core.Tests
         public void SteeredHub_SlipsWhereTheCoiledWireWouldYield()
         {
             // F r/(2 EI) of curvature, times the radius a: 1 % of strain.
-            double stiffness = 50e9 * Math.PI / 4.0 * Math.Pow(0.0004, 4);
+            double stiffness = 25e9 * Math.PI / 4.0 * Math.Pow(0.0004, 4);
             double limit = 2.0 * stiffness * 0.01 / (0.003 * 0.0004);
             using SimulationSession session = Open(true, default);
             Assert.That(session.Parameters.Drive.HubForceLimit, Is.EqualTo(limit).Within(1e-6).Percent);
@@ -59,7 +59,7 @@ namespace Guidewire.Core.Tests
             using SimulationSession given = Open(true, default, "hubForceLimit=0.25");
             Assert.That(given.Parameters.Drive.HubForceLimit, Is.EqualTo(0.25));
             using SimulationSession driven = Open(false, default);
-            Assert.That(driven.Parameters.Drive.HubForceLimit, Is.Zero);
+            Assert.That(driven.Parameters.Drive.HubForceLimit, Is.NaN, "that of a hand");
         }
 
         [Test]

@@ -41,6 +41,15 @@ namespace Guidewire.Core.Tests
         private const string Catheter = "'start': 20, 'length': 80, 'elements': 20, 'wireRadius': 0.0008,"
             + " 'lumenRadius': 0.0007, 'restCurvature': [40, 0, 0]";
 
+        // Out of a stiff catheter at 45 degrees to a plane.
+        private const string Slant = "'solver': 'direct', 'guidewireLength': 110, 'guidewireOffset': -90,"
+            + " 'wireRadius': 0.0004, 'youngsModulus': 1e9, 'shearModulus': 4e8, 'massDamping': 50, 'proximalEnd':"
+            + " 'clamped', 'drive': 'displace', 'insertionSpeed': 0.008, 'timeStep': 0.02, 'deltaThreshold': 0,"
+            + " 'vessel': {'shape': 'plane', 'point': [0, -1.3435, 21.3435], 'normal': [0, 1, -1]}, ";
+
+        private const string SlantCatheter = "'catheters': [{'start': 90, 'length': 20, 'elements': 8, 'wireRadius':"
+            + " 0.0008, 'lumenRadius': 0.0006, 'youngsModulus': 6e13, 'shearModulus': 2.3e13, 'density': 1400}]";
+
         // In place of its lid it has a spike that goes through its floor.
         private const string PiercedBox = "v -50 -50 -50\nv 50 -50 -50\nv -50 50 -50\nv 50 50 -50\nv -50 -50 50\n"
             + "v 50 -50 50\nv -50 50 50\nv 50 50 50\nv 45 45 -60\nf 1 3 4 2\nf 1 2 6 5\nf 3 7 8 4\nf 1 5 7 3\n"
@@ -85,6 +94,7 @@ namespace Guidewire.Core.Tests
                 + " 'hubForceLimit': 0.1, 'maxSimulationSteps': 12",
             ["hubForce"] = Coaxial + "'insertionSpeed': 0.008, 'hubForceLimit': 1e-6, 'wireSections': [{'from': 100,"
                 + " 'to': 120, 'restCurvature': [40, 0, 0]}], 'catheters': [{" + Catheter + ", 'hubForceLimit': 1e-6}]",
+            ["hubForceError"] = Slant + "'maxSimulationSteps': 150, 'numberRodElements': 22, " + SlantCatheter,
             ["rounding"] = Wire + ", 'numberRodElements': 10, 'distalEnd': 'clamped', 'youngsModulus': 1e18,"
                 + " 'shearModulus': 4e17, 'gravity': [0, 9.81, 0], 'maxSimulationSteps': 2, 'massDamping': 10",
             ["spinLost"] = Wire.Replace("clamped", "free") + ", 'numberRodElements': 10, 'tipForce': [0, 0.05, 0],"

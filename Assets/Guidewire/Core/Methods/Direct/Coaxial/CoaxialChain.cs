@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 
 namespace Guidewire.Core
 {
@@ -10,6 +11,8 @@ namespace Guidewire.Core
     /// that.</remarks>
     internal sealed class CoaxialChain
     {
+        private const double LeftOfGap = 0.5;     // of the least one, where a node goes
+
         private readonly MethodParameters _method;
         private readonly CoaxialSetup _setup;
         private readonly MaterialDrive[] _drives;
@@ -38,7 +41,8 @@ namespace Guidewire.Core
             var hubs = new CoaxialHubs(Array.ConvertAll(drives, drive => drive.Hub), setup.Axis, setup.Sheath);
             _hubs = hubs;
             Wire = new InnerInstrument(setup, hubs, drives.Length - 1);
-            _nodes = new CoaxialNodes(setup.Instruments, hubs);
+            _nodes = new CoaxialNodes(setup.Instruments, hubs, setup.Wire.Walls
+                .Where(wall => wall.Softness != null).Select(wall => wall.Softness!).ToArray());
             _hasWindow = setup.Sheath != null;
             _torques = new double[drives.Length];
             _active = new int[drives.Length];
@@ -81,6 +85,7 @@ namespace Guidewire.Core
             if (setup.HasStart)
             {
                 TakeLoads();
+                TakeBorne();
             }
         }
 
@@ -119,6 +124,16 @@ namespace Guidewire.Core
             if (Dynamics.Terms.CoaxialLoads != null)
             {
                 CoaxialSetup.TakeLoads(_scene, Dynamics.Terms);
+            }
+        }
+
+        /// <summary>A step begins, at the end of the one before: takes what tips bear.</summary>
+        public void TakeBorne()
+        {
+            if (Rod.Joints.InnerCount > 0)
+            {
+                TakeTime();
+                CoaxialSetup.TakeBorne(_scene, Dynamics.Terms);
             }
         }
 
@@ -272,6 +287,17 @@ namespace Guidewire.Core
             return hasOthers;
         }
 
+        // Whether nodes that are there are not to be.
+        private bool HasFewer()
+        {
+            bool hasFewer = false;
+            for (int i = 1; i < _active.Length; i++)
+            {
+                hasFewer |= _nodes.Beyond[i] < Rod.Joints.BeyondOf(i);
+            }
+            return hasFewer;
+        }
+
         // From where a chain is, this one or that of other instruments.
         private void Remesh(CoaxialChain from, int first, bool[]? isOther = null, double shift = 0.0)
         {
@@ -280,6 +306,7 @@ namespace Guidewire.Core
             double time = was.Time;
             double turn = was.ProximalTurn;
             double thrust = 0.0;
+            double gap = from == this && HasFewer() ? was.Terms.Walls()?.Barrier.LeastGap(was.Shape) ?? 0.0 : 0.0;
             Vector3d held = default;
             if (_hasWindow)
             {
@@ -304,6 +331,7 @@ namespace Guidewire.Core
             }
             _hubs.SetLeads(_leads, time);
             _sheathed = _hubs.SheathedAt(time);
+            Rod.Axial.TakeBorne(from.Rod.Axial);
             Rod.Remesh(_nodes.Beyond, _leads, _sheathed, first);
             _change.Begin(joints, isOther, shift);
             _change.Take(motion, Dynamics.Motion);
@@ -319,6 +347,10 @@ namespace Guidewire.Core
                 Rod.SetLengths();
             }
             Begin(time, turn, former.Walls(), movesWindow ? _change.Entered : (int?)null);
+            if (gap > 0.0)
+            {
+                Dynamics.Terms.Walls()!.Barrier.Open(Dynamics.Shape, LeftOfGap * gap);
+            }
             if (_hasWindow)
             {
                 // An element that leaves may have another force than the springs that take its place.

@@ -131,6 +131,7 @@ namespace Guidewire.Core
         protected override void BeginStep()
         {
             _order.Limit(Dynamics.Time);
+            Chain.TakeBorne();
             Chain.MoveWindow();
             Chain.TakeLoads();
             foreach (MaterialDrive drive in Drives)

@@ -6,25 +6,29 @@ namespace Guidewire.Core
     /// change.</summary>
     /// <remarks>A node comes in where it is 0.02 of its element's length beyond the tip to the end of a step, or the
     /// difference of the two radii where that is less: so far the ball of a tip inside lies in the one around it, and
-    /// misses no wall. It goes where it is half as far beyond it, and a step ends a part there: so what takes its place
-    /// lies where it was. The tip around an instrument is that of the next one around it which is beyond those around
-    /// it in turn.</remarks>
+    /// misses no wall. Where a soft wall gives way the balls are those at its limit. It goes where it is half as far
+    /// beyond it, and a step ends a part there: so what takes its place lies where it was. The tip around an
+    /// instrument is that of the next one around it which is beyond those around it in turn.</remarks>
     internal sealed class CoaxialNodes
     {
         /// <summary>The fraction of a step, or of an element's length, below which two moments are one.</summary>
         public const double SameTime = 1e-6;
 
         private const double OfLength = 0.02;    // of an element's length, beyond a tip it comes in
+        private const double OfPlay = 0.01;      // the same, at least
         private const double Left = 0.5;    // of that, where it goes
         private const double LeaveHysteresis = 0.3;    // of an element's length, by which it goes late in a sheath
         private const int MinElements = 2;
 
         private readonly CoaxialInstrument[] _instrument;
         private readonly CoaxialHubs _hubs;
+        private readonly WallSoftness[] _soft;
 
         /// <summary>Of these instruments, on these hubs.</summary>
-        public CoaxialNodes(CoaxialInstrument[] instruments, CoaxialHubs hubs)
+        /// <param name="soft">Of the walls that give way.</param>
+        public CoaxialNodes(CoaxialInstrument[] instruments, CoaxialHubs hubs, WallSoftness[] soft)
         {
+            _soft = soft;
             _instrument = instruments;
             _hubs = hubs;
             Beyond = new int[instruments.Length];
@@ -93,11 +97,19 @@ namespace Guidewire.Core
         private static int AroundOf(int instrument, int[] beyond) => instrument == 2 && beyond[1] > 0 ? 1 : 0;
 
         // How far beyond the tip around it the end of an element comes in, m.
-        private double Reached(int instrument, int around, int element)
+        private double Reached(int instrument, int outermost, int element)
         {
             MaterialRod inner = _instrument[instrument].Rod;
-            double[] outer = _instrument[around].Rod.Radius;
-            return Math.Min(OfLength * inner.Length[element], outer[outer.Length - 1] - inner.Radius[element]);
+            double[] outer = _instrument[outermost].Rod.Radius;
+            double around = outer[outer.Length - 1];
+            double inside = inner.Radius[element];
+            double play = around - inside;
+            double reached = Math.Min(OfLength * inner.Length[element], play);
+            foreach (WallSoftness soft in _soft)
+            {
+                reached = Math.Min(reached, Math.Max(play - (soft.MaxOf(around) - soft.MaxOf(inside)), OfPlay * play));
+            }
+            return reached;
         }
 
         private int Find(int instrument, int around, int beyond, double tip)

@@ -18,7 +18,7 @@ namespace Guidewire.Core
         private readonly SimulationParameters _parameters;
         private readonly double _drag;
         private readonly Barrier _barrier;
-        private readonly double _limit;         // of the hub of an instrument alone, N; 0: none
+        private readonly HubLimit _limit;       // of the hub of an instrument alone
         private readonly RodStart[] _starts = Array.Empty<RodStart>();    // of each instrument
 
         /// <summary>For the wire and the catheters of these parameters.</summary>
@@ -27,7 +27,9 @@ namespace Guidewire.Core
             _parameters = parameters;
             IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
             Work = new WorkLimit(parameters.Method.MaxNewtonIterations,
-                catheters.Select(one => one.Drive).Append(parameters.Drive).Count(drive => drive.HubForceLimit > 0.0));
+                parameters.Scene.Walls.Length == 0 ? 0
+                    : catheters.Select(one => HubLimit.Of(one.Drive, one.Material))
+                        .Append(HubLimit.Of(parameters.Drive, parameters.Material)).Count(limit => limit.IsLimited));
             int count = catheters.Count + 1;
             Scenes = new MaterialScene[count];
             Instruments = new CoaxialInstrument[count];
@@ -58,7 +60,7 @@ namespace Guidewire.Core
             {
                 _barrier = FindBarrier();
             }
-            _limit = count == 1 ? parameters.Drive.HubForceLimit : 0.0;
+            _limit = count == 1 ? HubLimit.Of(parameters.Drive, parameters.Material) : HubLimit.None;
         }
 
         /// <summary>Each instrument as if it were alone, the outermost catheter first, the wire last.</summary>
@@ -128,9 +130,13 @@ namespace Guidewire.Core
             var slips = new HubSlip[drives.Length];
             for (int i = 0; i < slips.Length; i++)
             {
-                double limit = slips.Length == 1 ? 0.0 : i == slips.Length - 1 ? _parameters.Drive.HubForceLimit
-                    : _parameters.Scene.Catheters[i].Drive.HubForceLimit;
-                slips[i] = new HubSlip(limit, OfRadius * Scenes[i].Rod.Radius[0]);
+                DriveParameters drive = i == slips.Length - 1 ? _parameters.Drive
+                    : _parameters.Scene.Catheters[i].Drive;
+                MaterialParameters material = i == slips.Length - 1 ? _parameters.Material
+                    : _parameters.Scene.Catheters[i].Material;
+                slips[i] = new HubSlip(
+                    slips.Length == 1 || Wire.Walls.Length == 0 ? HubLimit.None : HubLimit.Of(drive, material),
+                    OfRadius * Scenes[i].Rod.Radius[0], drives[i].LargestSlip);
             }
             return slips;
         }
@@ -223,6 +229,15 @@ namespace Guidewire.Core
             return change;
         }
 
+        /// <summary>Takes what of the thrust of instruments the tips around them bear, in a shape in balance.</summary>
+        /// <returns>The largest change of what an element is longer by, m.</returns>
+        public static double TakeBorne(MaterialScene scene, RodTerms terms)
+        {
+            double change = terms.Release!.TakeBorne(scene.Shape, terms);
+            scene.Supports.Coaxial!.SetLengths();
+            return change;
+        }
+
         /// <summary>Sets how long and how soft the part before the chain is where the hubs are.</summary>
         public static void SetLead(MaterialScene scene, RodTerms terms)
         {
@@ -250,7 +265,7 @@ namespace Guidewire.Core
             string? failure = null;
             for (int k = 0; k < MaxSearches && failure == null && change > SameLength * scene.Rod.TotalLength; k++)
             {
-                change = k == 0 ? change : TakeLoads(scene, terms);
+                change = k == 0 ? change : Math.Max(TakeLoads(scene, terms), TakeBorne(scene, terms));
                 failure = new RestShape(scene, terms, Math.Min(method.SolverTolerance, 1e-9),
                     RestShape.IterationFactor * method.MaxNewtonIterations, report).Find(scene.Shape);
             }

@@ -16,13 +16,14 @@ namespace Guidewire.Core
     {
         private const double Close = 0.02;      // of the limit
         private const int MaxTrials = 24;
-        private const double Exact = 1e-3;      // of the limit
+        private const int MaxRefined = 6;       // of them while what has no more than the limit lies beyond a jump
         private const double Near = 1.0 / 64.0; // of the shortest displacement: the first one from what was found last
         private const double Growth = 4.0;      // of it from one trial to the next
         private const double Same = 1e-6;       // of what is asked: it is as before
 
-        private readonly double _limit;         // N
+        private readonly HubLimit _limit;
         private readonly double _shortest;      // m, by which a hub that may not rest gives way at first
+        private readonly double _most;          // m, that it slips in a step
         private double _asked;                  // m
         private double _away;                   // m, of the next trial from this one; 0: it began with what was asked
         private Trial _thrust;                  // the last with too much of either sense
@@ -32,22 +33,26 @@ namespace Guidewire.Core
         private Trial _least;                   // force of all that have too much
         private bool _isLast;
         private int _trials;
+        private int _refined;
         private Found _foundBefore;             // in the step before
         private Found _found;                   // last, in this step or before
-        private int _stepsBeyond;
-        private double _maxBeyond;              // N
 
         /// <summary>Seeks the displacement of a hub.</summary>
-        /// <param name="limit">N; 0: it never slips.</param>
         /// <param name="shortest">m.</param>
-        public HubSlip(double limit, double shortest)
+        /// <param name="most">That it goes in a step where it slips, m, as far as that is not asked.</param>
+        public HubSlip(in HubLimit limit, double shortest, double most = double.PositiveInfinity)
         {
-            _limit = limit > 0.0 ? limit : double.PositiveInfinity;
-            _shortest = shortest;
+            _limit = limit;
+            Record = new SlipRecord(limit);
+            _most = most;
+            _shortest = Math.Min(shortest, most);
         }
 
         /// <summary>Whether there is a limit.</summary>
-        public bool IsLimited => _limit < double.PositiveInfinity;
+        public bool IsLimited => _limit.IsLimited;
+
+        /// <summary>What it does at its limit.</summary>
+        public SlipRecord Record { get; }
 
         /// <summary>A step begins with what was found in the one before.</summary>
         public void BeginStep() => _found = _foundBefore;
@@ -59,6 +64,7 @@ namespace Guidewire.Core
         {
             _asked = asked;
             _trials = 0;
+            _refined = 0;
             _isLast = false;
             _thrust = default;
             _tension = default;
@@ -66,7 +72,7 @@ namespace Guidewire.Core
             _beyond = default;
             _least = default;
             bool isLike = _found.Slipped && Math.Abs(asked - _found.Asked) <= Same * Math.Abs(asked);
-            Displacement = isLike ? _found.Moved + ((around ?? _found.Around) - _found.Around) : (double?)null;
+            Displacement = isLike ? Within(_found.Moved + ((around ?? _found.Around) - _found.Around)) : (double?)null;
             _away = isLike ? Near * _shortest : 0.0;
         }
 
@@ -82,9 +88,14 @@ namespace Guidewire.Core
         /// <returns>Whether another one is needed.</returns>
         public bool NeedsAnother(double moved, double around, double force, bool isOver)
         {
-            bool isTooMuch = !(Math.Abs(force) <= _limit);
+            bool isTooMuch = _limit.Excess(force) != 0.0;
+            if (_isLast && isTooMuch && _allowed.IsMade && _trials < MaxTrials && !isOver)
+            {
+                // Hubs inside have found other displacements than before.
+                (_isLast, _allowed, _refined) = (false, default, 0);
+            }
             if (!IsLimited || _isLast || (!isTooMuch && (Displacement == null
-                || (Math.Abs(force) >= (1.0 - Close) * _limit && force * (_asked - moved) >= 0.0))))
+                || (Math.Abs(force) >= (1.0 - Close) * _limit.Of(force) && force * (_asked - moved) >= 0.0))))
             {
                 return End(moved, around);
             }
@@ -99,51 +110,37 @@ namespace Guidewire.Core
                 _beyond = _allowed.IsMade ? _beyond : _asked > moved ? _thrust : _tension;
                 _allowed = trial;
             }
-            if (_trials++ >= MaxTrials || isOver)
+            _refined += _allowed.IsMade && _allowed.Force * (_asked - _allowed.Moved) < 0.0 ? 1 : 0;
+            if (_trials++ >= MaxTrials || _refined > MaxRefined || isOver)
             {
-                // Where the force jumps past the limit, as far as it is no more.
-                _isLast = true;
-                Trial best = _allowed.IsMade ? _allowed : _least;
-                if (!best.IsMade || best.Moved == moved)
-                {
-                    return End(moved, around);
-                }
-                Displacement = best.Moved;
-                return true;
+                return EndAtBest(moved, around);
             }
             double? next = _allowed.IsMade ? _beyond.IsMade ? Between() : Away(moved, Math.Sign(_asked - moved))
                 : _thrust.IsMade && _tension.IsMade ? BetweenSenses()
                 : _away > 0.0 ? Away(moved, -sense) : Back(moved, around, sense);
-            Displacement = next;
-            return next != moved || End(moved, around);
+            Displacement = next is double far ? Within(far) : next;
+            if (Displacement == moved && isTooMuch)
+            {
+                // It slips as fast as it may.
+                return EndAtBest(moved, around);
+            }
+            return Displacement != moved || End(moved, around);
         }
 
         /// <summary>A step has ended, with more than the limit where no trial had less.</summary>
         /// <param name="force">N.</param>
-        public void EndStep(double force)
+        /// <param name="time">s.</param>
+        public void EndStep(double force, double time)
         {
             _foundBefore = _found;
-            if (Math.Abs(force) > (1.0 + Exact) * _limit)
-            {
-                _stepsBeyond++;
-                _maxBeyond = Math.Max(_maxBeyond, Math.Abs(force));
-            }
-        }
-
-        /// <summary>That it had more than its limit, or null.</summary>
-        /// <param name="name">What the warning calls the hub.</param>
-        public RunWarning? FindExcess(string name)
-        {
-            return _stepsBeyond == 0 ? (RunWarning?)null
-                : WarningTable.HubForce.With(name, _maxBeyond, _limit, _stepsBeyond);
+            Record.Take(IsLimited && _found.Slipped && _found.Moved != _found.Asked, force, time);
         }
 
         /// <summary>Writes or restores what was found last, and what the steps had beyond the limit.</summary>
         public void Serialize(Snapshot snapshot)
         {
             SerializeStep(snapshot);
-            snapshot.Serialize(ref _stepsBeyond);
-            snapshot.Serialize(ref _maxBeyond);
+            Record.Serialize(snapshot);
         }
 
         /// <summary>Writes or restores what was found in the step before, for a <see cref="StepStart"/>.</summary>
@@ -154,6 +151,22 @@ namespace Guidewire.Core
             snapshot.Serialize(ref _foundBefore.Around);
             snapshot.Serialize(ref _foundBefore.Asked);
         }
+
+        // Where the force jumps past the limit, or a slip has a speed, as far as it is no more, or the least.
+        private bool EndAtBest(double moved, double around)
+        {
+            _isLast = true;
+            Trial best = _allowed.IsMade ? _allowed : _least;
+            if (!best.IsMade || best.Moved == moved)
+            {
+                return End(moved, around);
+            }
+            Displacement = best.Moved;
+            return true;
+        }
+
+        private double Within(double displacement) =>
+            Math.Min(Math.Max(displacement, Math.Min(_asked, -_most)), Math.Max(_asked, _most));
 
         private bool End(double moved, double around)
         {
@@ -207,7 +220,7 @@ namespace Guidewire.Core
             double fraction = 0.5;
             if (!double.IsNaN(_beyond.Force) && _trials % 3 != 0)
             {
-                double target = Math.Sign(_beyond.Force) * (1.0 - 0.5 * Close) * _limit;
+                double target = Math.Sign(_beyond.Force) * (1.0 - 0.5 * Close) * _limit.Of(_beyond.Force);
                 fraction = Math.Min(0.95, Math.Max(0.05, (target - _allowed.Force) / (_beyond.Force - _allowed.Force)));
             }
             return _allowed.Moved + fraction * (_beyond.Moved - _allowed.Moved);

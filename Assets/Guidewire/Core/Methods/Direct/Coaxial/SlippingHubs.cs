@@ -55,7 +55,7 @@ namespace Guidewire.Core
             for (int i = 0; i < _drives.Length && _areLimited; i++)
             {
                 _drives[i].OverrideDisplacement(null);
-                _slips[i].EndStep(isDone && _slips[i].IsLimited ? _step.ForceOf(i) : 0.0);
+                _slips[i].EndStep(isDone && _slips[i].IsLimited ? _step.ForceOf(i) : 0.0, _step.Dynamics.Time);
             }
             return false;
         }

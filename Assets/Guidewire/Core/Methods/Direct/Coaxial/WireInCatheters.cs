@@ -11,6 +11,7 @@ namespace Guidewire.Core
         private readonly InnerInstrument[] _each;      // the outermost one first, the wire last
         private readonly HubRecord _hub;
         private readonly WireStress _stress;
+        private readonly HubForceErrors _errors;
 
         /// <summary>At their start.</summary>
         /// <param name="timeStep">s.</param>
@@ -27,6 +28,7 @@ namespace Guidewire.Core
             }
             _hub = new HubRecord(setup.Wire.Rod.JointLengths(setup.Wire.Supports));
             _stress = new WireStress(setup, Wire);
+            _errors = new HubForceErrors(drives.Length);
         }
 
         /// <inheritdoc/>
@@ -48,7 +50,13 @@ namespace Guidewire.Core
         public override CoaxialRecord? Coaxial()
         {
             Chain.TakeTime();
-            return _records.Take(Dynamics, Chain.Rod.Joints, _each);
+            CoaxialRecord outermost = _records.Take(Dynamics, Chain.Rod.Joints, _each);
+            for (int i = 0; i < _records.All.Length; i++)
+            {
+                _records.All[i].SlippedFrom = Slips[i].Record.SlippedFrom;
+                _records.All[i].ForceError = _errors.Of(i);
+            }
+            return outermost;
         }
 
         /// <inheritdoc/>
@@ -67,11 +75,15 @@ namespace Guidewire.Core
                 if (Drives[k].FallsShort)
                 {
                     warnings.Add(WarningTable.HubShortfall.With(name, Drives[k].Slip,
-                        (Slips[k].IsLimited ? "it slipped at its hubForceLimit, or " : "") + stops));
+                        Slips[k].Record.Why is string slipped ? slipped + ", or " + stops : stops));
                 }
-                if (Slips[k].FindExcess(name) is RunWarning excess)
+                if (Slips[k].Record.FindExcess(name) is RunWarning excess)
                 {
                     warnings.Add(excess);
+                }
+                if (_errors.FindWarning(k, name) is RunWarning uncertain)
+                {
+                    warnings.Add(uncertain);
                 }
             }
         }
@@ -131,6 +143,8 @@ namespace Guidewire.Core
         {
             CoaxialRecord record = Coaxial()!;
             Quaterniond[] q = Wire.Shape.Q;
+            _hub.ForceError = _errors.Of(Slips.Length - 1);
+            _hub.SlippedFrom = Slips[Slips.Length - 1].Record.SlippedFrom;
             _hub.Take(Drives[Drives.Length - 1], record.WireForce, record.WireTorque, q[q.Length - 1].Director3,
                 record.WireTwist, record.LargestCurvature);
             return _hub;
@@ -147,9 +161,9 @@ namespace Guidewire.Core
         protected override void Take()
         {
             base.Take();
+            _errors.Take(Dynamics, Chain.Rod.Joints, Coaxial()!.Force);
             if (_records.HasFriction)
             {
-                Coaxial();
                 Setup.TakeStrains(_records.All, _report, Dynamics.Time);
             }
         }
@@ -178,6 +192,10 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        protected override void SerializeRecords(Snapshot snapshot) => _records.Serialize(snapshot);
+        protected override void SerializeRecords(Snapshot snapshot)
+        {
+            _records.Serialize(snapshot);
+            _errors.Serialize(snapshot);
+        }
     }
 }

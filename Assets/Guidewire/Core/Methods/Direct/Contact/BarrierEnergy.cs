@@ -21,6 +21,8 @@ namespace Guidewire.Core
         private const double LongSkin = 20.0;    // of the barrier's distance, the skin without point features
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
         private const int MaxCuts = 40;             // of a motion out of a sheath
+        private const int MaxOpenings = 40;
+        private const double OverOpening = 0.1;    // of what is lacking
 
         private readonly ContactShape[] _walls;
         private readonly WallLaw[] _laws;         // by wall
@@ -266,6 +268,79 @@ namespace Guidewire.Core
 
         /// <summary>Gives the same between the interior of element j and convex edges of the wall.</summary>
         public double EdgeGap(int w, int j) => _edgeGap[w * _rod.ElementCount + j];
+
+        /// <summary>The least of all gaps in a shape, m, no more than the range of any barrier.</summary>
+        public double LeastGap(RodShape shape)
+        {
+            Update(shape);
+            return _minGap;
+        }
+
+        /// <summary>Moves nodes along the normals of their and their elements' contacts until no gap is less than
+        /// this one, m. What takes the place of a node that has gone is a chord, and may lie in a wall that the two
+        /// before it did not touch.</summary>
+        public void Open(RodShape shape, double gap)
+        {
+            for (int k = 0; k < MaxOpenings && LeastGap(shape) < gap; k++)
+            {
+                for (int w = 0; w < _walls.Length; w++)
+                {
+                    for (int j = Math.Max(_inside, 1); j <= _rod.ElementCount; j++)
+                    {
+                        OpenNode(shape, w, j, gap);
+                        OpenElement(shape, w, j - 1, gap);
+                    }
+                }
+                _isKnown = false;
+            }
+        }
+
+        private void OpenNode(RodShape shape, int w, int i, double gap)
+        {
+            double radius = _laws[w].RadiusOfNode(i);
+            _contactPoints.Clear();
+            _walls[w].FindContactPoints(_x[i], _units * (radius + gap), _near.FeaturesOfNode(w, i, _x[i]),
+                _contactPoints);
+            _walls[w].TurnToWire(_contactPoints);
+            for (int k = 0; k < _contactPoints.Count; k++)
+            {
+                SurfaceContact contact = _contactPoints[k].Contact;
+                Move(shape, i, Lacking(gap, contact.Distance, radius) * contact.Normal);
+            }
+        }
+
+        private void OpenElement(RodShape shape, int w, int j, double gap)
+        {
+            double radius = _laws[w].RadiusOf(j);
+            _edgeContacts.Clear();
+            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + gap),
+                _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
+            for (int k = 0; k < _edgeContacts.Count; k++)
+            {
+                EdgeContact edge = _edgeContacts[k];
+                // The first node may be held.
+                double first = j >= Math.Max(_inside, 1) ? 1.0 - edge.Position : 0.0;
+                double second = edge.Position;
+                double sum = first * (1.0 - edge.Position) + second * second;
+                if (sum > 0.0)
+                {
+                    Vector3d move = Lacking(gap, edge.Distance, radius) / sum * edge.Normal;
+                    Move(shape, j, first * move);
+                    Move(shape, j + 1, second * move);
+                }
+            }
+        }
+
+        // Of a distance in units, m.
+        private double Lacking(double gap, double distance, double radius) =>
+            (1.0 + OverOpening) * Math.Max(0.0, gap - (distance / _units - radius));
+
+        // m.
+        private void Move(RodShape shape, int node, in Vector3d move)
+        {
+            shape.X[node] += move;
+            _x[node] = _units * shape.X[node];
+        }
 
         private void Update(RodShape shape) => Update(shape, 0, _rod.ElementCount + 1);
 

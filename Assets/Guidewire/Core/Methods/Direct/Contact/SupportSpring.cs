@@ -7,20 +7,20 @@ namespace Guidewire.Core
     /// <remarks>k = 10 EA/l of the first element: a force that would buckle the wire displaces node 0 by less than a
     /// ten thousandth of the wire's radius. A hub that slips at an axial force F has the same energy up to F and a
     /// straight line beyond: 1/2 k d^2 - 1/2 (|k d_a + b| - F)^2/k, d_a along the axis, b what the hub exerts
-    /// besides.</remarks>
+    /// besides. It slips by no more than a hand follows in a step, s; beyond that it is held again:
+    /// 1/2 k d^2 - s (|k d_a + b| - F) + 1/2 k s^2.</remarks>
     internal sealed class SupportSpring : EnergyTerm
     {
         private const double OverAxialSpring = 10.0;
-        private readonly double _limit;      // N
         private double _stiffness;           // N/m
         private double _axial;               // N/m
         private double _before;              // from the hub to node 0, at rest, m
 
         /// <summary>Makes the spring of a rod, without force.</summary>
-        /// <param name="limit">The axial force at which the hub slips, N; 0: never.</param>
-        public SupportSpring(MaterialRod rod, double limit)
+        /// <param name="limit">The axial force at which the hub slips.</param>
+        public SupportSpring(MaterialRod rod, in HubLimit limit)
         {
-            _limit = limit > 0.0 ? limit : double.PositiveInfinity;
+            Limit = limit;
             Hold(rod);
         }
 
@@ -41,8 +41,14 @@ namespace Guidewire.Core
             _before = length;
         }
 
-        /// <summary>Whether the hub has a force at which it slips.</summary>
-        public bool HasLimit => _limit < double.PositiveInfinity;
+        /// <summary>The axial force at which the hub slips.</summary>
+        public HubLimit Limit { get; }
+
+        /// <summary>How far the hub may slip back from its position, m.</summary>
+        public double MostBack { get; set; } = double.PositiveInfinity;
+
+        /// <summary>The same forward.</summary>
+        public double MostForward { get; set; } = double.PositiveInfinity;
 
         /// <summary>The hub's axis, a unit vector, along which it slips.</summary>
         public Vector3d Axis { get; set; }
@@ -88,7 +94,7 @@ namespace Guidewire.Core
                 value -= (_stiffness - _axial) * along * along;
             }
             double excess = Excess(shape);
-            return 0.5 * (value - excess * excess / _axial);
+            return 0.5 * (value - excess * (2.0 * Limit.Excess(AxialForce(shape)) - excess) / _axial);
         }
 
         /// <inheritdoc/>
@@ -111,7 +117,9 @@ namespace Guidewire.Core
                 blocks[0].A11 += _stiffness;
                 blocks[0].A22 += _stiffness;
                 blocks[0].A33 += _stiffness;
-                double less = Excess(shape) != 0.0 ? _stiffness : _stiffness - _axial;
+                double excess = Excess(shape);
+                double less = excess != 0.0 && excess == Limit.Excess(AxialForce(shape)) ? _stiffness
+                    : _stiffness - _axial;
                 if (less != 0.0)
                 {
                     blocks[0].A11 -= less * Axis.X * Axis.X;
@@ -128,11 +136,14 @@ namespace Guidewire.Core
         private Vector3d Behind(RodShape shape) =>
             _before == 0.0 ? Position - shape.X[0] : Position + _before * Axis - shape.X[0];
 
-        // Excess of the axial force over the limit, N, with its sign.
+        // Of a hub that does not slip, N.
+        private double AxialForce(RodShape shape) => _axial * Vector3d.Dot(Behind(shape), Axis) + ReleaseForce;
+
+        // Excess of the axial force over the limit, N, with its sign, as far as the hub slips.
         private double Excess(RodShape shape)
         {
-            double force = _axial * Vector3d.Dot(Behind(shape), Axis) + ReleaseForce;
-            return Math.Abs(force) > _limit ? force - Math.Sign(force) * _limit : 0.0;
+            double excess = Limit.Excess(AxialForce(shape));
+            return excess == 0.0 ? 0.0 : Math.Min(Math.Max(excess, -_axial * MostForward), _axial * MostBack);
         }
 
         /// <inheritdoc/>

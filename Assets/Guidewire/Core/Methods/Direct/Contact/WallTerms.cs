@@ -71,6 +71,13 @@ namespace Guidewire.Core
         public override double FrictionStored => Friction == null ? 0.0 : Friction.Anchors.StoredEnergy;
 
         /// <inheritdoc/>
+        public override void AddFriction(RodShape shape, RodVector[] gradient)
+        {
+            var measured = default(GradientMeasures);
+            Friction?.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+        }
+
+        /// <inheritdoc/>
         public override double StoredEnergy(RodShape shape) => Barrier.Stored(shape);
 
         /// <inheritdoc/>

@@ -102,6 +102,33 @@ namespace Guidewire.Core.Tests
             Assert.That(largest / limit, Is.InRange(0.9, 1.0 + 1e-9));
         }
 
+        // 1e-3 N hold no snap: what the hub has beyond them is said, and it goes no faster than a hand lets it.
+        [TestCase(0.02)]
+        [TestCase(0.1)]
+        public void HubThatSlips_IsNoFasterThanItsSlipSpeed(double speed)
+        {
+            SimulationParameters parameters = Weak(1e-3, 0.01);
+            parameters.Drive.SlipSpeed = speed;
+            Simulation run = Simulation.Create(parameters);
+            TimeTable asked = parameters.Drive.Table!.Insertion;
+            double before = 0.0;
+            int slips = 0;
+            double largest = 0.0;
+            Wires.Run(run, () =>
+            {
+                double way = Math.Abs(asked.At(run.Time) - asked.At(run.Time - 0.01));
+                double moved = Math.Abs(run.Hub()!.Insertion - before);
+                before = run.Hub()!.Insertion;
+                Assert.That(moved, Is.LessThanOrEqualTo(Math.Max(way, 0.01 * speed) + 1e-12));
+                slips += way < 0.01 * speed && Math.Abs(moved - 0.01 * speed) < 1e-12 ? 1 : 0;
+                largest = Math.Max(largest, Math.Abs(run.Hub()!.Force));
+            });
+            Assert.That(slips, Is.GreaterThan(0), "the snap asks for more");
+            Assert.That(largest, Is.GreaterThan(1.1e-3));
+            Assert.That(run.Reason, Does.Contain("above its hubForceLimit of 0.001 N"));
+            Assert.That(run.Hub()!.SlippedFrom, Is.InRange(0.0, run.Time));
+        }
+
         [Test]
         public void WireThatDrivesItselfOut_EndsTheRunWithThatReason()
         {
@@ -126,6 +153,7 @@ namespace Guidewire.Core.Tests
         private static SimulationParameters Weak(double limit, double timeStep)
         {
             SimulationParameters parameters = Sheathed(60, 0.3, 90.0);
+            parameters.Drive.SlipSpeed = 0.0;
             parameters.Drive.Table = new DriveTable(new TimeTable(new[] { 0.0, 2.0, 3.5, 4.5 },
                 new[] { 0.0, 0.1, 0.1, 0.03 }), new TimeTable(new[] { 2.0, 3.5 }, new[] { 0.0, 9.0 }));
             parameters.Drive.HubForceLimit = limit;

@@ -226,6 +226,7 @@ namespace Guidewire.Core.Tests
             // A follower force of EA/5 draws 60 of 300 mm out of a sheath whose hub stands still.
             SimulationParameters parameters = Straight(60, -12.0);
             double stiffness = parameters.Material.YoungsModulus * Math.PI * Radius * Radius;
+            parameters.Drive.HubForceLimit = 0.0;
             parameters.Scene.TipFollowerForce = new Vector3d(0.0, 0.0, 0.2 * stiffness);
             parameters.Scene.TipFollowerForceTable = new TimeTable(new[] { 0.0, 0.2 }, new[] { 0.0, 1.0 });
             parameters.Method.MaxSimulationSteps = 40;

@@ -23,8 +23,8 @@ namespace Guidewire.Core.Tests
 
         [TestCase(0, 1)]
         [TestCase(1, 1)]
-        [TestCase(2, 2)]
-        [TestCase(3, 4)]
+        [TestCase(2, 4)]
+        [TestCase(3, 16)]
         public void OneStep_MayTakeAllAtOnce_MoreWithHubsThatMaySlip(int limitedHubs, int times)
         {
             var work = new WorkLimit(Solution, limitedHubs);

@@ -87,12 +87,12 @@ namespace Guidewire.Core.Tests
             parameters.Scene.Sheath = new Sheath { Exit = new Vector3d(0.0, 0.0, 260.0) };
             parameters.Scene.Walls = WallScenes.Floor(-500.0);
             parameters.Drive.Steering = new Steering();
-            parameters.Drive.HubForceLimit = wireLimit;
+            (parameters.Drive.HubForceLimit, parameters.Drive.SlipSpeed) = (wireLimit, 0.0);
             SetLight(parameters.Material);
             foreach (Catheter catheter in parameters.Scene.Catheters)
             {
                 catheter.Drive.Steering = new Steering();
-                catheter.Drive.HubForceLimit = catheterLimit;
+                (catheter.Drive.HubForceLimit, catheter.Drive.SlipSpeed) = (catheterLimit, 0.0);
                 catheter.LumenFriction = 0.1;
                 SetLight(catheter.Material);
             }

@@ -66,6 +66,32 @@ namespace Guidewire.Core.Tests
             Assert.That(tried, Is.GreaterThanOrEqualTo(5), "too few wires touch the wall");
         }
 
+        // Of wires whose surface is in a wall by less than half of their radius, as the chord of a node that has gone.
+        [Test]
+        public void GapThatIsOpened_IsAsWideAsAsked([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
+            string name)
+        {
+            const double Gap = 0.1 * Distance;
+            int tried = 0;
+            for (int seed = 0; seed < 2000 && tried < 5; seed++)
+            {
+                BarrierEnergy energy = Create(TestShapes.Make(name), seed, out RodShape shape);
+                double least = energy.LeastGap(shape);
+                if (!(least > -0.5 * Radius && least < Gap) || energy.NodeGap(0, 0) < 2.0 * Gap
+                    || energy.EdgeGap(0, 0) < 2.0 * Gap)
+                {
+                    continue;
+                }
+                tried++;
+                Vector3d first = shape.X[0];
+                energy.Open(shape, Gap);
+                Assert.That(energy.LeastGap(shape), Is.GreaterThanOrEqualTo(Gap), name + ", seed " + seed);
+                Assert.That(energy.Value(shape), Is.LessThan(double.PositiveInfinity));
+                Assert.That(shape.X[0], Is.EqualTo(first), "it is held");
+            }
+            Assert.That(tried, Is.GreaterThan(0), "no wire is near enough");
+        }
+
         [TestCase("plane")]
         [TestCase("tube")]
         public void Blocks_OfAHollowWall_AreTheDifferencesOfTheGradient(string name)

@@ -127,7 +127,7 @@ namespace Guidewire.Core.Tests
             SimulationParameters parameters = OnAnIncline(0.3, 0.25);
             var scene = new MaterialScene(parameters, new Scene(parameters));
             WallTerms walls = DirectSetup.WallTermsOf(parameters, scene, new Barrier(5e-5, 1e3),
-                new SupportSpring(scene.Rod, 0.0));
+                new SupportSpring(scene.Rod, HubLimit.None));
             RodDynamics motion = DirectSetup.DynamicsOf(parameters, scene,
                 new RodTerms(scene.Rod, scene.Supports, parameters.Scene, walls, Array.Empty<EnergyTerm>()));
             Rods.Step(motion, 1e-3, 5);

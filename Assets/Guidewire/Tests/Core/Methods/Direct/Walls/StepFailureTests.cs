@@ -13,7 +13,9 @@ namespace Guidewire.Core.Tests
         [Test]
         public void Jam_NamesForcePlaceAndLimit()
         {
-            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 1000.0, 400.0));
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 1000.0, 400.0);
+            parameters.Drive.HubForceLimit = 0.0;
+            Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
             Assert.That(run.Reason, Does.Contain("hubForceLimit").And.Not.Contain("shorter timeStep"));
             Match said = Regex.Match(run.Reason, @"the hub pushes with (\S+) N; the largest of \d+ contact forces is"

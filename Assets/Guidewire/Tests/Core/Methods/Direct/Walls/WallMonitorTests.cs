@@ -115,7 +115,7 @@ namespace Guidewire.Core.Tests
             var walls = new ContactShape[radii.Length];
             Array.Copy(Walls, walls, walls.Length);
             var barrier = new BarrierEnergy(rod, walls, 1.0, new Barrier(0.02, 10.0));
-            var terms = new WallTerms(barrier, null, new SupportSpring(rod, 0.0), false);
+            var terms = new WallTerms(barrier, null, new SupportSpring(rod, HubLimit.None), false);
             var monitor = new WallMonitor(rod, terms, 1.0);
             monitor.BeginStep(Shape(from));
             monitor.AddPart(Shape(to));

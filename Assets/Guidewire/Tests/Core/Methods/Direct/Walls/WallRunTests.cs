@@ -96,6 +96,7 @@ namespace Guidewire.Core.Tests
             parameters.Scene.GuidewireOffset = 0.0;
             parameters.Scene.Walls = WallScenes.Tube(-50.0, 300.0, 0.5, openEnd: false);
             parameters.Drive.Kind = Drive.Push;
+            parameters.Drive.HubForceLimit = 0.0;
             parameters.Drive.DisplacementPerStep = 1.0;
             parameters.Method.TimeStep = 0.01;
             parameters.Method.MaxSimulationSteps = 12;
@@ -315,7 +316,9 @@ namespace Guidewire.Core.Tests
         public void DriveWhoseWayTheWallsBar_EndsTheRunWithAReason()
         {
             // The hub goes on straight where the tube bends: it asks for 72 mm beyond its wall.
-            Simulation run = Wires.Run(WallScenes.Arch(30, 0.01, 1000.0, 400.0));
+            SimulationParameters parameters = WallScenes.Arch(30, 0.01, 1000.0, 400.0);
+            parameters.Drive.HubForceLimit = 0.0;
+            Simulation run = Wires.Run(parameters);
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Failed), run.Reason);
             Assert.That(run.Reason, Does.Contain("the walls keep sphere 0 from the position of the drive"));
             Assert.That(run.Reason, Does.Contain("hubForceLimit"));
