@@ -164,9 +164,9 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void H_ShowsAndHidesTheKeys()
         {
-            Assert.That(Engine.Labels, Does.Contain(KeyboardControl.Help));
+            Assert.That(Engine.Labels, Does.Contain(Engine.Find<KeyboardControl>().Help));
             Stage.Tap(KeyCode.H);
-            Assert.That(Engine.Labels, Does.Not.Contain(KeyboardControl.Help));
+            Assert.That(Engine.Labels, Does.Not.Contain(Engine.Find<KeyboardControl>().Help));
         }
 
         [Test]

@@ -198,12 +198,21 @@ namespace Guidewire.Unity.Tests
             var touched = new HashSet<int>();
             int began = 0;
             int ended = 0;
-            _loop.ContactBegan += sphere =>
+            SceneVessel vessel = Engine.Find<SceneVessel>();
+            WireEvents events = _object.AddComponent<WireEvents>();
+            events.ContactBegan.AddListener(contact =>
             {
                 began++;
-                Assert.That(touched.Add(sphere), Is.True);
-            };
-            _loop.ContactEnded += sphere => Assert.That(touched.Remove(sphere), Is.True);
+                Assert.That(touched.Add(contact.Sphere), Is.True);
+                Assert.That(contact.Vessel, Is.EqualTo(vessel));
+                Assert.That(contact.Force.magnitude, Is.GreaterThan(0f));
+                Vector3 place = _object.transform.TransformPoint(
+                    _loop.State!.Rod.Positions[contact.Sphere].ToUnity());
+                Assert.That(Vector3.Distance(contact.Place, place), Is.LessThan(1e-6f));
+                Vector3 inward = Quaternion.Inverse(Turned) * contact.Force;
+                Assert.That(inward.magnitude, Is.EqualTo(contact.Force.magnitude).Within(1e-3f * inward.magnitude));
+            });
+            events.ContactEnded.AddListener(contact => Assert.That(touched.Remove(contact.Sphere), Is.True));
             _loop.Ended += (outcome, reason) => ended += outcome == Outcome.Finished && reason.Length > 0 ? 1 : 100;
             Engine.Press(KeyCode.UpArrow);
             Stage.Frames(200);

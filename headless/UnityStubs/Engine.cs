@@ -26,6 +26,9 @@ namespace UnityStubs
             public bool IsStarted;
         }
 
+        internal static readonly List<MeshRenderer> Renderers = new List<MeshRenderer>();
+        private static System.Threading.Thread _main;
+
         private static readonly List<Live> Behaviours = new List<Live>();
         private static readonly List<GameObject> Objects = new List<GameObject>();
 
@@ -51,6 +54,7 @@ namespace UnityStubs
         /// <param name="projectRoot">Folder that holds Assets.</param>
         public static void Reset(string projectRoot)
         {
+            _main = System.Threading.Thread.CurrentThread;
             Unload();
             Console.Clear();
             Input.Held.Clear();
@@ -99,6 +103,24 @@ namespace UnityStubs
             return null;
         }
 
+        internal static T[] FindAll<T>()
+            where T : Component => Objects.ConvertAll(one => one.GetComponent<T>()).FindAll(one => one != null).ToArray();
+
+        /// <summary>What Unity's objects do on any other thread than its own.</summary>
+        internal static void RequireMainThread()
+        {
+            if (_main != null && _main != System.Threading.Thread.CurrentThread)
+            {
+                throw new UnityException("can only be called from the main thread");
+            }
+        }
+
+        internal static T OnMainThread<T>(T value)
+        {
+            RequireMainThread();
+            return value;
+        }
+
         /// <summary>One frame.</summary>
         /// <param name="seconds">Real time since the last one.</param>
         public static void Frame(float seconds)
@@ -130,6 +152,17 @@ namespace UnityStubs
             for (int i = 0; i < Behaviours.Count; i++)
             {
                 Run(Behaviours[i], Behaviours[i].LateUpdate);
+            }
+            int place = 0;
+            foreach (MeshRenderer renderer in Renderers)    // before what is drawn for the frame alone
+            {
+                Mesh mesh = renderer.gameObject.GetComponent<MeshFilter>()?.sharedMesh;
+                if (!renderer.isDestroyed && renderer.enabled && renderer.gameObject.activeInHierarchy && mesh != null
+                    && renderer.sharedMaterial != null)
+                {
+                    Drawn.Insert(place++, (mesh, renderer.transform.localToWorldMatrix, renderer.sharedMaterial,
+                        renderer.gameObject.layer));
+                }
             }
             for (int pass = 0; pass < 2; pass++)
             {
@@ -177,6 +210,8 @@ namespace UnityStubs
             }
             Objects.Clear();
             Behaviours.Clear();
+            Renderers.Clear();
+            Camera.All.Clear();
         }
 
         internal static void Awaken(Component component)

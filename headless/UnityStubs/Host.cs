@@ -56,6 +56,8 @@ namespace UnityEngine
 
         public static void LogWarning(object message) => UnityStubs.Engine.Write(LogType.Warning, message);
 
+        public static void LogWarning(object message, Object context) => LogWarning(message);
+
         public static void LogError(object message) => UnityStubs.Engine.Write(LogType.Error, message);
     }
 

@@ -7,6 +7,13 @@ namespace UnityEngine
     {
         internal bool isDestroyed;
 
+        public Object()
+        {
+            UnityStubs.Engine.RequireMainThread();
+        }
+
+        public HideFlags hideFlags { get; set; }
+
         public string name { get; set; } = "";
 
         /// <summary>At once here, at the end of the frame in Unity. In edit mode an error, and nothing is destroyed.
@@ -64,6 +71,17 @@ namespace UnityEngine
         public override int GetHashCode() => base.GetHashCode();
     }
 
+    [Flags]
+    public enum HideFlags
+    {
+        None = 0,
+        DontSave = 52,
+    }
+
+    public struct EntityId
+    {
+    }
+
     public sealed class TextAsset : Object
     {
         public TextAsset(string text)
@@ -73,10 +91,12 @@ namespace UnityEngine
 
         internal TextAsset(byte[] bytes)
         {
-            this.bytes = bytes;
+            _bytes = bytes;
         }
 
-        public byte[] bytes { get; }
+        private readonly byte[] _bytes;
+
+        public byte[] bytes => UnityStubs.Engine.OnMainThread(_bytes);
 
         public long dataSize => bytes.Length;
 
@@ -101,7 +121,9 @@ namespace UnityEngine
         internal string prefabRoot;
         internal string prefabPath;
 
-        public Transform transform => (Transform)components[0];
+        public Transform transform => UnityStubs.Engine.OnMainThread((Transform)components[0]);
+
+        public string tag { get; set; } = "Untagged";
 
         public int layer { get; set; }
 
@@ -154,13 +176,27 @@ namespace UnityEngine
             var component = (Component)Activator.CreateInstance(type);
             component.gameObject = this;
             components.Add(component);
+            if (component is MeshRenderer renderer)
+            {
+                UnityStubs.Engine.Renderers.Add(renderer);
+            }
+            if (component is Camera camera)
+            {
+                Camera.All.Add(camera);
+            }
             return component;
         }
     }
 
     public class Component : Object
     {
-        public GameObject gameObject { get; internal set; }
+        private GameObject _gameObject;
+
+        public GameObject gameObject
+        {
+            get => UnityStubs.Engine.OnMainThread(_gameObject);
+            internal set => _gameObject = value;
+        }
 
         public Transform transform => gameObject.transform;
 
@@ -170,6 +206,25 @@ namespace UnityEngine
         {
             component = gameObject.GetComponent<T>();
             return component is object;
+        }
+
+        public void GetComponents<T>(List<T> results)
+        {
+            results.Clear();
+            foreach (Component component in gameObject.components)
+            {
+                if (component is T found)
+                {
+                    results.Add(found);
+                }
+            }
+        }
+
+        public T[] GetComponents<T>()
+        {
+            var found = new List<T>();
+            GetComponents(found);
+            return found.ToArray();
         }
 
         public T GetComponentInParent<T>()
@@ -206,7 +261,7 @@ namespace UnityEngine
         public Quaternion rotation
         {
             get => parent is null ? localRotation : parent.rotation * localRotation;
-            set => localRotation = parent is null ? value : Back(parent.rotation) * value;
+            set => localRotation = parent is null ? value : Quaternion.Inverse(parent.rotation) * value;
         }
 
         /// <summary>As of parents that are not sheared.</summary>
@@ -236,7 +291,6 @@ namespace UnityEngine
             }
         }
 
-        private static Quaternion Back(Quaternion q) => new Quaternion(-q.x, -q.y, -q.z, q.w);
     }
 
     public class Behaviour : Component
@@ -263,6 +317,8 @@ namespace UnityEngine
     public class Renderer : Component
     {
         public Material sharedMaterial { get; set; }
+
+        public bool enabled { get; set; } = true;
     }
 
     public sealed class MeshRenderer : Renderer
@@ -295,11 +351,40 @@ namespace UnityEngine
         public Vector3 GetPosition(int index) => _positions[index];
     }
 
+    public sealed class Rigidbody : Component
+    {
+        public bool isKinematic { get; set; }
+
+        public void MovePosition(Vector3 position) => transform.position = position;
+
+        public void MoveRotation(Quaternion rot) => transform.rotation = rot;
+    }
+
     public sealed class Camera : Behaviour
     {
+        internal static readonly List<Camera> All = new List<Camera>();
+
+        public static Camera main =>
+            All.Find(camera => camera != null && camera.gameObject.tag == "MainCamera" && camera.isActiveAndEnabled);
+
+        public float nearClipPlane { get; set; } = 0.3f;
     }
 
     public sealed class Light : Behaviour
     {
+    }
+}
+
+namespace UnityEngine.Events
+{
+    public delegate void UnityAction<T0>(T0 arg0);
+
+    public class UnityEvent<T0>
+    {
+        private event UnityAction<T0> Listeners;
+
+        public void AddListener(UnityAction<T0> call) => Listeners += call;
+
+        public void Invoke(T0 arg0) => Listeners?.Invoke(arg0);
     }
 }

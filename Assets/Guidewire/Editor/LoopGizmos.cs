@@ -25,6 +25,16 @@ namespace Guidewire.Editor
             }
         }
 
+        // Not a gizmo: the view's own mesh, as Play would begin with it.
+        [DrawGizmo(GizmoType.Selected | GizmoType.InSelectionHierarchy | GizmoType.NonSelected)]
+        private static void ShowStart(WireView view, GizmoType type)
+        {
+            if (!Application.isPlaying && view.Loop is { } loop && StartCheck.Of(loop).Last is { Start: { } } found)
+            {
+                view.DrawStart(found.Start, found.Parameters!);
+            }
+        }
+
         [DrawGizmo(GizmoType.Selected | GizmoType.InSelectionHierarchy)]
         private static void DrawRims(SceneVessel vessel, GizmoType type)
         {

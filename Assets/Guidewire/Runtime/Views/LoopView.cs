@@ -9,8 +9,8 @@ namespace Guidewire.Runtime
         [Tooltip("What is shown; empty: the loop of this object, or of the nearest above.")]
         [SerializeField] private SimulationLoop? _loop;
 
-        private SimulationLoop? _builtLoop;
-        private int _builtGeneration;
+        [System.NonSerialized] private SimulationLoop? _builtLoop;    // what was built is not kept by a reload either
+        [System.NonSerialized] private int _builtGeneration;
 
         /// <summary>What is shown; null where there is none.</summary>
         public SimulationLoop? Loop
