@@ -115,10 +115,20 @@ namespace Guidewire.Unity.Tests
             var parent = new GameObject("Patient");
             parent.transform.localPosition = new Vector3(1f, 2f, 3f);
             Undo.Created.Clear();
+            SceneView.lastActiveSceneView = new SceneView();
             Application.isPlaying = true;
             Call(Menu, "CreateWire", new MenuCommand(parent));
             var made = (GameObject)Selection.activeObject;
-            Assert.That(Undo.Created, Is.EqualTo(new[] { made }));
+            Camera camera = Camera.main;
+            Assert.That(Undo.Created, Is.EqualTo(new[] { made, camera.gameObject }), "wire and, as there was none, camera");
+            Bounds framed = SceneView.lastActiveSceneView.Framed;
+            Assert.That((framed.center - parent.transform.position).magnitude, Is.LessThan(0.05f));
+            Assert.That(framed.size.x, Is.EqualTo(0.26f).Within(1e-4f));
+            Vector3 towards = framed.center - camera.transform.position;
+            Assert.That(towards.magnitude, Is.EqualTo(0.4f).Within(1e-3f), "before Play already");
+            Assert.That(Vector3.Dot(towards.normalized, camera.transform.rotation * Vector3.forward),
+                Is.EqualTo(1f).Within(1e-4f));
+            Assert.That(camera.nearClipPlane, Is.LessThan(0.1f * towards.magnitude));
             Assert.That(made.transform.parent, Is.EqualTo(parent.transform));
             SimulationLoop loop = made.GetComponent<SimulationLoop>();
             loop.Stepping = SteppingMode.Frames;

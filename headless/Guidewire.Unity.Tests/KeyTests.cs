@@ -139,14 +139,15 @@ namespace Guidewire.Unity.Tests
         public void G_DrawsThreeDirectorsAnElement()
         {
             int before = Engine.Drawn.Count;
+            int meshes = Engine.Renderers.Count;    // wire and vessel, drawn before balls and sticks
             Stage.Tap(KeyCode.G);
             Stage.Frames(1);
             Assert.That(Engine.Drawn.Count - before, Is.EqualTo(3 * Stage.State.ElementCount));
 
-            // Behind the tube's: the third of element 0 lies along it: its far end is beyond the middle along d3.
+            // The third of element 0 lies along it: its far end is beyond the middle along d3.
             RodState state = Stage.Shown;
             Vector3 middle = (0.5 * (state.Positions[0] + state.Positions[1])).ToUnity();
-            Matrix4x4 place = Engine.Drawn[3].Place;
+            Matrix4x4 place = Engine.Drawn[meshes + 2].Place;
             Vector3 end = place.MultiplyPoint3x4(Vector3.forward) - middle;
             Assert.That(Vector3.Dot(end.normalized, state.Orientations[0].Director3.ToUnity()),
                 Is.EqualTo(1f).Within(1e-4f));

@@ -19,6 +19,21 @@ namespace Guidewire.Unity.Tests
                 .Where(typeof(MonoBehaviour).IsAssignableFrom), Is.Empty, "no object of a player can hold these");
         }
 
+        [Test]
+        public void EverySerializedField_HasATooltip_AndNumbersARange()
+        {
+            IEnumerable<string> problems = new[] { typeof(SimulationLoop), typeof(Hud) }
+                .SelectMany(one => one.Assembly.GetTypes()).Where(type => type.DeclaringType == null
+                    && (typeof(MonoBehaviour).IsAssignableFrom(type) || type == typeof(KeyAxis)))
+                .SelectMany(type => type.GetFields(System.Reflection.BindingFlags.DeclaredOnly
+                    | System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic))
+                .Where(field => field.IsDefined(typeof(SerializeField), false))
+                .Where(field => ScriptRules.InspectorProblem(field) != null)
+                .Select(field => field.DeclaringType!.Name + "." + field.Name + " "
+                    + ScriptRules.InspectorProblem(field));
+            Assert.That(problems, Is.Empty);
+        }
+
         // Each member but those of Right, and the class itself, which stands in another.
         [Test]
         public void WhatUnityPassesOver_IsNamed()

@@ -69,6 +69,23 @@ namespace Guidewire.Unity.Tests
             }
         }
 
+        /// <summary>Whether a field keeps its value where scripts are compiled anew in Play: private ones do, too.
+        /// </summary>
+        public static bool SurvivesReload(FieldInfo field)
+        {
+            return !field.IsDefined(typeof(NonSerializedAttribute)) && !field.IsStatic && !field.IsInitOnly
+                && Refusal(field) == null;
+        }
+
+        /// <summary>What a field lacks for whoever sees it in the Inspector; null where nothing.</summary>
+        public static string? InspectorProblem(FieldInfo field)
+        {
+            bool isNumber = field.FieldType == typeof(float) || field.FieldType == typeof(int);
+            return !field.IsDefined(typeof(TooltipAttribute)) ? "has no tooltip"
+                : isNumber && !field.IsDefined(typeof(UnityEngine.RangeAttribute)) && !field.IsDefined(typeof(MinAttribute))
+                    ? "has no range" : null;
+        }
+
         private static bool IsMadeByUnity(Type type) =>
             typeof(MonoBehaviour).IsAssignableFrom(type) || typeof(ScriptableObject).IsAssignableFrom(type);
 

@@ -201,6 +201,45 @@ namespace UnityStubs
         /// <summary>Leaves input to the Input System package: every call of Input throws from here on.</summary>
         public static void RefuseInput() => Input.IsRefused = true;
 
+        /// <summary>What Unity does where scripts are compiled anew in Play: what is not kept is as in a new object.
+        /// </summary>
+        public static void Reload(Func<FieldInfo, bool> isKept)
+        {
+            UnityEditor.AssemblyReloadEvents.Raise();
+            foreach (Live live in Behaviours)
+            {
+                (live.IsEnabled ? live.OnDisable : null)?.Invoke();
+                object made = Activator.CreateInstance(live.Behaviour.GetType());
+                for (Type type = live.Behaviour.GetType(); type != typeof(MonoBehaviour); type = type.BaseType)
+                {
+                    foreach (FieldInfo field in type.GetFields(BindingFlags.DeclaredOnly | BindingFlags.Instance
+                        | BindingFlags.Public | BindingFlags.NonPublic))
+                    {
+                        if (!isKept(field))
+                        {
+                            field.SetValue(live.Behaviour, field.GetValue(made));
+                        }
+                    }
+                }
+            }
+            foreach (Live live in Behaviours)
+            {
+                (live.IsEnabled ? live.OnEnable : null)?.Invoke();
+            }
+        }
+
+        /// <summary>Methods that a player calls as it starts, in Unity's order.</summary>
+        public static IEnumerable<MethodInfo> Initializers(Assembly assembly)
+        {
+            var found = new List<MethodInfo>();
+            foreach (Type type in assembly.GetTypes())
+            {
+                found.AddRange(Array.FindAll(type.GetMethods(BindingFlags.Static | BindingFlags.Public
+                    | BindingFlags.NonPublic), one => one.IsDefined(typeof(RuntimeInitializeOnLoadMethodAttribute))));
+            }
+            return found;
+        }
+
         /// <summary>Destroys every object.</summary>
         public static void Unload()
         {
