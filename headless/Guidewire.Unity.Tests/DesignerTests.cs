@@ -196,16 +196,16 @@ namespace Guidewire.Unity.Tests
             string file = Path.Combine(folder, "scene.json");
             File.WriteAllText(file, "{\"solver\": \"direct\", \"guidewireLength\": 80, \"numberRodElements\": 20, "
                 + "\"wireRadius\": 0.00018, \"massDamping\": 20, \"proximalEnd\": \"clamped\", \"sheath\": {}, "
+                + "\"drive\": \"displace\", \"insertionSpeed\": 0.04, "
                 + "\"inlet\": 1, \"target\": [0, 0, 30], \"vessel\": {\"shape\": \"mesh\", \"file\": "
                 + "\"vessel.obj\", \"anatomy\": \"anatomy.json\"}, \"timeStep\": 0.02, \"deltaThreshold\": 0, "
                 + "\"maxSimulationSteps\": 60}");
-            _loop.Choose(file, Array.Empty<string>(), "", isSteered: true);
+            _loop.Choose(file, Array.Empty<string>(), "", isSteered: false);
             WireEvents events = _loop.gameObject.AddComponent<WireEvents>();
             var reached = new List<Vector3>();
             var ended = new List<string>();
             events.TargetReached.AddListener(reached.Add);
             events.Ended.AddListener(ended.Add);
-            _loop.Push = 1f;
             Stage.Frames(90);
             Assert.That(_loop.Problem, Is.Empty);
             Assert.That(reached, Has.Count.EqualTo(1));

@@ -14,7 +14,14 @@ namespace UnityEngine
 
         public HideFlags hideFlags { get; set; }
 
-        public string name { get; set; } = "";
+        private string _name = "";
+
+        /// <summary>Of a component that of its object.</summary>
+        public string name
+        {
+            get => this is Component component ? component.gameObject.name : _name;
+            set => _name = value;
+        }
 
         /// <summary>At once here, at the end of the frame in Unity. In edit mode an error, and nothing is destroyed.
         /// </summary>
