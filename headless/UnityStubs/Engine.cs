@@ -240,6 +240,23 @@ namespace UnityStubs
             return found;
         }
 
+        /// <summary>Play is pressed: what runs in Edit Mode is switched off there, then all objects wake.</summary>
+        public static void EnterPlay(params GameObject[] objects)
+        {
+            foreach (GameObject one in objects)
+            {
+                foreach (Component component in one.components.ToArray())
+                {
+                    if (component is MonoBehaviour own && own.GetType().IsDefined(typeof(ExecuteAlways)))
+                    {
+                        Message(own, "OnDisable")?.Invoke();
+                    }
+                }
+            }
+            Application.isPlaying = true;
+            Enter(objects);
+        }
+
         /// <summary>Destroys every object.</summary>
         public static void Unload()
         {

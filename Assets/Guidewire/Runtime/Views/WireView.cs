@@ -246,7 +246,8 @@ namespace Guidewire.Runtime
         {
             for (int i = 0; i < state.SphereCount; i++)
             {
-                BallsAndSticks.DrawSphere(Ball(), Place, state.Positions[i].ToUnity(), radius, material, gameObject.layer);
+                BallsAndSticks.DrawSphere(Ball(), Place, state.Positions[i].ToUnity(), radius, material,
+                    gameObject.layer);
             }
         }
 
