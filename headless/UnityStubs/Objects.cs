@@ -346,6 +346,8 @@ namespace UnityEngine
     {
         private Vector3[] _positions = Array.Empty<Vector3>();
 
+        public float widthMultiplier { get; set; } = 1f;
+
         public int positionCount
         {
             get => _positions.Length;

@@ -184,6 +184,21 @@ namespace UnityStubs
                         transform.localScale = (Vector3)Value(typeof(Vector3), scale, null);
                     }
                 }
+                if (document.Class == 4 && document.Values.TryGetValue("m_Father", out string father)
+                    && _objects.TryGetValue(long.Parse(FileId.Match(father).Groups[1].Value,
+                        CultureInfo.InvariantCulture), out UnityEngine.Object above))
+                {
+                    ((Transform)_objects[document.Id]).SetParent((Transform)above, false);
+                }
+                if (document.Class == 1)
+                {
+                    ((GameObject)_objects[document.Id]).tag = document.Values["m_TagString"];
+                }
+                if (_objects.TryGetValue(document.Id, out UnityEngine.Object made) && made is Renderer renderer)
+                {
+                    string own = Guid.Match(document.Lists["m_Materials"][0]).Groups[1].Value;
+                    renderer.sharedMaterial = (Material)Asset(PathOf(own));
+                }
                 if (document.Class == 114)
                 {
                     SetFields(_objects[document.Id], document);
@@ -198,6 +213,12 @@ namespace UnityStubs
             {
                 case 20:
                     return typeof(Camera);
+                case 23:
+                    return typeof(MeshRenderer);
+                case 33:
+                    return typeof(MeshFilter);
+                case 120:
+                    return typeof(LineRenderer);
                 case 108:
                     return typeof(Light);
                 case 114:

@@ -11,6 +11,7 @@ public sealed class OwnWire : MonoBehaviour
 
     private void Start()
     {
+        _line.widthMultiplier = 0.0018f;    // the width of the line in metres
         _wire.ContactBegan += contact => _touching++;
         _wire.ContactEnded += contact => _touching--;
         _wire.Ended += (outcome, reason) => Debug.Log("the run has ended, " + outcome + ": " + reason);

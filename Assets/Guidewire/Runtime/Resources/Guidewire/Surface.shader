@@ -52,7 +52,7 @@ Shader "Guidewire/Surface"
                 UNITY_INITIALIZE_VERTEX_OUTPUT_STEREO(output);
                 float3 place = mul(unity_ObjectToWorld, float4(input.position.xyz, 1)).xyz;
                 output.position = mul(UNITY_MATRIX_VP, float4(place, 1));
-                output.normal = UnityObjectToWorldNormal(input.normal);
+                output.normal = any(input.normal) ? UnityObjectToWorldNormal(input.normal) : 0;
                 output.toCamera = UnityWorldSpaceViewDir(place);
                 output.uv = input.uv;
                 return output;
@@ -60,7 +60,9 @@ Shader "Guidewire/Surface"
 
             fixed4 Fragment(Varying input) : SV_Target
             {
-                float facing = saturate(dot(normalize(input.normal), normalize(input.toCamera)));
+                // A line has no normals: it is lit as if it faced the camera.
+                float size = length(input.normal);
+                float facing = size > 0 ? saturate(dot(input.normal / size, normalize(input.toCamera))) : 1;
                 fixed4 colour = _Color * tex2D(_MainTex, input.uv);
                 float3 lit = colour.rgb * (0.35 + 0.65 * facing) + 0.15 * pow(facing, 40);
                 return fixed4(lit * colour.a, colour.a);
