@@ -105,7 +105,7 @@ namespace Guidewire.Unity.Tests
         public void AVesselThatMovesInPlay_IsWarnedOfOnce()
         {
             var vessel = new GameObject("Vessel");
-            vessel.AddComponent<MeshFilter>().sharedMesh = Tube(12f);
+            vessel.AddComponent<MeshFilter>().sharedMesh = SampleTests.Tube(point => 2f * point);
             vessel.transform.localRotation = _loop.transform.localRotation;
             vessel.transform.localScale = _loop.transform.localScale;
             _loop.Choose("params/default.json", new[] { "solver=pbd" }, "", isSteered: false);
@@ -121,32 +121,6 @@ namespace Guidewire.Unity.Tests
             Stage.Frames(30);
             Assert.That(Engine.Console, Has.Count.EqualTo(1));
             Assert.That(Engine.Console[0].Text, Does.Contain("Vessel").And.Contain("Load"));
-        }
-
-        // A closed tube of a radius about z, around every wire of the tests.
-        private static Mesh Tube(float radius)
-        {
-            const int Sides = 12;
-            var points = new List<Vector3>();
-            var triangles = new List<int>();
-            for (int k = 0; k < 2 * Sides; k++)
-            {
-                float angle = 2f * Mathf.PI * (k % Sides) / Sides;
-                points.Add(new Vector3(radius * Mathf.Cos(angle), radius * Mathf.Sin(angle), k < Sides ? -900f : 900f));
-            }
-            for (int a = 0; a < Sides; a++)
-            {
-                int b = (a + 1) % Sides;
-                triangles.AddRange(new[] { a, a + Sides, b, b, a + Sides, b + Sides });
-            }
-            for (int k = 1; k + 1 < Sides; k++)
-            {
-                triangles.AddRange(new[] { 0, k, k + 1, Sides, Sides + k + 1, Sides + k });
-            }
-            var mesh = new Mesh();
-            mesh.SetVertices(points.ToArray());
-            mesh.SetTriangles(triangles.ToArray(), 0);
-            return mesh;
         }
 
         [Test]

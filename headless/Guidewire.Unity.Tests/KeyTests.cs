@@ -203,25 +203,6 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void WithoutInput_TheWireRunsInThePicture_AndTheHudSaysWhatToSet()
-        {
-            Engine.Reset(Stage.Root);
-            Engine.RefuseInput();
-            Stage.Enter("Assets/Scenes/Insertion.unity");
-            Stage.Frames(5);
-            Transform camera = Engine.Find<OrbitCamera>().transform;
-            var middle = new Vector3(0f, 45f, -20f);    // the scene's target and distance
-            Vector3 towards = (middle - camera.position).normalized;
-            Assert.That(Vector3.Distance(camera.position, middle), Is.EqualTo(430f).Within(0.1f));
-            Assert.That(Vector3.Dot(towards, camera.rotation * Vector3.forward), Is.EqualTo(1f).Within(1e-5f));
-            Assert.That(Stage.Loop.Session!.Simulation.StepCount, Is.GreaterThan(0));
-            Assert.That(string.Join("\n", Engine.Labels), Does.Contain("Active Input Handling"));
-            Stage.Open("Assets/Scenes/Insertion.unity");
-            Stage.Frames(5);
-            Assert.That(string.Join("\n", Engine.Labels), Does.Not.Contain("Active Input Handling"));
-        }
-
-        [Test]
         public void Button_ChangesNothing_WhereThereIsNoOtherChoice()
         {
             Stage.Tap(KeyCode.Space);

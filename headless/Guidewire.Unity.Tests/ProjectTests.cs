@@ -218,6 +218,24 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
+        public void ALoopThatWasCopied_OrIsClosed_LeavesNoMeshBehind()
+        {
+            SimulationLoop loop = Made();
+            loop.gameObject.AddComponent<WireView>();
+            Stage.Frames(2);
+            var copied = new GameObject(Engine.Renderers[0].name);    // as of a copy of the loop's object
+            copied.transform.SetParent(loop.transform);
+            copied.AddComponent<MeshFilter>().sharedMesh = Engine.Renderers[0].GetComponent<MeshFilter>().sharedMesh;
+            copied.AddComponent<MeshRenderer>().sharedMaterial = Engine.Renderers[0].sharedMaterial;
+            loop.Load();
+            Stage.Frames(2);
+            Assert.That(Engine.Drawn, Has.Count.EqualTo(2), "wire and catheter");
+            loop.Close();
+            Stage.Frames(2);
+            Assert.That(Engine.Drawn, Is.Empty);
+        }
+
+        [Test]
         public void OfSeveralInputs_TheFirstThatIsEnabled_Steers()
         {
             SimulationLoop loop = Made();

@@ -28,7 +28,7 @@ namespace Guidewire.Unity.Tests
         public void Leave() => Engine.Unload();
 
         // A closed tube about z of the wire's object, with hemispheres' poles as fans; slightly bent to the side.
-        private static Mesh Tube(Func<Vector3, Vector3> place)
+        internal static Mesh Tube(Func<Vector3, Vector3> place)
         {
             var points = new List<Vector3>();
             var triangles = new List<int>();
@@ -283,28 +283,6 @@ namespace Guidewire.Unity.Tests
             _loop.Choose(new TextAsset("[1]") { name = "wire" });
             _loop.Load();
             Assert.That(_loop.Problem, Does.StartWith("wire: needs one JSON object"));
-        }
-
-        [Test]
-        public void InputSystem_SteersByTwoActions()
-        {
-            Engine.Reset(Stage.Root);
-            GameObject made = Standing("Wire", Vector3.zero, Quaternion.identity, 1f);
-            var input = (InputSystemWire)made.Attach(typeof(InputSystemWire));
-            var push = new InputAction("push");
-            var turn = new InputAction("turn");
-            Set(input, "_push", push);
-            Set(input, "_turn", turn);
-            var loop = (SimulationLoop)made.Attach(typeof(SimulationLoop));
-            loop.Stepping = SteppingMode.Frames;
-            loop.Choose("params/insertion.json", Array.Empty<string>(), "", isSteered: true);
-            Engine.Enter(new[] { made });
-            Assert.That(push.bindings.Select(one => one.path), Has.Member("<Keyboard>/w").And.Member(
-                "<Gamepad>/leftStick/y"));
-            push.Value = 0.5f;
-            turn.Value = -0.75f;
-            Stage.Frames(2);
-            Assert.That((loop.Push, loop.Turn), Is.EqualTo((0.5f, -0.75f)));
         }
 
         [Test]

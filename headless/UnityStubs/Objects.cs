@@ -253,6 +253,10 @@ namespace UnityEngine
 
         public Transform parent { get; private set; }
 
+        public int childCount => children.Count;
+
+        public Transform GetChild(int index) => children[index];
+
         public Vector3 localPosition { get; set; }
 
         public Quaternion localRotation { get; set; } = Quaternion.identity;

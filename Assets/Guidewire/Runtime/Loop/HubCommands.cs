@@ -12,9 +12,9 @@ namespace Guidewire.Runtime
         private readonly float[] _pushes = new float[Most];
         private readonly float[] _turns = new float[Most];
 
-        public float PushOf(int hub) => _pushes[hub];
+        public float PushOf(int hub) => hub < Most ? _pushes[hub] : 0f;
 
-        public float TurnOf(int hub) => _turns[hub];
+        public float TurnOf(int hub) => hub < Most ? _turns[hub] : 0f;
 
         /// <summary>Sets what a hub is asked; does nothing for one that no run has.</summary>
         public void Set(int hub, float push, float turn)

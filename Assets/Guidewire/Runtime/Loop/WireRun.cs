@@ -319,7 +319,8 @@ namespace Guidewire.Runtime
             for (int hub = 0; hub < hubs; hub++)
             {
                 double lost = Math.Abs(WireState.ShortfallOf(session, hub) - _before[hub]);
-                isJammed |= lost > 0.5 * Math.Abs(_motion[2 * hub]) * session.Parameters.Scene.MetresPerUnit;
+                isJammed |= _motion[2 * hub] != 0.0
+                    && lost > 0.5 * Math.Abs(_motion[2 * hub]) * session.Parameters.Scene.MetresPerUnit;
             }
             Publish(session, isJammed);
             return true;

@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using UnityEngine;
 using UnityEngine.Rendering;
 
@@ -7,6 +8,11 @@ namespace Guidewire.Runtime
     /// it as any object. It is saved in no scene.</summary>
     internal sealed class MeshObject
     {
+        private const string Prefix = "Guidewire: ";    // of what no user names so
+
+        // What is alive: a copy of a loop's object has copies of these that nobody rewrites, and so has a reload.
+        private static readonly HashSet<GameObject> Live = new HashSet<GameObject>();
+
         private readonly GameObject _object;
 
         public MeshObject(string name, SimulationLoop loop, Vector3[] vertices, int[] triangles)
@@ -15,7 +21,16 @@ namespace Guidewire.Runtime
             Mesh.MarkDynamic();
             Mesh.SetVertices(vertices);
             Mesh.SetTriangles(triangles, 0);
-            _object = new GameObject(name) { hideFlags = HideFlags.DontSave };
+            for (int k = loop.transform.childCount - 1; k >= 0; k--)
+            {
+                GameObject child = loop.transform.GetChild(k).gameObject;
+                if (child.name.StartsWith(Prefix, System.StringComparison.Ordinal) && !Live.Contains(child))
+                {
+                    Destroy(child);
+                }
+            }
+            _object = new GameObject(Prefix + name) { hideFlags = HideFlags.DontSave };
+            Live.Add(_object);
             _object.transform.SetParent(loop.transform, false);
             _object.AddComponent<MeshFilter>().sharedMesh = Mesh;
             Renderer = _object.AddComponent<MeshRenderer>();
@@ -46,6 +61,7 @@ namespace Guidewire.Runtime
 
         public void Destroy()
         {
+            Live.Remove(_object);
             Destroy(_object);
             Destroy(Mesh);
         }

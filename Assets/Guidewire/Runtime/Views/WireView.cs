@@ -113,6 +113,7 @@ namespace Guidewire.Runtime
             WireState? state = Loop == null ? null : Loop.Shown;
             if (state == null)
             {
+                Hide();
                 return;
             }
             Draw(Loop!, state, Loop!.Parameters!, isNew);
@@ -164,14 +165,20 @@ namespace Guidewire.Runtime
 
         private void OnDisable()
         {
+            Hide();
+            if (!Application.isPlaying)
+            {
+                OnDestroy();
+            }
+        }
+
+        // In Edit Mode the editor says what is shown.
+        private void Hide()
+        {
             if (Application.isPlaying)
             {
                 _object?.Hide();
                 _catheters.Hide();
-            }
-            else
-            {
-                OnDestroy();
             }
         }
 
