@@ -105,10 +105,11 @@ namespace Guidewire.Unity.Tests
         public void AVesselThatMovesInPlay_IsWarnedOfOnce()
         {
             var vessel = new GameObject("Vessel");
-            vessel.AddComponent<MeshFilter>().sharedMesh = SampleTests.Tube(point => 2f * point);
+            vessel.AddComponent<MeshFilter>().sharedMesh = SampleTests.Tube(
+                point => new Vector3(2f * point.x, 2f * point.y, 3f * point.z));
             vessel.transform.localRotation = _loop.transform.localRotation;
             vessel.transform.localScale = _loop.transform.localScale;
-            _loop.Choose("params/default.json", new[] { "solver=pbd" }, "", isSteered: false);
+            _loop.Choose("params/default.json", new[] { "guidewireOffset=-400" }, "", isSteered: false);
             _loop.Vessels = new[] { vessel.AddComponent<SceneVessel>() };
             Stage.Frames(5);
             Assert.That(_loop.Problem, Is.Empty);

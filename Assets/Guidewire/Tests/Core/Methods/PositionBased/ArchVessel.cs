@@ -85,7 +85,8 @@ namespace Guidewire.Core.Tests
                 {
                     Path.Combine(folder, "Assets", "Guidewire"), Path.Combine(folder, "Packages", Name),
                 };
-                found.AddRange(Directory.Exists(cache) ? Directory.GetDirectories(cache, Name + "*") : Array.Empty<string>());
+                found.AddRange(Directory.Exists(cache) ? Directory.GetDirectories(cache, Name + "*")
+                    : Array.Empty<string>());
                 found.RemoveAll(own => !Directory.Exists(Path.Combine(own, "Samples~")));
                 if (found.Count > 0)
                 {
