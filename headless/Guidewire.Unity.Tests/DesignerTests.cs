@@ -197,7 +197,8 @@ namespace Guidewire.Unity.Tests
             {
                 points.Append(k == 0 ? "" : ", ").Append(CultureInfo.InvariantCulture, $"[0, 0, {2 * k}, 2]");
             }
-            string End(int number, int z, int into, int point) => $"{{\"number\": {number}, \"name\": \"rim {number}\", "
+            string End(int number, int z, int into, int point) =>
+                $"{{\"number\": {number}, \"name\": \"rim {number}\", "
                 + $"\"centre\": [0, 0, {z}], \"radius\": 2, \"direction\": [0, 0, {into}], \"open\": true, "
                 + $"\"point\": {point}}}";
             return $"{{\"ends\": [{End(1, 0, 1, 0)}, {End(2, 60, -1, 30)}], \"centreline\": {{\"points\": [{points}], "

@@ -120,7 +120,7 @@ namespace Guidewire.Unity.Tests
             Call(Menu, "CreateWire", new MenuCommand(parent));
             var made = (GameObject)Selection.activeObject;
             Camera camera = Camera.main;
-            Assert.That(Undo.Created, Is.EqualTo(new[] { made, camera.gameObject }), "wire and, as there was none, camera");
+            Assert.That(Undo.Created, Is.EqualTo(new[] { made, camera.gameObject }), "wire and camera");
             Bounds framed = SceneView.lastActiveSceneView.Framed;
             Assert.That((framed.center - parent.transform.position).magnitude, Is.LessThan(0.05f));
             Assert.That(framed.size.x, Is.EqualTo(0.26f).Within(1e-4f));
@@ -131,7 +131,7 @@ namespace Guidewire.Unity.Tests
             Assert.That(camera.nearClipPlane, Is.LessThan(0.1f * towards.magnitude));
             Assert.That(made.transform.parent, Is.EqualTo(parent.transform));
             Call(Menu, "CreateWire", new MenuCommand(null));
-            Assert.That(camera.GetComponents<OrbitCamera>(), Has.Length.EqualTo(1), "the camera of the first stays its");
+            Assert.That(camera.GetComponents<OrbitCamera>(), Has.Length.EqualTo(1), "that of the first wire");
         }
 
         [Test]

@@ -120,7 +120,8 @@ namespace Guidewire.Unity.Tests
                 .SelectMany(name => LibraryRules.Used(Built(name), "UnityStubs"))
                 .Concat(LibraryRules.Used(Built("Guidewire.Unity.Tests"), "UnityStubs").Where(
                     one => one.Contains("CreateAssetWith", StringComparison.Ordinal)))    // as of a newer editor
-                .Where(one => !OfPackages.IsMatch(one)).Distinct().OrderBy(one => one, StringComparer.Ordinal).ToArray();
+                .Where(one => !OfPackages.IsMatch(one)).Distinct()
+                .OrderBy(one => one, StringComparer.Ordinal).ToArray();
             File.WriteAllLines(Path.Combine(TestContext.CurrentContext.WorkDirectory, "unity-members.txt"), used);
             string[] table = File.ReadAllLines(Path.Combine(Stage.Root,
                 "headless/Guidewire.Unity.Tests/published-members.txt"));

@@ -60,7 +60,7 @@ namespace Guidewire.Unity.Tests
             string file = Path.Combine(Stage.Root, "params/default.json");
             string folder = Path.Combine(TestContext.CurrentContext.WorkDirectory, "five-lines");
             // five
-            CommandLine line = CommandLineHandler.Read(new[] { "-parameters", file, "-out", folder }, logFileIsOurs: false);
+            CommandLine line = CommandLineHandler.Read(new[] { "-parameters", file, "-out", folder }, false);
             ParameterHandler handler = ParameterHandler.Load(line.ParameterFile, new[] { "maxSimulationSteps=20" });
             var run = new SimulationRun(handler, line.Out, null);
             RunResult result = run.Execute(Existing.Replace);

@@ -211,7 +211,8 @@ namespace Guidewire.Unity.Tests
             Assert.That(Stage.Loop.Problem, Is.Empty);
             Assert.That(Stage.Loop.Session, Is.Not.Null.And.Not.EqualTo(before));
             Assert.That(Stage.Loop.State!.StepCount, Is.GreaterThan(0));
-            Assert.That(Engine.Drawn.FindAll(one => one.Mesh == Stage.Wire.Mesh && one.Mesh != tube), Has.Count.EqualTo(1));
+            Assert.That(Engine.Drawn.FindAll(one => one.Mesh == Stage.Wire.Mesh && one.Mesh != tube),
+                Has.Count.EqualTo(1));
             Assert.That(Engine.Drawn.FindAll(one => one.Mesh == Engine.Find<VesselView>().Meshes[0]),
                 Has.Count.EqualTo(1));
             Assert.That(Engine.Console.FindAll(line => line.Type == LogType.Error), Is.Empty);

@@ -79,7 +79,8 @@ namespace Guidewire.Unity.Tests
 
         private static readonly object[] Others =
         {
-            new object[] { "Own vessel", "OwnVessel.unity", 0.2 }, new object[] { "Input System", "InputSystem.unity", 0.2 },
+            new object[] { "Own vessel", "OwnVessel.unity", 0.2 },
+            new object[] { "Input System", "InputSystem.unity", 0.2 },
             new object[] { "Tracked handle", "TrackedHandle.unity", 0.08 },
         };
 

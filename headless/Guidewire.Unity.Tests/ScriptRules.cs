@@ -71,8 +71,8 @@ namespace Guidewire.Unity.Tests
         {
             bool isNumber = field.FieldType == typeof(float) || field.FieldType == typeof(int);
             return !field.IsDefined(typeof(TooltipAttribute)) ? "has no tooltip"
-                : isNumber && !field.IsDefined(typeof(UnityEngine.RangeAttribute)) && !field.IsDefined(typeof(MinAttribute))
-                    ? "has no range" : null;
+                : isNumber && !field.IsDefined(typeof(UnityEngine.RangeAttribute))
+                    && !field.IsDefined(typeof(MinAttribute)) ? "has no range" : null;
         }
 
         private static bool IsMadeByUnity(Type type) =>

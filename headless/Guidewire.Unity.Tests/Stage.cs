@@ -45,7 +45,8 @@ namespace Guidewire.Unity.Tests
         /// <param name="project">As of <see cref="Open"/>.</param>
         public static void Enter(string scene, SteppingMode stepping = SteppingMode.Frames, string? project = null)
         {
-            List<GameObject> objects = SceneFile.Read(project ?? Root, scene, typeof(SimulationLoop).Assembly, typeof(Stage).Assembly);
+            List<GameObject> objects = SceneFile.Read(project ?? Root, scene,
+                typeof(SimulationLoop).Assembly, typeof(Stage).Assembly);
             foreach (GameObject one in objects)
             {
                 if (one.GetComponent<SimulationLoop>() is SimulationLoop loop)

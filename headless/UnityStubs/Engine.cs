@@ -104,7 +104,8 @@ namespace UnityStubs
         }
 
         internal static T[] FindAll<T>()
-            where T : Component => Objects.ConvertAll(one => one.GetComponent<T>()).FindAll(one => one != null).ToArray();
+            where T : Component => Objects.ConvertAll(one => one.GetComponent<T>()).FindAll(one => one != null)
+            .ToArray();
 
         /// <summary>What Unity's objects do on any other thread than its own.</summary>
         internal static void RequireMainThread()

@@ -104,8 +104,8 @@ def check(project: Project) -> Iterator[Violation]:
     for asmdef in asmdefs + samples:
         made = {str(entry.get("define")) for entry in _version_defines(asmdef)}
         for define in sorted(made ^ {word for word in used[asmdef.path] if _OWN_DEFINE.fullmatch(word)}):
-            yield Violation(asmdef.path, 0, "asmdef-define", f"{define}: versionDefines make it and nothing asks for it, "
-                                                             "or the other way round")
+            yield Violation(asmdef.path, 0, "asmdef-define", f"{define}: made and asked for by nothing, or the "
+                                                             "other way round")
 
 
 def _version_defines(asmdef: Asmdef) -> list[dict[str, Any]]:

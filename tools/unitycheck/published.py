@@ -65,7 +65,8 @@ def _is_there(member: str, types: dict[str, list[str]]) -> bool:
         for match in pattern.finditer(text):
             before = text[max(text.rfind(";", 0, match.start()), text.rfind("}", 0, match.start()),
                               text.rfind("{", 0, match.start())) + 1:match.start()]
-            if "Obsolete" not in before and ("public" in before or "protected" in before or not is_method or "enum" in text):
+            is_shown = "public" in before or "protected" in before or not is_method
+            if "Obsolete" not in before and is_shown:
                 return True
     return False
 
