@@ -1,5 +1,6 @@
 using System;
 using System.Diagnostics;
+using System.Linq;
 using System.Reflection;
 using System.Threading;
 using Guidewire.Editor;
@@ -105,7 +106,8 @@ namespace Guidewire.Unity.Tests
         }
 
         internal static void Call(Type type, string method, params object?[] arguments) =>
-            type.GetMethod(method, BindingFlags.Static | BindingFlags.NonPublic)!.Invoke(null, arguments);
+            type.GetMethods(BindingFlags.Static | BindingFlags.NonPublic).Single(
+                one => one.Name == method && one.GetParameters().Length == arguments.Length).Invoke(null, arguments);
 
         internal static readonly Type Menu = typeof(LoopInspector).Assembly.GetType("Guidewire.Editor.CreateMenu")!;
 

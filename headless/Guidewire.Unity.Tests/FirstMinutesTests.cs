@@ -67,6 +67,7 @@ namespace Guidewire.Unity.Tests
         {
             Look(_loop);
             EditorTests.Call(Gizmos, "ShowStart", view, GizmoType.Selected);
+            EditorApplication.CallDelayed();
             Engine.Frame(Stage.Frame);
             Assert.That(Engine.Drawn, Has.Count.EqualTo(1));
             return Engine.Drawn[0].Mesh.vertices.Select(Engine.Drawn[0].Place.MultiplyPoint3x4).ToArray();
@@ -173,6 +174,14 @@ namespace Guidewire.Unity.Tests
             WireView view = _wire.AddComponent<WireView>();
             _wire.AddComponent<KeyInput>();
             (_loop.IsSteered, _loop.Stepping) = (true, SteppingMode.Frames);
+            Assert.That(ShownStart(view), Is.Not.Empty);
+            _loop.Overrides = new[] { "timeStep=0" };
+            Assert.That(Look(_loop), Does.Contain("Error: ").And.Contain("timeStep"));
+            EditorTests.Call(Gizmos, "ShowStart", view, GizmoType.Selected);
+            EditorApplication.CallDelayed();
+            Engine.Frame(Stage.Frame);
+            Assert.That(Engine.Drawn, Is.Empty, "what cannot start is not shown");
+            _loop.Overrides = Array.Empty<string>();
             Assert.That(ShownStart(view), Is.Not.Empty);
             Engine.EnterPlay(_wire);
             Engine.Press(KeyCode.W);

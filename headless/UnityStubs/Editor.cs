@@ -20,6 +20,17 @@ namespace UnityEditor
 
     public static class EditorApplication
     {
+        public delegate void CallbackFunction();
+
+        public static CallbackFunction delayCall;
+
+        internal static void CallDelayed()
+        {
+            CallbackFunction calls = delayCall;
+            delayCall = null;
+            calls?.Invoke();
+        }
+
         public static void Exit(int returnValue) => UnityStubs.Engine.ExitCode = returnValue;
     }
 

@@ -245,6 +245,10 @@ namespace UnityEditor
 
         internal Bounds Framed;
 
+        public static void RepaintAll()
+        {
+        }
+
         public bool Frame(Bounds bounds, bool instant = true)
         {
             Framed = bounds;

@@ -6,6 +6,7 @@ using System.Threading.Tasks;
 using Guidewire.Core;
 using Guidewire.Io;
 using Guidewire.Runtime;
+using UnityEditor;
 
 namespace Guidewire.Editor
 {
@@ -40,6 +41,7 @@ namespace Guidewire.Editor
             {
                 _found = _task.Result;
                 _task = null;
+                SceneView.RepaintAll();
             }
             string key = loop.OpeningKey;
             if (_task != null || key == _asked)

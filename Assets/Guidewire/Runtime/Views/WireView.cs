@@ -119,12 +119,16 @@ namespace Guidewire.Runtime
             Draw(Loop!, state, Loop!.Parameters!, isNew);
         }
 
-        /// <summary>Draws a wire at its start, in Edit Mode.</summary>
-        internal void DrawStart(WireState start, SimulationParameters parameters)
+        /// <summary>Draws a wire at its start, in Edit Mode; null: none can be built.</summary>
+        internal void DrawStart(WireState? start, SimulationParameters? parameters)
         {
-            if (Loop != null && isActiveAndEnabled)
+            if (Loop != null && isActiveAndEnabled && start != null)
             {
-                Draw(Loop, start, parameters, _catheters.Count != start.Catheters.Count);
+                Draw(Loop, start, parameters!, _catheters.Count != start.Catheters.Count);
+            }
+            else
+            {
+                OnDestroy();
             }
         }
 
