@@ -11,8 +11,6 @@ namespace Guidewire.Unity.Tests
     public sealed class SampleTests
     {
         private const float Scale = 0.001f;
-        private const int Sides = 16;
-        private const int Rings = 30;
 
         private static readonly string Sample = Path.Combine(Stage.Root, "Assets/Guidewire/Samples~/OwnVessel");
 
@@ -27,34 +25,17 @@ namespace Guidewire.Unity.Tests
         [TearDown]
         public void Leave() => Engine.Unload();
 
-        // A closed tube about z of the wire's object, with hemispheres' poles as fans; slightly bent to the side.
+        // The sample's tube about z, closed, slightly bent to the side.
         internal static Mesh Tube(Func<Vector3, Vector3> place)
         {
-            var points = new List<Vector3>();
-            var triangles = new List<int>();
-            for (int ring = 0; ring < Rings; ring++)
-            {
-                float z = -140f + 340f * ring / (Rings - 1);
-                float bend = z > 0f ? 0.002f * z * z : 0f;
-                for (int k = 0; k < Sides; k++)
-                {
-                    float angle = 2f * Mathf.PI * k / Sides;
-                    points.Add(place(new Vector3(6f * Mathf.Cos(angle) + bend, 6f * Mathf.Sin(angle), z)));
-                }
-            }
-            for (int a = 0; a < (Rings - 1) * Sides; a++)
-            {
-                int b = a % Sides == Sides - 1 ? a + 1 - Sides : a + 1;
-                triangles.AddRange(new[] { a, a + Sides, b, b, a + Sides, b + Sides });
-            }
-            for (int k = 1; k + 1 < Sides; k++)
-            {
-                int last = (Rings - 1) * Sides;
-                triangles.AddRange(new[] { 0, k, k + 1, last, last + k + 1, last + k });
-            }
+            var made = new GameObject("Tube");
+            made.Attach(typeof(MeshFilter));
+            var tube = (TubeVessel)made.Attach(typeof(TubeVessel));
+            typeof(TubeVessel).GetMethod("Awake", BindingFlags.Instance | BindingFlags.NonPublic)!.Invoke(tube, null);
+            Mesh own = made.GetComponent<MeshFilter>().sharedMesh;
             var mesh = new Mesh();
-            mesh.SetVertices(points.ToArray());
-            mesh.SetTriangles(triangles.ToArray(), 0);
+            mesh.SetVertices(Array.ConvertAll(own.vertices, point => place(point)));
+            mesh.SetTriangles(own.triangles, 0);
             return mesh;
         }
 
@@ -200,6 +181,7 @@ namespace Guidewire.Unity.Tests
             int began = 0;
             int ended = 0;
             SceneVessel vessel = Engine.Find<SceneVessel>();
+            _loop.Overrides = new[] { "obstacles=[{\"shape\": \"sphere\", \"centre\": [0, 300, 0], \"radius\": 10}]" };
             WireEvents events = _object.AddComponent<WireEvents>();
             events.ContactBegan.AddListener(contact =>
             {
