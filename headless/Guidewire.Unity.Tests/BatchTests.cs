@@ -1,5 +1,7 @@
 using System;
 using System.Diagnostics;
+using System.Linq;
+using System.Reflection;
 using System.Text.RegularExpressions;
 using Guidewire.Editor;
 using Newtonsoft.Json.Linq;
@@ -167,6 +169,17 @@ namespace Guidewire.Unity.Tests
             Application.isEditor = false;
             PlayerBatch.Run(Unity("-maxSimulationSteps", steps, "-out", Path.Combine(_folder, "run")));
             Assert.That(Engine.ExitCode, Is.EqualTo(code));
+        }
+
+        [Test]
+        public void APlayer_AsksForARun_BeforeItsFirstScene()
+        {
+            MethodInfo method = Engine.Initializers(typeof(PlayerBatch).Assembly).Single();
+            Assert.That(method.DeclaringType, Is.EqualTo(typeof(PlayerBatch)));
+            Assert.That(method.GetCustomAttribute<RuntimeInitializeOnLoadMethodAttribute>()!.loadType,
+                Is.EqualTo(RuntimeInitializeLoadType.BeforeSceneLoad));
+            method.Invoke(null, null);
+            Assert.That(Engine.ExitCode, Is.Null, "this process has no -guidewire among its arguments");
         }
 
         [TestCase(false, false)]

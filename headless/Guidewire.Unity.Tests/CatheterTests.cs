@@ -28,9 +28,9 @@ namespace Guidewire.Unity.Tests
         [Test]
         public void I_PutsTheCatheterIntoTheHand_AndTheWireAgain()
         {
-            Assert.That(Stage.Loop.Held, Is.EqualTo(0));
+            Assert.That(Stage.Loop.SteeredInstrument, Is.EqualTo(0));
             Stage.Tap(KeyCode.I);
-            Assert.That(Stage.Loop.Held, Is.EqualTo(1));
+            Assert.That(Stage.Loop.SteeredInstrument, Is.EqualTo(1));
             double time = Stage.Loop.Session!.Simulation.Time;
             Engine.Press(KeyCode.W);
             Stage.Frames(8);
@@ -40,7 +40,7 @@ namespace Guidewire.Unity.Tests
             Assert.That(asked, Is.GreaterThan(1e-3));
             Assert.That(WireInsertion, Is.Zero);
             Stage.Tap(KeyCode.I);
-            Assert.That(Stage.Loop.Held, Is.EqualTo(0));
+            Assert.That(Stage.Loop.SteeredInstrument, Is.EqualTo(0));
             double before = Catheter.Insertion;
             Engine.Press(KeyCode.W);
             Stage.Frames(8);
@@ -92,13 +92,13 @@ namespace Guidewire.Unity.Tests
             Assert.That(Stage.Loop.Session.ChoicesOf(0).Count, Is.EqualTo(all));
             Assert.That(catheters, Is.EqualTo(new[] { "catheter-angled-5f", "catheter-guide-6f",
                 "catheter-simmons-2-5f", "microcatheter-2.4f" }));
-            Stage.Loop.TakeNextInstrument(1);
+            Stage.Loop.UseNextInstrument(1);
             Assert.That(Stage.Loop.Session!.NameOf(1), Is.EqualTo("catheter-guide-6f"), Stage.Loop.Problem);
             Assert.That(Stage.Loop.Session.NameOf(0), Is.EqualTo("bentson-0.035"));
-            Stage.Loop.TakeNextInstrument(0);
+            Stage.Loop.UseNextInstrument(0);
             Assert.That(Stage.Loop.Problem, Is.Empty, "a catheter of 5 F goes through a guide of 6 F");
             Assert.That(Stage.Loop.Session!.NameOf(0), Is.EqualTo("catheter-angled-5f"));
-            Stage.Loop.TakeNextInstrument(0);
+            Stage.Loop.UseNextInstrument(0);
             Assert.That(Stage.Loop.Session!.NameOf(0), Is.EqualTo("catheter-simmons-2-5f"),
                 "a guide does not fit into a guide");
         }

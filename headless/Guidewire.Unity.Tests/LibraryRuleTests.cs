@@ -27,6 +27,9 @@ namespace Guidewire.Unity.Tests
             "Assert.Multiple", "Assert.Warn", "Warn.If", "Warn.Unless", "TestContext.get_Progress",
         };
 
+        /// <summary>Packages whose sources are not among those that Unity publishes with the editor.</summary>
+        private static readonly Regex OfPackages = new Regex(@"^UnityEngine\.(InputSystem|TestTools)\.");
+
         private static readonly Lazy<HashSet<string>> Standard =
             new Lazy<HashSet<string>>(() => LibraryRules.Members(Given("Standard")));
 
@@ -107,6 +110,30 @@ namespace Guidewire.Unity.Tests
             Assert.Multiple(() => Assert.That(text.Contains('a'), Is.True));
             return MemoryExtensions.AsSpan(text).Length + numbers[1..].Length + Random.Shared.Next()
                 + (double.IsFinite(numbers[0]) ? 1 : 0);
+        }
+
+        // The table is made by tools/unitycheck/published.py from the list that this test writes.
+        [Test]
+        public void MembersOfUnity_AreInEveryPublishedVersion_AndNotObsolete()
+        {
+            string[] used = new[] { "Guidewire.Runtime", "Guidewire.Editor" }
+                .SelectMany(name => LibraryRules.Used(Built(name), "UnityStubs"))
+                .Concat(LibraryRules.Used(Built("Guidewire.Unity.Tests"), "UnityStubs").Where(
+                    one => one.Contains("CreateAssetWith", StringComparison.Ordinal)))    // as of a newer editor
+                .Where(one => !OfPackages.IsMatch(one)).Distinct()
+                .OrderBy(one => one, StringComparer.Ordinal).ToArray();
+            File.WriteAllLines(Path.Combine(TestContext.CurrentContext.WorkDirectory, "unity-members.txt"), used);
+            string[] table = File.ReadAllLines(Path.Combine(Stage.Root,
+                "headless/Guidewire.Unity.Tests/published-members.txt"));
+            Assert.That(table[0], Does.EndWith("2022.3.76f1 6000.0.58f2 6000.3.19f1 6000.7.0a1"));
+            Assert.That(used, Is.SubsetOf(table.Select(line => line.Split(' ')[0])), "not looked up yet");
+            Assert.That(table.Skip(1).Where(line => line.Contains(' ')).Where(line => used.Contains(line.Split(' ')[0]))
+                .Select(line => Regex.Replace(line, @"^UnityEditor\.ProjectWindowUtil\.(\w+)\(.*?\)", "$1")),
+                Is.EqualTo(new[]
+                {
+                    "CreateAssetWithContent 2022.3.76f1 6000.0.58f2 6000.3.19f1",
+                    "CreateAssetWithTextContent 6000.7.0a1",
+                }), "both behind an #if, at 6000.4");
         }
 
         [TestCase("Core")]

@@ -1,5 +1,6 @@
 using System;
 using System.Linq;
+using Guidewire.Io;
 
 namespace Guidewire.Unity.Tests
 {
@@ -54,12 +55,29 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
-        public void ThePageShowsTheLines()
+        public void TheLinesOfAWholeRun_LeaveItsResults()
+        {
+            string file = Path.Combine(Stage.Root, "params/default.json");
+            string folder = Path.Combine(TestContext.CurrentContext.WorkDirectory, "five-lines");
+            // five
+            CommandLine line = CommandLineHandler.Read(new[] { "-parameters", file, "-out", folder }, false);
+            ParameterHandler handler = ParameterHandler.Load(line.ParameterFile, new[] { "maxSimulationSteps=20" });
+            var run = new SimulationRun(handler, line.Out, null);
+            RunResult result = run.Execute(Existing.Replace);
+            Debug.Log(result.Outcome + ": " + result.Reason);
+            // end
+            Assert.That(result.Outcome, Is.EqualTo(Outcome.Finished));
+            Assert.That(File.ReadAllText(Path.Combine(folder, "positions.json")), Does.Contain("20"));
+        }
+
+        [TestCase("begin", 11)]
+        [TestCase("five", 5)]
+        public void ThePageShowsTheLines(string marker, int count)
         {
             string own = File.ReadAllText(Path.Combine(Stage.Root, "headless/Guidewire.Unity.Tests/PlainCodeTests.cs"));
-            string[] lines = own.Split('\n').SkipWhile(line => line.Trim() != "// begin").Skip(1)
+            string[] lines = own.Split('\n').SkipWhile(line => line.Trim() != "// " + marker).Skip(1)
                 .TakeWhile(line => line.Trim() != "// end").Select(line => line.Trim()).ToArray();
-            Assert.That(lines.Length, Is.EqualTo(11));
+            Assert.That(lines.Length, Is.EqualTo(count));
             Assert.That(File.ReadAllText(Path.Combine(Stage.Root, "docs/unity.md")),
                 Does.Contain(string.Join("\n", lines)));
         }

@@ -1,5 +1,6 @@
 using System;
 using System.Reflection;
+using Guidewire.Io;
 using UnityEngine.InputSystem;
 using UnityEngine.Rendering;
 
@@ -38,11 +39,11 @@ namespace Guidewire.Unity.Tests
             return loop;
         }
 
-        [TestCase(null, "Standard")]
-        [TestCase("Universal Render Pipeline/Lit", "Universal Render Pipeline/Lit")]
+        [TestCase(null, "Guidewire/Surface")]
+        [TestCase("Universal Render Pipeline/Lit", "Guidewire/Surface")]
         [TestCase("HDRP/Lit", "HDRP/Lit")]
-        [TestCase("", "Standard")]
-        public void Views_TakeTheLitShaderOfThePipeline(string? pipeline, string shader)
+        [TestCase("", "Guidewire/Surface")]
+        public void Views_TakeAShaderThatThePipelineDraws_AndAPlayerContains(string? pipeline, string shader)
         {
             GraphicsSettings.currentRenderPipeline = pipeline == null ? null : new Pipeline(pipeline);
             SimulationLoop loop = Made();
@@ -58,7 +59,7 @@ namespace Guidewire.Unity.Tests
                 Assert.That(material.shader.name, Is.EqualTo(shader));
                 Assert.That(layer, Is.EqualTo(9));
                 Assert.That(material.renderQueue, Is.EqualTo(material.color.a < 1f ? 3000 : 2000));
-                bool isTransparent = material.color.a < 1f && !string.IsNullOrEmpty(pipeline);
+                bool isTransparent = material.color.a < 1f && pipeline == "HDRP/Lit";
                 Assert.That(material.IsKeywordEnabled("_SURFACE_TYPE_TRANSPARENT"), Is.EqualTo(isTransparent));
             }
             Assert.That(Engine.Drawn.FindAll(one => one.Material.color.a < 1f), Has.Count.EqualTo(2));
@@ -192,6 +193,79 @@ namespace Guidewire.Unity.Tests
                 Engine.Unload();
                 Assert.That(loop.State, Is.Null);
             }
+        }
+
+        [Test]
+        public void ScriptsThatAreCompiledAnewInPlay_LeaveAWire_WhichIsDrawn()
+        {
+            System.Runtime.CompilerServices.RuntimeHelpers.RunClassConstructor(
+                typeof(Guidewire.Editor.LoopInspector).Assembly.GetType("Guidewire.Editor.ReloadStep")!.TypeHandle);
+            Stage.Open("Assets/Scenes/Insertion.unity");
+            Engine.Press(KeyCode.W);
+            Stage.Frames(20);
+            SimulationSession before = Stage.Loop.Session!;
+            Mesh tube = Stage.Wire.Mesh!;
+            Engine.Reload(ScriptRules.SurvivesReload);
+            Assert.That(Stage.Loop.State, Is.Null);
+            Stage.Frames(5);
+            Assert.That(Stage.Loop.Problem, Is.Empty);
+            Assert.That(Stage.Loop.Session, Is.Not.Null.And.Not.EqualTo(before));
+            Assert.That(Stage.Loop.State!.StepCount, Is.GreaterThan(0));
+            Assert.That(Engine.Drawn.FindAll(one => one.Mesh == Stage.Wire.Mesh && one.Mesh != tube),
+                Has.Count.EqualTo(1));
+            Assert.That(Engine.Drawn.FindAll(one => one.Mesh == Engine.Find<VesselView>().Meshes[0]),
+                Has.Count.EqualTo(1));
+            Assert.That(Engine.Console.FindAll(line => line.Type == LogType.Error), Is.Empty);
+        }
+
+        [Test]
+        public void ALoopThatWasCopied_OrIsClosed_LeavesNoMeshBehind()
+        {
+            SimulationLoop loop = Made();
+            loop.gameObject.AddComponent<WireView>();
+            Stage.Frames(2);
+            var copied = new GameObject(Engine.Renderers[0].name);    // as of a copy of the loop's object
+            copied.transform.SetParent(loop.transform);
+            copied.AddComponent<MeshFilter>().sharedMesh = Engine.Renderers[0].GetComponent<MeshFilter>().sharedMesh;
+            copied.AddComponent<MeshRenderer>().sharedMaterial = Engine.Renderers[0].sharedMaterial;
+            loop.Load();
+            Stage.Frames(2);
+            Assert.That(Engine.Drawn, Has.Count.EqualTo(2), "wire and catheter");
+            loop.Close();
+            Stage.Frames(2);
+            Assert.That(Engine.Drawn, Is.Empty);
+        }
+
+        [Test]
+        public void OfSeveralInputs_TheFirstThatIsEnabled_Steers()
+        {
+            SimulationLoop loop = Made();
+            KeyInput keys = loop.gameObject.AddComponent<KeyInput>();
+            InputSystemWire device = loop.gameObject.AddComponent<InputSystemWire>();
+            ((InputAction)typeof(InputSystemWire).GetField("_push", BindingFlags.Instance | BindingFlags.NonPublic)!
+                .GetValue(device)!).Value = 0.5f;
+            Engine.Press(KeyCode.W);
+            Stage.Frames(2);
+            Assert.That(loop.Push, Is.EqualTo(1f));
+            keys.enabled = false;
+            Stage.Frames(1);
+            Assert.That(loop.Push, Is.EqualTo(0.5f));
+        }
+
+        [Test]
+        public void ALoopWithoutParameters_SaysWhatToChoose_AndIsNoError()
+        {
+            SimulationLoop loop = new GameObject("Empty").AddComponent<SimulationLoop>();
+            loop.gameObject.AddComponent<WireView>();
+            Stage.Frames(5);
+            Assert.That(loop.Problem, Is.Empty);
+            Assert.That(Engine.Console, Has.Count.EqualTo(1));
+            Assert.That(Engine.Console[0].Type, Is.EqualTo(LogType.Warning));
+            Assert.That(Engine.Console[0].Text, Does.Contain("Empty").And.Contain("choose a Parameter Asset"));
+            loop.ParameterAsset = new TextAsset("{}") { name = "defaults" };
+            loop.Stepping = SteppingMode.Frames;
+            loop.Load();
+            Assert.That(loop.Problem, Is.Empty);
         }
 
         [Test]

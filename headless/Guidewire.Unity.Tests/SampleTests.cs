@@ -1,4 +1,5 @@
 using System;
+using System.Linq;
 using System.Reflection;
 using UnityEngine.InputSystem;
 
@@ -10,8 +11,6 @@ namespace Guidewire.Unity.Tests
     public sealed class SampleTests
     {
         private const float Scale = 0.001f;
-        private const int Sides = 16;
-        private const int Rings = 30;
 
         private static readonly string Sample = Path.Combine(Stage.Root, "Assets/Guidewire/Samples~/OwnVessel");
 
@@ -26,34 +25,17 @@ namespace Guidewire.Unity.Tests
         [TearDown]
         public void Leave() => Engine.Unload();
 
-        // A closed tube about z of the wire's object, with hemispheres' poles as fans; slightly bent to the side.
-        private static Mesh Tube(Func<Vector3, Vector3> place)
+        // The sample's tube about z, closed, slightly bent to the side.
+        internal static Mesh Tube(Func<Vector3, Vector3> place)
         {
-            var points = new List<Vector3>();
-            var triangles = new List<int>();
-            for (int ring = 0; ring < Rings; ring++)
-            {
-                float z = -140f + 340f * ring / (Rings - 1);
-                float bend = z > 0f ? 0.002f * z * z : 0f;
-                for (int k = 0; k < Sides; k++)
-                {
-                    float angle = 2f * Mathf.PI * k / Sides;
-                    points.Add(place(new Vector3(6f * Mathf.Cos(angle) + bend, 6f * Mathf.Sin(angle), z)));
-                }
-            }
-            for (int a = 0; a < (Rings - 1) * Sides; a++)
-            {
-                int b = a % Sides == Sides - 1 ? a + 1 - Sides : a + 1;
-                triangles.AddRange(new[] { a, a + Sides, b, b, a + Sides, b + Sides });
-            }
-            for (int k = 1; k + 1 < Sides; k++)
-            {
-                int last = (Rings - 1) * Sides;
-                triangles.AddRange(new[] { 0, k, k + 1, last, last + k + 1, last + k });
-            }
+            var made = new GameObject("Tube");
+            made.Attach(typeof(MeshFilter));
+            var tube = (TubeVessel)made.Attach(typeof(TubeVessel));
+            typeof(TubeVessel).GetMethod("Awake", BindingFlags.Instance | BindingFlags.NonPublic)!.Invoke(tube, null);
+            Mesh own = made.GetComponent<MeshFilter>().sharedMesh;
             var mesh = new Mesh();
-            mesh.SetVertices(points.ToArray());
-            mesh.SetTriangles(triangles.ToArray(), 0);
+            mesh.SetVertices(Array.ConvertAll(own.vertices, point => place(point)));
+            mesh.SetTriangles(own.triangles, 0);
             return mesh;
         }
 
@@ -198,12 +180,23 @@ namespace Guidewire.Unity.Tests
             var touched = new HashSet<int>();
             int began = 0;
             int ended = 0;
-            _loop.ContactBegan += sphere =>
+            SceneVessel vessel = Engine.Find<SceneVessel>();
+            _loop.Overrides = new[] { "obstacles=[{\"shape\": \"sphere\", \"centre\": [0, 300, 0], \"radius\": 10}]" };
+            WireEvents events = _object.AddComponent<WireEvents>();
+            events.ContactBegan.AddListener(contact =>
             {
                 began++;
-                Assert.That(touched.Add(sphere), Is.True);
-            };
-            _loop.ContactEnded += sphere => Assert.That(touched.Remove(sphere), Is.True);
+                Assert.That(touched.Add(contact.Sphere), Is.True);
+                Assert.That(contact.Vessel, Is.EqualTo(vessel));
+                Assert.That(contact.Force.magnitude, Is.GreaterThan(0f));
+                Vector3 place = _object.transform.TransformPoint(
+                    _loop.State!.Rod.Positions[contact.Sphere].ToUnity());
+                Assert.That(Vector3.Distance(contact.Place, place), Is.LessThan(1e-6f));
+                Vector3d force = _loop.State.ContactForces[contact.Sphere];
+                Vector3 turned = Turned * force.ToUnity();
+                Assert.That((contact.Force - turned).magnitude, Is.LessThan(1e-5f * turned.magnitude));
+            });
+            events.ContactEnded.AddListener(contact => Assert.That(touched.Remove(contact.Sphere), Is.True));
             _loop.Ended += (outcome, reason) => ended += outcome == Outcome.Finished && reason.Length > 0 ? 1 : 100;
             Engine.Press(KeyCode.UpArrow);
             Stage.Frames(200);
@@ -272,26 +265,6 @@ namespace Guidewire.Unity.Tests
             _loop.Choose(new TextAsset("[1]") { name = "wire" });
             _loop.Load();
             Assert.That(_loop.Problem, Does.StartWith("wire: needs one JSON object"));
-        }
-
-        [Test]
-        public void InputSystem_SteersByTwoActions()
-        {
-            Engine.Reset(Stage.Root);
-            GameObject made = Standing("Wire", Vector3.zero, Quaternion.identity, 1f);
-            var input = (InputSystemWire)made.Attach(typeof(InputSystemWire));
-            var push = new InputActionReference();
-            var turn = new InputActionReference();
-            Set(input, "_push", push);
-            Set(input, "_turn", turn);
-            var loop = (SimulationLoop)made.Attach(typeof(SimulationLoop));
-            loop.Stepping = SteppingMode.Frames;
-            loop.Choose("params/insertion.json", Array.Empty<string>(), "", isSteered: true);
-            Engine.Enter(new[] { made });
-            push.action.Value = 0.5f;
-            turn.action.Value = -0.75f;
-            Stage.Frames(2);
-            Assert.That((loop.Push, loop.Turn), Is.EqualTo((0.5f, -0.75f)));
         }
 
         [Test]

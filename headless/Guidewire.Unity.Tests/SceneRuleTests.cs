@@ -49,6 +49,10 @@ namespace Guidewire.Unity.Tests
         [TestCase(@"(  - \{fileID: 401\}\n)", "$1$1", "SceneRoots")]
         [TestCase(@"  - \{fileID: 401\}\n", "", "SceneRoots")]
         [TestCase("_isSteered: ", "_isStered: ", "SimulationLoop stores no field _isStered", Prefab)]
+        [TestCase("m_Shader: .*?$", "m_Shader: {fileID: 45, guid: 0000000000000000f000000000000000, type: 0}",
+            "m_Shader is no shader", "Assets/Guidewire/Runtime/Resources/Guidewire/Wire.mat")]
+        [TestCase(@"m_Shader: \{fileID: 4800000", "m_Shader: {fileID: 4800001", "is no reference",
+            "Assets/Guidewire/Runtime/Resources/Guidewire/Vessel.mat")]
         [TestCase("path: Assets/Scenes/Ins", "path: Assets/Scenes/ins", "has another GUID",
             "ProjectSettings/EditorBuildSettings.asset")]
         public void WhatIsWrong_IsNamed(string old, string changed, string words, string path = Insertion)

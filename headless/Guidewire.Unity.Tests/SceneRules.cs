@@ -25,7 +25,7 @@ namespace Guidewire.Unity.Tests
             new Dictionary<string, (string Type, string Id)>
             {
                 { ".cs", ("3", "11500000") }, { ".mat", ("2", "2100000") }, { ".json", ("3", "4900000") },
-                { ".txt", ("3", "4900000") },
+                { ".txt", ("3", "4900000") }, { ".shader", ("3", "4800000") },
             };
 
         /// <summary>Keys of a behaviour that are Unity's.</summary>
@@ -66,6 +66,7 @@ namespace Guidewire.Unity.Tests
                 rules.Report(one.Id == 0 || !rules._seen.TryAdd(one.Id, one), $"&{one.Id} is zero or used twice");
             }
             rules.CheckReferences(text);
+            rules.CheckShader(text);
             rules.CheckComponents();
             rules.CheckFamilies();
             foreach (SceneFile.Document one in documents.Where(one => one.Class == Behaviour))
@@ -130,6 +131,15 @@ namespace Guidewire.Unity.Tests
             }
         }
 
+        /// <summary>A shader of Unity's own may be in no player.</summary>
+        private void CheckShader(string text)
+        {
+            Match named = Regex.Match(text, "^  m_Shader: (.*)$", RegexOptions.Multiline);
+            string guid = Reference.Match(named.Groups[1].Value).Groups[2].Value;
+            bool isOwn = _assets.GetValueOrDefault(guid, "").EndsWith(".shader", StringComparison.Ordinal);
+            Report(named.Success && !isOwn, "m_Shader is no shader of the package");
+        }
+
         /// <summary>Objects and components name each other, as often; the Transform comes first.</summary>
         private void CheckComponents()
         {
@@ -173,7 +183,8 @@ namespace Guidewire.Unity.Tests
         {
             string guid = Reference.Match(document.Values["m_Script"]).Groups[2].Value;
             string name = Path.GetFileNameWithoutExtension(_assets.GetValueOrDefault(guid, ""));
-            Type? type = typeof(SimulationLoop).Assembly.GetTypes().SingleOrDefault(one => one.Name == name);
+            Type? type = new[] { typeof(SimulationLoop), typeof(Stage) }.SelectMany(one => one.Assembly.GetTypes())
+                .SingleOrDefault(one => one.Name == name);
             if (!typeof(MonoBehaviour).IsAssignableFrom(type))
             {
                 _problems.Add($"&{document.Id}: {name} is no behaviour");

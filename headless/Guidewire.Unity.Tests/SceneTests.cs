@@ -77,6 +77,45 @@ namespace Guidewire.Unity.Tests
             Assert.That(Engine.Console.FindAll(line => line.Type == LogType.Error), Is.Empty);
         }
 
+        private static readonly object[] Others =
+        {
+            new object[] { "Own vessel", "OwnVessel.unity", 0.2 },
+            new object[] { "Input System", "InputSystem.unity", 0.2 },
+            new object[] { "Tracked handle", "TrackedHandle.unity", 0.08 },
+        };
+
+        [TestCaseSource(nameof(Others))]
+        public void AnotherSample_HasASceneOfItsOwn_ThatIsSteered(string name, string scene, double meters)
+        {
+            string folder = _project.Import(name);
+            string path = folder + "/" + scene;
+            Assert.That(SceneRules.Problems(path, File.ReadAllText(Path.Combine(_project.Root, path)),
+                SceneFile.Paths(_project.Root)), Is.Empty);
+            Stage.Open(path, _project.Root);
+            Stage.Frames(2);
+            Engine.Press(KeyCode.W);
+            if (Engine.Find<InputSystemWire>() is { } device)
+            {
+                ((UnityEngine.InputSystem.InputAction)typeof(InputSystemWire).GetField("_push",
+                    System.Reflection.BindingFlags.Instance | System.Reflection.BindingFlags.NonPublic)!
+                    .GetValue(device)!).Value = 1f;
+            }
+            Stage.Frames(300);
+            Assert.That(Stage.Loop.Problem, Is.Empty);
+            double expected = scene == "TrackedHandle.unity" ? meters * (0.5 - 0.5 * System.Math.Cos(
+                2.0 * System.Math.PI * 5.0 / 12.0)) : meters;
+            Assert.That(Stage.Loop.State!.Hub!.Value.Insertion, Is.EqualTo(expected).Within(6e-3), "5 s");
+            Assert.That(Engine.Console, Is.Empty);
+            Assert.That(Engine.Drawn, Has.Some.Matches<(Mesh Mesh, Matrix4x4 Place, Material Material, int Layer)>(
+                one => one.Mesh.name == (name == "Own vessel" ? "Tube" : "Wire")));
+            if (Engine.Find<WireAttachment>() is { } tip)
+            {
+                var points = new Vector3[Stage.Loop.SphereCount];
+                Stage.Loop.GetPositions(points);
+                Assert.That(Vector3.Distance(tip.transform.position, points[points.Length - 1]), Is.LessThan(1e-6f));
+            }
+        }
+
         private static void AssertMeshFollows()
         {
             RodState state = Stage.Shown;

@@ -4,8 +4,8 @@ using System.Reflection;
 
 namespace Guidewire.Unity.Tests
 {
-    /// <summary>What compiles and does not work in Unity: fields that it does not store, methods that it does not call,
-    /// scripts that no object can hold.</summary>
+    /// <summary>What compiles and does not work in Unity: fields that it does not store, scripts that no
+    /// object can hold.</summary>
     internal static class ScriptRules
     {
         private const BindingFlags Declared = BindingFlags.Instance | BindingFlags.Static | BindingFlags.Public
@@ -18,20 +18,11 @@ namespace Guidewire.Unity.Tests
             "SerializeField", "ContextMenuItem", "FormerlySerializedAsAttribute", "InspectorNameAttribute",
         };
 
-        private static readonly Dictionary<string, string[]> Messages = Table();
-
-        /// <summary>Messages that may be coroutines; the others Unity refuses when it sends them.</summary>
-        private static readonly string[] Coroutines =
-        {
-            "Start", "OnCollision", "OnTrigger", "OnMouse", "OnBecame", "OnApplicationPause", "OnApplicationFocus",
-        };
-
         /// <summary>What is wrong with a type.</summary>
         /// <param name="type">A behaviour, or any class or struct beside them.</param>
         /// <param name="files">Names of the sources, without their endings.</param>
         public static IEnumerable<string> Problems(Type type, IReadOnlyCollection<string> files)
         {
-            bool isBehaviour = typeof(MonoBehaviour).IsAssignableFrom(type);
             if (IsMadeByUnity(type) && !type.IsAbstract
                 && (type.IsNested || !type.IsPublic || type.IsGenericType || !files.Contains(type.Name)))
             {
@@ -39,9 +30,7 @@ namespace Guidewire.Unity.Tests
             }
             foreach (MemberInfo member in type.GetMembers(Declared))
             {
-                string? problem = member is FieldInfo || member is PropertyInfo ? FieldProblem(type, member)
-                    : isBehaviour && member is MethodInfo { IsSpecialName: false } method ? MessageProblem(method)
-                    : null;
+                string? problem = member is FieldInfo || member is PropertyInfo ? FieldProblem(type, member) : null;
                 if (problem != null)
                 {
                     yield return type.Name + "." + member.Name + ": " + problem;
@@ -67,6 +56,23 @@ namespace Guidewire.Unity.Tests
                     }
                 }
             }
+        }
+
+        /// <summary>Whether a field keeps its value where scripts are compiled anew in Play: private ones do, too.
+        /// </summary>
+        public static bool SurvivesReload(FieldInfo field)
+        {
+            return !field.IsDefined(typeof(NonSerializedAttribute)) && !field.IsStatic && !field.IsInitOnly
+                && Refusal(field) == null;
+        }
+
+        /// <summary>What a field lacks for whoever sees it in the Inspector; null where nothing.</summary>
+        public static string? InspectorProblem(FieldInfo field)
+        {
+            bool isNumber = field.FieldType == typeof(float) || field.FieldType == typeof(int);
+            return !field.IsDefined(typeof(TooltipAttribute)) ? "has no tooltip"
+                : isNumber && !field.IsDefined(typeof(UnityEngine.RangeAttribute))
+                    && !field.IsDefined(typeof(MinAttribute)) ? "has no range" : null;
         }
 
         private static bool IsMadeByUnity(Type type) =>
@@ -119,73 +125,5 @@ namespace Guidewire.Unity.Tests
 
         private static bool IsList(Type type) =>
             type.IsGenericType && type.GetGenericTypeDefinition() == typeof(List<>);
-
-        /// <summary>Each message with the parameters that it may have, their types separated by commas.</summary>
-        private static Dictionary<string, string[]> Table()
-        {
-            var table = new Dictionary<string, string[]>();
-            Add(table, "Awake Start Update FixedUpdate LateUpdate OnEnable OnDisable OnDestroy OnGUI OnValidate Reset "
-                + "OnDrawGizmos OnDrawGizmosSelected OnApplicationQuit OnRenderObject OnPreRender OnPostRender "
-                + "OnPreCull OnWillRenderObject OnBecameVisible OnBecameInvisible OnMouseDown OnMouseUp OnMouseDrag "
-                + "OnMouseEnter OnMouseExit OnMouseOver OnMouseUpAsButton OnTransformChildrenChanged "
-                + "OnTransformParentChanged OnBeforeTransformParentChanged OnAnimatorMove OnParticleTrigger "
-                + "OnRectTransformDimensionsChange", "");
-            Add(table, "OnCollisionEnter OnCollisionStay OnCollisionExit", "", "Collision");
-            Add(table, "OnCollisionEnter2D OnCollisionStay2D OnCollisionExit2D", "", "Collision2D");
-            Add(table, "OnTriggerEnter OnTriggerStay OnTriggerExit", "", "Collider");
-            Add(table, "OnTriggerEnter2D OnTriggerStay2D OnTriggerExit2D", "", "Collider2D");
-            Add(table, "OnApplicationPause OnApplicationFocus", "", "Boolean");
-            Add(table, "OnParticleCollision", "", "GameObject");
-            Add(table, "OnAnimatorIK", "", "Int32");
-            Add(table, "OnRenderImage", "RenderTexture,RenderTexture");
-            Add(table, "OnAudioFilterRead", "Single[],Int32");
-            return table;
-        }
-
-        private static void Add(Dictionary<string, string[]> table, string names, params string[] parameters)
-        {
-            foreach (string name in names.Split(' '))
-            {
-                table[name] = parameters;
-            }
-        }
-
-        private static string? MessageProblem(MethodInfo method)
-        {
-            string name = method.Name;
-            if (!Messages.TryGetValue(name, out string[]? allowed))
-            {
-                string? meant = Messages.Keys.FirstOrDefault(message => IsNear(message, name));
-                return meant == null || method.ReturnType != typeof(void)
-                    || method.GetBaseDefinition() != method || method.IsDefined(typeof(ContextMenu)) ? null
-                    : "Unity's message is called " + meant;
-            }
-            string parameters = string.Join(",", method.GetParameters().Select(one => one.ParameterType.Name));
-            bool mayWait = method.ReturnType == typeof(System.Collections.IEnumerator)
-                && Coroutines.Any(start => name.StartsWith(start, StringComparison.Ordinal));
-            return method.IsStatic || method.IsGenericMethod ? "a message is an instance method without type parameters"
-                : method.ReturnType != typeof(void) && !mayWait ? "a message returns nothing"
-                : !allowed.Contains(parameters) ? "(" + parameters + ") is never sent"
-                : null;
-        }
-
-        /// <summary>Whether small letters for capital ones, or one letter added, lost, changed or exchanged with its
-        /// neighbour make one word the other.</summary>
-        private static bool IsNear(string a, string b)
-        {
-            (a, b) = a.Length > b.Length ? (b, a) : (a, b);
-            if (a.Equals(b, StringComparison.OrdinalIgnoreCase) || b.Length - a.Length > 1)
-            {
-                return a.Length == b.Length;
-            }
-            int i = 0;
-            while (i < a.Length && a[i] == b[i])
-            {
-                i++;
-            }
-            return a.Length < b.Length ? a.Substring(i) == b.Substring(i + 1)
-                : a.Substring(i + 1) == b.Substring(i + 1) || (i + 1 < a.Length && a[i] == b[i + 1]
-                    && a[i + 1] == b[i] && a.Substring(i + 2) == b.Substring(i + 2));
-        }
     }
 }

@@ -45,7 +45,8 @@ namespace Guidewire.Unity.Tests
         /// <param name="project">As of <see cref="Open"/>.</param>
         public static void Enter(string scene, SteppingMode stepping = SteppingMode.Frames, string? project = null)
         {
-            List<GameObject> objects = SceneFile.Read(project ?? Root, scene, typeof(SimulationLoop).Assembly);
+            List<GameObject> objects = SceneFile.Read(project ?? Root, scene,
+                typeof(SimulationLoop).Assembly, typeof(Stage).Assembly);
             foreach (GameObject one in objects)
             {
                 if (one.GetComponent<SimulationLoop>() is SimulationLoop loop)
@@ -55,6 +56,16 @@ namespace Guidewire.Unity.Tests
             }
             Engine.Enter(objects);
         }
+
+        /// <summary>Names what the next Load reads, instead of the Inspector.</summary>
+        public static void Choose(this SimulationLoop loop, string file, string[] overrides, string log, bool isSteered)
+        {
+            (loop.ParameterFile, loop.Overrides, loop.LogFolder, loop.IsSteered) = (file, overrides, log, isSteered);
+            loop.ParameterAsset = file.Length > 0 ? null : loop.ParameterAsset;
+        }
+
+        public static void Choose(this SimulationLoop loop, TextAsset? parameters, params SceneVessel[] vessels) =>
+            (loop.ParameterAsset, loop.Vessels) = (parameters, vessels);
 
         /// <summary>Opens the scene in which the wire is steered by hand.</summary>
         public static void OpenInsertion() => Open("Assets/Scenes/Insertion.unity");

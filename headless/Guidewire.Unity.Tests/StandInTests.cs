@@ -55,6 +55,25 @@ namespace Guidewire.Unity.Tests
         }
 
         [Test]
+        public void UnitysObjects_AreTheMainThreadsAlone()
+        {
+            var made = new GameObject("made");
+            var text = new TextAsset("x");
+            foreach (TestDelegate call in new TestDelegate[]
+            {
+                () => new Mesh(), () => _ = made.transform, () => _ = text.text, () => _ = Time.deltaTime,
+                () => _ = Application.dataPath, () => Resources.Load<Material>("Guidewire/Wire"),
+            })
+            {
+                System.Exception? thrown = null;
+                var other = new System.Threading.Thread(() => thrown = Assert.Catch(call));
+                other.Start();
+                other.Join();
+                Assert.That(thrown, Is.TypeOf<UnityException>());
+            }
+        }
+
+        [Test]
         public void LogsNameTheVersionOfTheSources()
         {
             string built = typeof(RunSummary).Assembly.GetCustomAttribute<AssemblyInformationalVersionAttribute>()!

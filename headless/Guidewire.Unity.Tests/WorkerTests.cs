@@ -43,7 +43,7 @@ namespace Guidewire.Unity.Tests
         {
             string[] overrides = { "deltaThreshold=0", "maxSimulationSteps=1000000" };
             SimulationLoop loop = Open(file, overrides);
-            loop.Record = new SteeringRecord();
+            loop.Recording = new SteeringRecord();
             var random = new Random(59);
             int frame = 0;
             FramesUntil(() =>
@@ -55,7 +55,7 @@ namespace Guidewire.Unity.Tests
                 }
                 if (frame == 60)
                 {
-                    loop.HoldNext();
+                    loop.SteerNextInstrument();
                     loop.Set(file == "params/insertion.json" ? "damping" : "massDamping", "0.2");
                 }
                 return loop.State != null && loop.State.StepCount >= 80;
@@ -71,12 +71,12 @@ namespace Guidewire.Unity.Tests
                 return isAtRest;
             }, "a pause");
             WireState threaded = loop.State!;
-            Assert.That(loop.Record.Count, Is.GreaterThan(3));
+            Assert.That(loop.Recording.Count, Is.GreaterThan(3));
 
             var second = new GameObject("Again").AddComponent<SimulationLoop>();
             second.Stepping = SteppingMode.Frames;
             second.Choose(file, overrides, "", isSteered: true);
-            second.Played = loop.Record;
+            second.Replay = loop.Recording;
             second.IsPaused = true;
             second.Load();
             while (second.State!.StepCount < steps)
@@ -98,7 +98,7 @@ namespace Guidewire.Unity.Tests
             FramesUntil(() => loop.State != null, "an open run");
             using var goesOn = new ManualResetEventSlim();
             using var isIn = new ManualResetEventSlim();
-            loop.Do(session =>
+            loop.BetweenSteps(session =>
             {
                 isIn.Set();
                 goesOn.Wait();

@@ -89,6 +89,22 @@ namespace UnityEngine
         }
     }
 
+    [AttributeUsage(AttributeTargets.Field)]
+    public sealed class MinAttribute : PropertyAttribute
+    {
+        public readonly float min;
+
+        public MinAttribute(float min)
+        {
+            this.min = min;
+        }
+    }
+
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class ExecuteAlways : Attribute
+    {
+    }
+
     public enum RuntimeInitializeLoadType
     {
         AfterSceneLoad,

@@ -4,8 +4,33 @@ using UnityEngine;
 
 namespace UnityEditor
 {
+    [AttributeUsage(AttributeTargets.Class)]
+    public sealed class InitializeOnLoadAttribute : Attribute
+    {
+    }
+
+    public static class AssemblyReloadEvents
+    {
+        public delegate void AssemblyReloadCallback();
+
+        public static event AssemblyReloadCallback beforeAssemblyReload;
+
+        internal static void Raise() => beforeAssemblyReload?.Invoke();
+    }
+
     public static class EditorApplication
     {
+        public delegate void CallbackFunction();
+
+        public static CallbackFunction delayCall;
+
+        internal static void CallDelayed()
+        {
+            CallbackFunction calls = delayCall;
+            delayCall = null;
+            calls?.Invoke();
+        }
+
         public static void Exit(int returnValue) => UnityStubs.Engine.ExitCode = returnValue;
     }
 
@@ -14,11 +39,17 @@ namespace UnityEditor
     {
         public MenuItem(string itemName)
         {
+            menuItem = itemName;
         }
 
-        public MenuItem(string itemName, bool isValidateFunction)
+        public MenuItem(string itemName, bool isValidateFunction, int priority)
         {
+            (menuItem, this.priority) = (itemName, priority);
         }
+
+        public string menuItem;
+
+        public int priority = 1000;
     }
 
     public enum BuildTarget

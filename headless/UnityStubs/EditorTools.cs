@@ -186,6 +186,13 @@ namespace UnityEditor
     {
         internal static readonly List<UnityEngine.Object> Created = new List<UnityEngine.Object>();
 
+        public static T AddComponent<T>(GameObject gameObject)
+            where T : Component => gameObject.AddComponent<T>();
+
+        public static void RecordObject(UnityEngine.Object objectToUndo, string name)
+        {
+        }
+
         public static void RegisterCreatedObjectUndo(UnityEngine.Object objectToUndo, string name) =>
             Created.Add(objectToUndo);
     }
@@ -222,7 +229,31 @@ namespace UnityEditor
     {
         internal static (string Path, string Content)? Last;
 
-        public static void CreateAssetWithContent(string filename, string content) => Last = (filename, content);
+#if !UNITY_6000_4_OR_NEWER
+        public static void CreateAssetWithContent(string filename, string content, Texture2D icon = null) =>
+            Last = (filename, content);
+#endif
+
+        public static void CreateAssetWithTextContent(string filename, string content, Texture2D icon = null,
+            Action<EntityId> onRenameComplete = null) => Last = (filename, content);
+    }
+
+    /// <summary>Remembers what it frames.</summary>
+    public class SceneView : ScriptableObject
+    {
+        public static SceneView lastActiveSceneView { get; set; }
+
+        internal Bounds Framed;
+
+        public static void RepaintAll()
+        {
+        }
+
+        public bool Frame(Bounds bounds, bool instant = true)
+        {
+            Framed = bounds;
+            return true;
+        }
     }
 }
 

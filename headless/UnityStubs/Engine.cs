@@ -26,6 +26,9 @@ namespace UnityStubs
             public bool IsStarted;
         }
 
+        internal static readonly List<MeshRenderer> Renderers = new List<MeshRenderer>();
+        private static System.Threading.Thread _main;
+
         private static readonly List<Live> Behaviours = new List<Live>();
         private static readonly List<GameObject> Objects = new List<GameObject>();
 
@@ -51,6 +54,7 @@ namespace UnityStubs
         /// <param name="projectRoot">Folder that holds Assets.</param>
         public static void Reset(string projectRoot)
         {
+            _main = System.Threading.Thread.CurrentThread;
             Unload();
             Console.Clear();
             Input.Held.Clear();
@@ -99,6 +103,25 @@ namespace UnityStubs
             return null;
         }
 
+        internal static T[] FindAll<T>()
+            where T : Component => Objects.ConvertAll(one => one.GetComponent<T>()).FindAll(one => one != null)
+            .ToArray();
+
+        /// <summary>What Unity's objects do on any other thread than its own.</summary>
+        internal static void RequireMainThread()
+        {
+            if (_main != null && _main != System.Threading.Thread.CurrentThread)
+            {
+                throw new UnityException("can only be called from the main thread");
+            }
+        }
+
+        internal static T OnMainThread<T>(T value)
+        {
+            RequireMainThread();
+            return value;
+        }
+
         /// <summary>One frame.</summary>
         /// <param name="seconds">Real time since the last one.</param>
         public static void Frame(float seconds)
@@ -130,6 +153,17 @@ namespace UnityStubs
             for (int i = 0; i < Behaviours.Count; i++)
             {
                 Run(Behaviours[i], Behaviours[i].LateUpdate);
+            }
+            int place = 0;
+            foreach (MeshRenderer renderer in Renderers)    // before what is drawn for the frame alone
+            {
+                Mesh mesh = renderer.gameObject.GetComponent<MeshFilter>()?.sharedMesh;
+                if (!renderer.isDestroyed && renderer.enabled && renderer.gameObject.activeInHierarchy && mesh != null
+                    && renderer.sharedMaterial != null)
+                {
+                    Drawn.Insert(place++, (mesh, renderer.transform.localToWorldMatrix, renderer.sharedMaterial,
+                        renderer.gameObject.layer));
+                }
             }
             for (int pass = 0; pass < 2; pass++)
             {
@@ -168,6 +202,62 @@ namespace UnityStubs
         /// <summary>Leaves input to the Input System package: every call of Input throws from here on.</summary>
         public static void RefuseInput() => Input.IsRefused = true;
 
+        /// <summary>What Unity does where scripts are compiled anew in Play: what is not kept is as in a new object.
+        /// </summary>
+        public static void Reload(Func<FieldInfo, bool> isKept)
+        {
+            UnityEditor.AssemblyReloadEvents.Raise();
+            foreach (Live live in Behaviours)
+            {
+                (live.IsEnabled ? live.OnDisable : null)?.Invoke();
+                object made = Activator.CreateInstance(live.Behaviour.GetType());
+                for (Type type = live.Behaviour.GetType(); type != typeof(MonoBehaviour); type = type.BaseType)
+                {
+                    foreach (FieldInfo field in type.GetFields(BindingFlags.DeclaredOnly | BindingFlags.Instance
+                        | BindingFlags.Public | BindingFlags.NonPublic))
+                    {
+                        if (!isKept(field))
+                        {
+                            field.SetValue(live.Behaviour, field.GetValue(made));
+                        }
+                    }
+                }
+            }
+            foreach (Live live in Behaviours)
+            {
+                (live.IsEnabled ? live.OnEnable : null)?.Invoke();
+            }
+        }
+
+        /// <summary>Methods that a player calls as it starts, in Unity's order.</summary>
+        public static IEnumerable<MethodInfo> Initializers(Assembly assembly)
+        {
+            var found = new List<MethodInfo>();
+            foreach (Type type in assembly.GetTypes())
+            {
+                found.AddRange(Array.FindAll(type.GetMethods(BindingFlags.Static | BindingFlags.Public
+                    | BindingFlags.NonPublic), one => one.IsDefined(typeof(RuntimeInitializeOnLoadMethodAttribute))));
+            }
+            return found;
+        }
+
+        /// <summary>Play is pressed: what runs in Edit Mode is switched off there, then all objects wake.</summary>
+        public static void EnterPlay(params GameObject[] objects)
+        {
+            foreach (GameObject one in objects)
+            {
+                foreach (Component component in one.components.ToArray())
+                {
+                    if (component is MonoBehaviour own && own.GetType().IsDefined(typeof(ExecuteAlways)))
+                    {
+                        Message(own, "OnDisable")?.Invoke();
+                    }
+                }
+            }
+            Application.isPlaying = true;
+            Enter(objects);
+        }
+
         /// <summary>Destroys every object.</summary>
         public static void Unload()
         {
@@ -177,6 +267,8 @@ namespace UnityStubs
             }
             Objects.Clear();
             Behaviours.Clear();
+            Renderers.Clear();
+            Camera.All.Clear();
         }
 
         internal static void Awaken(Component component)

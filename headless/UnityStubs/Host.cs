@@ -4,7 +4,13 @@ namespace UnityEngine
 {
     public static class Time
     {
-        public static float deltaTime { get; internal set; }
+        private static float Delta;
+
+        public static float deltaTime
+        {
+            get => UnityStubs.Engine.OnMainThread(Delta);
+            internal set => Delta = value;
+        }
 
         public static float time { get; internal set; }
 
@@ -13,7 +19,13 @@ namespace UnityEngine
 
     public static class Application
     {
-        public static string dataPath { get; internal set; } = "";
+        private static string Data = "";
+
+        public static string dataPath
+        {
+            get => UnityStubs.Engine.OnMainThread(Data);
+            internal set => Data = value;
+        }
 
         public static bool isBatchMode { get; internal set; }
 
@@ -55,6 +67,8 @@ namespace UnityEngine
         public static void Log(object message) => UnityStubs.Engine.Write(LogType.Log, message);
 
         public static void LogWarning(object message) => UnityStubs.Engine.Write(LogType.Warning, message);
+
+        public static void LogWarning(object message, Object context) => LogWarning(message);
 
         public static void LogError(object message) => UnityStubs.Engine.Write(LogType.Error, message);
     }

@@ -1,10 +1,60 @@
 // What this package and its sample call of the Input System.
+using System.Collections.Generic;
 using UnityEngine.InputSystem.Controls;
 
 namespace UnityEngine.InputSystem
 {
+    public enum InputActionType
+    {
+        Value,
+        Button,
+        PassThrough,
+    }
+
+    public struct InputBinding
+    {
+        public string path { get; set; }
+    }
+
+    public static class InputActionSetupExtensions
+    {
+        public struct BindingSyntax
+        {
+        }
+
+        public struct CompositeSyntax
+        {
+            internal InputAction Action;
+
+            public CompositeSyntax With(string name, string binding, string groups = null, string processors = null)
+            {
+                Action.Paths.Add(new InputBinding { path = binding });
+                return this;
+            }
+        }
+
+        public static BindingSyntax AddBinding(this InputAction action, string path, string interactions = null,
+            string processors = null, string groups = null)
+        {
+            action.Paths.Add(new InputBinding { path = path });
+            return default;
+        }
+
+        public static CompositeSyntax AddCompositeBinding(this InputAction action, string composite,
+            string interactions = null, string processors = null) => new CompositeSyntax { Action = action };
+    }
+
+    [System.Serializable]
     public sealed class InputAction
     {
+        internal readonly List<InputBinding> Paths = new List<InputBinding>();
+
+        public InputAction(string name = null, InputActionType type = InputActionType.Value, string binding = null)
+        {
+        }
+
+        public IReadOnlyList<InputBinding> bindings => Paths;
+
         public bool enabled { get; private set; }
 
         /// <summary>What the device says, for the test.</summary>
@@ -16,11 +66,6 @@ namespace UnityEngine.InputSystem
 
         public TValue ReadValue<TValue>()
             where TValue : struct => (TValue)(object)(enabled ? Value : 0f);
-    }
-
-    public class InputActionReference : ScriptableObject
-    {
-        public InputAction action { get; } = new InputAction();
     }
 
     public enum Key

@@ -7,14 +7,6 @@ namespace UnityEngine
     {
     }
 
-    [AttributeUsage(AttributeTargets.Method)]
-    public sealed class ContextMenu : Attribute
-    {
-        public ContextMenu(string itemName)
-        {
-        }
-    }
-
     public class ScriptableObject : Object
     {
     }

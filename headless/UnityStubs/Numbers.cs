@@ -87,6 +87,9 @@ namespace UnityEngine
 
         public static Quaternion identity => new Quaternion(0f, 0f, 0f, 1f);
 
+        public static Quaternion Inverse(Quaternion rotation) =>
+            new Quaternion(-rotation.x, -rotation.y, -rotation.z, rotation.w);
+
         /// <summary>Degrees, applied about z, then x, then y.</summary>
         public static Quaternion Euler(float x, float y, float z) =>
             About(Vector3.up, y) * About(Vector3.right, x) * About(Vector3.forward, z);
@@ -229,6 +232,19 @@ namespace UnityEngine
         }
     }
 
+    public struct Bounds
+    {
+        public Bounds(Vector3 center, Vector3 size)
+        {
+            this.center = center;
+            this.size = size;
+        }
+
+        public Vector3 center { get; set; }
+
+        public Vector3 size { get; set; }
+    }
+
     public struct Rect
     {
         public Rect(float x, float y, float width, float height)
@@ -251,6 +267,16 @@ namespace UnityEngine
     public static class Mathf
     {
         public const float PI = 3.14159274f;
+
+        public const float Rad2Deg = 57.29578f;
+
+        public static float Atan2(float y, float x) => (float)Math.Atan2(y, x);
+
+        public static float DeltaAngle(float current, float target)
+        {
+            float delta = target - current - 360f * (float)Math.Floor((target - current) / 360f);
+            return delta > 180f ? delta - 360f : delta;
+        }
 
         public static float Abs(float f) => Math.Abs(f);
 

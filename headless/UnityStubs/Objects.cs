@@ -7,7 +7,21 @@ namespace UnityEngine
     {
         internal bool isDestroyed;
 
-        public string name { get; set; } = "";
+        public Object()
+        {
+            UnityStubs.Engine.RequireMainThread();
+        }
+
+        public HideFlags hideFlags { get; set; }
+
+        private string _name = "";
+
+        /// <summary>Of a component that of its object.</summary>
+        public string name
+        {
+            get => this is Component component ? component.gameObject.name : _name;
+            set => _name = value;
+        }
 
         /// <summary>At once here, at the end of the frame in Unity. In edit mode an error, and nothing is destroyed.
         /// </summary>
@@ -64,6 +78,17 @@ namespace UnityEngine
         public override int GetHashCode() => base.GetHashCode();
     }
 
+    [Flags]
+    public enum HideFlags
+    {
+        None = 0,
+        DontSave = 52,
+    }
+
+    public struct EntityId
+    {
+    }
+
     public sealed class TextAsset : Object
     {
         public TextAsset(string text)
@@ -73,10 +98,12 @@ namespace UnityEngine
 
         internal TextAsset(byte[] bytes)
         {
-            this.bytes = bytes;
+            _bytes = bytes;
         }
 
-        public byte[] bytes { get; }
+        private readonly byte[] _bytes;
+
+        public byte[] bytes => UnityStubs.Engine.OnMainThread(_bytes);
 
         public long dataSize => bytes.Length;
 
@@ -101,7 +128,9 @@ namespace UnityEngine
         internal string prefabRoot;
         internal string prefabPath;
 
-        public Transform transform => (Transform)components[0];
+        public Transform transform => UnityStubs.Engine.OnMainThread((Transform)components[0]);
+
+        public string tag { get; set; } = "Untagged";
 
         public int layer { get; set; }
 
@@ -154,13 +183,27 @@ namespace UnityEngine
             var component = (Component)Activator.CreateInstance(type);
             component.gameObject = this;
             components.Add(component);
+            if (component is MeshRenderer renderer)
+            {
+                UnityStubs.Engine.Renderers.Add(renderer);
+            }
+            if (component is Camera camera)
+            {
+                Camera.All.Add(camera);
+            }
             return component;
         }
     }
 
     public class Component : Object
     {
-        public GameObject gameObject { get; internal set; }
+        private GameObject _gameObject;
+
+        public GameObject gameObject
+        {
+            get => UnityStubs.Engine.OnMainThread(_gameObject);
+            internal set => _gameObject = value;
+        }
 
         public Transform transform => gameObject.transform;
 
@@ -170,6 +213,25 @@ namespace UnityEngine
         {
             component = gameObject.GetComponent<T>();
             return component is object;
+        }
+
+        public void GetComponents<T>(List<T> results)
+        {
+            results.Clear();
+            foreach (Component component in gameObject.components)
+            {
+                if (component is T found)
+                {
+                    results.Add(found);
+                }
+            }
+        }
+
+        public T[] GetComponents<T>()
+        {
+            var found = new List<T>();
+            GetComponents(found);
+            return found.ToArray();
         }
 
         public T GetComponentInParent<T>()
@@ -191,6 +253,10 @@ namespace UnityEngine
 
         public Transform parent { get; private set; }
 
+        public int childCount => children.Count;
+
+        public Transform GetChild(int index) => children[index];
+
         public Vector3 localPosition { get; set; }
 
         public Quaternion localRotation { get; set; } = Quaternion.identity;
@@ -206,7 +272,7 @@ namespace UnityEngine
         public Quaternion rotation
         {
             get => parent is null ? localRotation : parent.rotation * localRotation;
-            set => localRotation = parent is null ? value : Back(parent.rotation) * value;
+            set => localRotation = parent is null ? value : Quaternion.Inverse(parent.rotation) * value;
         }
 
         /// <summary>As of parents that are not sheared.</summary>
@@ -236,7 +302,6 @@ namespace UnityEngine
             }
         }
 
-        private static Quaternion Back(Quaternion q) => new Quaternion(-q.x, -q.y, -q.z, q.w);
     }
 
     public class Behaviour : Component
@@ -263,6 +328,8 @@ namespace UnityEngine
     public class Renderer : Component
     {
         public Material sharedMaterial { get; set; }
+
+        public bool enabled { get; set; } = true;
     }
 
     public sealed class MeshRenderer : Renderer
@@ -283,6 +350,8 @@ namespace UnityEngine
     {
         private Vector3[] _positions = Array.Empty<Vector3>();
 
+        public float widthMultiplier { get; set; } = 1f;
+
         public int positionCount
         {
             get => _positions.Length;
@@ -295,11 +364,40 @@ namespace UnityEngine
         public Vector3 GetPosition(int index) => _positions[index];
     }
 
+    public sealed class Rigidbody : Component
+    {
+        public bool isKinematic { get; set; }
+
+        public void MovePosition(Vector3 position) => transform.position = position;
+
+        public void MoveRotation(Quaternion rot) => transform.rotation = rot;
+    }
+
     public sealed class Camera : Behaviour
     {
+        internal static readonly List<Camera> All = new List<Camera>();
+
+        public static Camera main =>
+            All.Find(camera => camera != null && camera.gameObject.tag == "MainCamera" && camera.isActiveAndEnabled);
+
+        public float nearClipPlane { get; set; } = 0.3f;
     }
 
     public sealed class Light : Behaviour
     {
+    }
+}
+
+namespace UnityEngine.Events
+{
+    public delegate void UnityAction<T0>(T0 arg0);
+
+    public class UnityEvent<T0>
+    {
+        private event UnityAction<T0> Listeners;
+
+        public void AddListener(UnityAction<T0> call) => Listeners += call;
+
+        public void Invoke(T0 arg0) => Listeners?.Invoke(arg0);
     }
 }

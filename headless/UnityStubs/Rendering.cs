@@ -75,7 +75,7 @@ namespace UnityEngine
     {
         private static readonly Dictionary<string, string[]> Properties = new Dictionary<string, string[]>
         {
-            ["Standard"] = new[] { "_Color", "_MainTex", "_Mode", "_SrcBlend", "_DstBlend", "_ZWrite" },
+            ["Guidewire/Surface"] = new[] { "_Color", "_MainTex", "_SrcBlend", "_DstBlend", "_ZWrite" },
             ["Universal Render Pipeline/Lit"] = new[]
             {
                 "_BaseColor", "_BaseMap", "_Color", "_MainTex", "_Surface", "_SrcBlend", "_DstBlend", "_ZWrite",
@@ -252,6 +252,9 @@ namespace UnityEngine
     {
         public static T Load<T>(string path)
             where T : Object => UnityStubs.SceneFile.Resource(path) as T;
+
+        public static T[] FindObjectsOfTypeAll<T>()
+            where T : Component => UnityStubs.Engine.FindAll<T>();
     }
 
     public static class QualitySettings

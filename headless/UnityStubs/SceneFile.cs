@@ -20,6 +20,8 @@ namespace UnityStubs
         // The first two lines, an object's type, and what stands within a key.
         private static readonly Regex Other = new Regex(@"^(%.*|\w+:|    .*|)$");
         private static readonly Regex FileId = new Regex(@"\{fileID: (-?\d+)");
+        private static readonly Regex Named = new Regex("^Shader \"(.*)\"", RegexOptions.Multiline);
+        private static readonly Regex Queue = new Regex(@"m_CustomRenderQueue: (-?\d+)");
         private static readonly Regex Guid = new Regex(@"guid: ([0-9a-f]{32})");
 
         /// <summary>One object: its class and number in the file, its keys, and their lists.</summary>
@@ -35,11 +37,11 @@ namespace UnityStubs
             new Dictionary<string, Dictionary<string, string>>();
 
         private readonly string _root;
-        private readonly Assembly _scripts;
+        private readonly Assembly[] _scripts;
         private Dictionary<string, string> _paths = new Dictionary<string, string>();
         private readonly Dictionary<long, UnityEngine.Object> _objects = new Dictionary<long, UnityEngine.Object>();
 
-        private SceneFile(string root, Assembly scripts)
+        private SceneFile(string root, Assembly[] scripts)
         {
             _root = root;
             _scripts = scripts;
@@ -103,14 +105,14 @@ namespace UnityStubs
             string root = Path.GetDirectoryName(Application.dataPath);
             string found = Seen(root, Path.GetFileName(path) + ".mat").FirstOrDefault(file =>
                 file.EndsWith("Resources/" + path + ".mat", StringComparison.Ordinal));
-            return found == null ? null : Asset(found);
+            return found == null ? null : new SceneFile(root, null).Asset(found);
         }
 
         /// <summary>The objects of a scene, their fields set, not awake yet.</summary>
         /// <param name="root">Folder that holds Assets.</param>
         /// <param name="scene">Path of the scene from there.</param>
-        /// <param name="scripts">The assembly that holds the scripts' classes.</param>
-        public static List<GameObject> Read(string root, string scene, Assembly scripts) =>
+        /// <param name="scripts">The assemblies that hold the scripts' classes.</param>
+        public static List<GameObject> Read(string root, string scene, params Assembly[] scripts) =>
             new SceneFile(root, scripts).Read(Parse(File.ReadLines(Path.Combine(root, scene))));
 
         /// <summary>The objects of a file in Unity's YAML, blocks within a key left aside.</summary>
@@ -182,6 +184,21 @@ namespace UnityStubs
                         transform.localScale = (Vector3)Value(typeof(Vector3), scale, null);
                     }
                 }
+                if (document.Class == 4 && document.Values.TryGetValue("m_Father", out string father)
+                    && _objects.TryGetValue(long.Parse(FileId.Match(father).Groups[1].Value,
+                        CultureInfo.InvariantCulture), out UnityEngine.Object above))
+                {
+                    ((Transform)_objects[document.Id]).SetParent((Transform)above, false);
+                }
+                if (document.Class == 1)
+                {
+                    ((GameObject)_objects[document.Id]).tag = document.Values["m_TagString"];
+                }
+                if (_objects.TryGetValue(document.Id, out UnityEngine.Object made) && made is Renderer renderer)
+                {
+                    string own = Guid.Match(document.Lists["m_Materials"][0]).Groups[1].Value;
+                    renderer.sharedMaterial = (Material)Asset(PathOf(own));
+                }
                 if (document.Class == 114)
                 {
                     SetFields(_objects[document.Id], document);
@@ -196,12 +213,18 @@ namespace UnityStubs
             {
                 case 20:
                     return typeof(Camera);
+                case 23:
+                    return typeof(MeshRenderer);
+                case 33:
+                    return typeof(MeshFilter);
+                case 120:
+                    return typeof(LineRenderer);
                 case 108:
                     return typeof(Light);
                 case 114:
                     string path = PathOf(Guid.Match(document.Values["m_Script"]).Groups[1].Value);
                     string name = Path.GetFileNameWithoutExtension(path);
-                    return _scripts.GetTypes().Single(type => type.Name == name);
+                    return _scripts.SelectMany(one => one.GetTypes()).Single(type => type.Name == name);
                 default:
                     throw new NotSupportedException("class " + document.Class);
             }
@@ -272,7 +295,7 @@ namespace UnityStubs
             return Convert.ChangeType(text, type, CultureInfo.InvariantCulture);
         }
 
-        private static UnityEngine.Object Asset(string path)
+        private UnityEngine.Object Asset(string path)
         {
             if (Array.IndexOf(Texts, Path.GetExtension(path)) >= 0)
             {
@@ -282,9 +305,13 @@ namespace UnityStubs
             {
                 throw new NotSupportedException(path);
             }
-            bool isTransparent = File.ReadAllText(path).Contains("_Mode: 3", StringComparison.Ordinal);
-            var material = new Material(Shader.Find("Standard")) { name = Path.GetFileNameWithoutExtension(path) };
-            material.renderQueue = isTransparent ? 3000 : 2000;
+            string text = File.ReadAllText(path);
+            string shader = PathOf(Guid.Match(text.Substring(text.IndexOf("m_Shader:", StringComparison.Ordinal)))
+                .Groups[1].Value);
+            var material = new Material(Shader.Find(Named.Match(File.ReadAllText(shader)).Groups[1].Value));
+            material.name = Path.GetFileNameWithoutExtension(path);
+            int queue = int.Parse(Queue.Match(text).Groups[1].Value, CultureInfo.InvariantCulture);
+            material.renderQueue = queue < 0 ? 2000 : queue;
             return material;
         }
     }

@@ -26,7 +26,8 @@ def main(arguments: list[str] | None = None) -> int:
     violations = checks.run(project)
     for violation in violations:
         print(violation)
-    print("unity-check: dotnet test headless/Guidewire.Unity.Tests --filter RuleTests checks scripts and scenes")
+    print("unity-check: dotnet test headless/Guidewire.Unity.Tests -c Release --filter FullyQualifiedName~RuleTests "
+          "builds and checks scripts and scenes")
     print(f"unity-check: {len(project.asset_files)} files under Assets, {len(violations)} violations")
     return 1 if violations else 0
 

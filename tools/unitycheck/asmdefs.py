@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import dataclass
 from typing import Any, Iterator
 
@@ -19,6 +20,8 @@ TEST_RUNNERS = {"UnityEngine.TestRunner", "UnityEditor.TestRunner"}
 # Libraries of packages: the package that brings each.
 LIBRARIES = {"nunit.framework.dll": "com.unity.test-framework",
              "Newtonsoft.Json.dll": "com.unity.nuget.newtonsoft-json"}
+_OWN_DEFINE = re.compile(r"\bGUIDEWIRE_\w+")  # a define of this project's own
+_CONDITION = re.compile(r"^\s*#(?:el)?if.*$", re.MULTILINE)
 KEYS = {"name": str, "rootNamespace": str, "references": list, "includePlatforms": list, "excludePlatforms": list,
         "allowUnsafeCode": bool, "overrideReferences": bool, "precompiledReferences": list, "autoReferenced": bool,
         "defineConstraints": list, "versionDefines": list, "noEngineReferences": bool}
@@ -90,9 +93,24 @@ def check(project: Project) -> Iterator[Violation]:
         options = f"{asmdef.folder}csc.rsp"
         if not project.exists(options) or "-nullable:enable" not in project.text(options).split():
             yield Violation(options, 0, "nullable", "needs -nullable:enable, which the sources rely on")
-    for path in project.assets(".cs"):
-        if owner(asmdefs, path) is None:
+    samples = [Asmdef(path, parsed(project, path)[0]) for path in project.samples(".asmdef")]
+    used: dict[str, set[str]] = {asmdef.path: set(asmdef.strings("defineConstraints")) for asmdef in asmdefs + samples}
+    for path in project.assets(".cs") + project.samples(".cs"):
+        own = owner(asmdefs + samples, path)
+        if own is None:
             yield Violation(path, 0, "asmdef-outside", "stands in no assembly definition's folder")
+        else:
+            used[own.path] |= set(_OWN_DEFINE.findall(" ".join(_CONDITION.findall(project.text(path)))))
+    for asmdef in asmdefs + samples:
+        made = {str(entry.get("define")) for entry in _version_defines(asmdef)}
+        for define in sorted(made ^ {word for word in used[asmdef.path] if _OWN_DEFINE.fullmatch(word)}):
+            yield Violation(asmdef.path, 0, "asmdef-define", f"{define}: made and asked for by nothing, or the "
+                                                             "other way round")
+
+
+def _version_defines(asmdef: Asmdef) -> list[dict[str, Any]]:
+    defines = asmdef.data.get("versionDefines")
+    return [entry for entry in defines if isinstance(entry, dict)] if isinstance(defines, list) else []
 
 
 def _form(asmdef: Asmdef) -> Iterator[tuple[str, str]]:
@@ -121,9 +139,8 @@ def _form(asmdef: Asmdef) -> Iterator[tuple[str, str]]:
 
 def _references(project: Project, asmdef: Asmdef) -> Iterator[tuple[str, str]]:
     references = targets(project, asmdef)
-    defines = asmdef.data.get("versionDefines")
     # Packages for which an assembly has a define: it compiles without them too.
-    optional = [entry.get("name") for entry in defines if isinstance(entry, dict)] if isinstance(defines, list) else []
+    optional = [entry.get("name") for entry in _version_defines(asmdef)]
     meant = [target.path if target else reference for reference, target in references]
     for reference, target in references:
         if target is None and reference not in OUTSIDE:

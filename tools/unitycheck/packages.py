@@ -24,7 +24,7 @@ MODULE_OF = {
     "JsonUtility": "jsonserialize", "ScreenCapture": "screencapture", "EncodeToPNG": "imageconversion",
     "ImageConversion": "imageconversion", "Canvas": "ui", "UnityWebRequest": "unitywebrequest",
 }
-ENGINE = ("Assets/Guidewire/Runtime/", "Assets/Guidewire/Editor/")
+ENGINE = ("Assets/Guidewire/Runtime/", "Assets/Guidewire/Editor/", "Assets/Scenes/")
 _BESIDE = re.compile(r'//.*|"(\\.|[^"\\\n])*"')  # comments and texts
 _VERSION = re.compile(r"^\d{1,6}\.\d{1,6}\.\d{1,6}(-[\w.-]+)?$")
 _NAME = re.compile(r"^[a-z0-9-]+(\.[a-z0-9-]+){2,}$")

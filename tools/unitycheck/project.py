@@ -94,6 +94,11 @@ class Project:
         """Files that Unity imports whose names end in one of the suffixes."""
         return [path for path in self.asset_files if path.endswith(suffixes)]
 
+    def samples(self, suffix: str) -> list[str]:
+        """Files of the package's samples, which Unity imports once a user asks for them."""
+        return [path.relative_to(self.root).as_posix()
+                for path in sorted(self.root.glob(f"Assets/Guidewire/Samples~/**/*{suffix}"))]
+
     def settings(self) -> list[str]:
         """Files directly under ProjectSettings."""
         return [path for path in self._settings if self.exists(path)]

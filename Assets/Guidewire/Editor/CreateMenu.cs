@@ -1,3 +1,4 @@
+using Guidewire.Runtime;
 using UnityEditor;
 using UnityEngine;
 
@@ -24,8 +25,11 @@ namespace Guidewire.Editor
             + "  \"friction\": {\"value\": \"0.1\", \"basis\": \"assumed\", \"source\": \"say where from\"},\n"
             + "  \"tip\": {\"shape\": \"straight\", \"basis\": \"assumed\", \"source\": \"say where from\"}\n}\n";
 
-        // An instance of the prefab, below what is selected; undone as one.
-        [MenuItem("GameObject/Guidewire/Wire in a vessel")]
+        private static readonly Vector3 Middle = new Vector3(0f, 30f, 0f);    // of the prefab's vessel, units
+        private const float Distance = 400f;
+
+        // An instance of the prefab, below what is selected, in the picture of the scene view and of the camera.
+        [MenuItem("GameObject/Guidewire/Wire in a vessel", false, 10)]
         private static void CreateWire(MenuCommand command)
         {
             string path = PathOf(Prefab);
@@ -33,15 +37,47 @@ namespace Guidewire.Editor
             GameObjectUtility.SetParentAndAlign(made, command.context as GameObject);
             Undo.RegisterCreatedObjectUndo(made, "Create wire in a vessel");
             Selection.activeObject = made;
+            Show(made.GetComponent<SimulationLoop>());
         }
+
+        // A camera that a script of the user's moves is left alone.
+        private static void Show(SimulationLoop loop)
+        {
+            Transform frame = loop.transform;
+            if (SceneView.lastActiveSceneView)
+            {
+                Vector3 size = 2f * (frame.TransformPoint(Middle + 130f * Vector3.forward)
+                    - frame.TransformPoint(Middle)).magnitude * Vector3.one;
+                SceneView.lastActiveSceneView.Frame(new Bounds(frame.TransformPoint(Middle), size), true);
+            }
+            Camera? camera = Camera.main;
+            if (!camera)
+            {
+                var made = new GameObject("Wire camera") { tag = "MainCamera" };
+                camera = made.AddComponent<Camera>();
+                Undo.RegisterCreatedObjectUndo(made, "Create wire in a vessel");
+            }
+            else if (System.Array.Exists(camera!.GetComponents<MonoBehaviour>(), IsOfAUser))
+            {
+                return;
+            }
+            Undo.RecordObject(camera!.transform, "Create wire in a vessel");
+            Undo.RecordObject(camera, "Create wire in a vessel");
+            OrbitCamera orbit = Undo.AddComponent<OrbitCamera>(camera.gameObject);
+            (orbit.Loop, orbit.Target, orbit.Distance) = (loop, Middle, Distance);
+            orbit.Look();
+        }
+
+        private static bool IsOfAUser(MonoBehaviour script) =>
+            !(script.GetType().Namespace ?? "").StartsWith("UnityEngine", System.StringComparison.Ordinal);
 
         [MenuItem("Assets/Create/Guidewire/Parameters")]
         private static void CreateParameters() =>
-            ProjectWindowUtil.CreateAssetWithContent("Parameters.json", Parameters);
+            TextFile.Create("Parameters.json", Parameters);
 
         [MenuItem("Assets/Create/Guidewire/Instrument")]
         private static void CreateInstrument() =>
-            ProjectWindowUtil.CreateAssetWithContent("Instrument.json", Instrument);
+            TextFile.Create("Instrument.json", Instrument);
 
         // In this repository's project below Assets, in others' below Packages.
         private static string PathOf(string path)

@@ -25,6 +25,30 @@ namespace Guidewire.Editor
             }
         }
 
+        // Not a gizmo: the view's own mesh, as Play would begin with it. No object is made while a picture is.
+        [DrawGizmo(GizmoType.Selected | GizmoType.InSelectionHierarchy | GizmoType.NonSelected)]
+        private static void ShowStart(WireView view, GizmoType type)
+        {
+            if (!Application.isPlaying)
+            {
+                EditorApplication.delayCall += () => ShowStart(view);
+            }
+        }
+
+        private static void ShowStart(WireView view)
+        {
+            if (view && !Application.isPlaying && view.Loop is { } loop)
+            {
+                StartCheck.Found found = StartCheck.Of(loop).Last;
+                bool isNew = view.Mesh == null;
+                view.DrawStart(found.Start, found.Parameters);
+                if (isNew && view.Mesh != null)
+                {
+                    SceneView.RepaintAll();
+                }
+            }
+        }
+
         [DrawGizmo(GizmoType.Selected | GizmoType.InSelectionHierarchy)]
         private static void DrawRims(SceneVessel vessel, GizmoType type)
         {

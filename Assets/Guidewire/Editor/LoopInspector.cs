@@ -66,6 +66,10 @@ namespace Guidewire.Editor
             {
                 EditorGUILayout.HelpBox(check.Last.Warnings, MessageType.Warning);
             }
+            if (check.Last.Hint.Length > 0)
+            {
+                EditorGUILayout.HelpBox(check.Last.Hint, MessageType.Info);
+            }
             if (loop.Progress.Length > 0 || check.IsAtWork)
             {
                 EditorGUILayout.HelpBox(loop.Progress.Length > 0 ? loop.Progress : "opening", MessageType.Info);

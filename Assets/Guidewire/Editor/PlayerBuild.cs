@@ -14,11 +14,11 @@ namespace Guidewire.Editor
     {
         /// <summary>Builds Build/Linux/Guidewire.x86_64; in batch mode it ends the editor with 0, or 70 where the build
         /// failed.</summary>
-        [MenuItem("Guidewire/Build player for Linux")]
+        [MenuItem("Tools/Guidewire/Build player for Linux")]
         public static void Linux() => Run(BuildTarget.StandaloneLinux64, "Build/Linux/Guidewire.x86_64");
 
         /// <summary>Builds Build/Windows/Guidewire.exe.</summary>
-        [MenuItem("Guidewire/Build player for Windows")]
+        [MenuItem("Tools/Guidewire/Build player for Windows")]
         public static void Windows() => Run(BuildTarget.StandaloneWindows64, "Build/Windows/Guidewire.exe");
 
         private static void Run(BuildTarget target, string path)

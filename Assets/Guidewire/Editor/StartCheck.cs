@@ -6,6 +6,7 @@ using System.Threading.Tasks;
 using Guidewire.Core;
 using Guidewire.Io;
 using Guidewire.Runtime;
+using UnityEditor;
 
 namespace Guidewire.Editor
 {
@@ -40,6 +41,7 @@ namespace Guidewire.Editor
             {
                 _found = _task.Result;
                 _task = null;
+                SceneView.RepaintAll();
             }
             string key = loop.OpeningKey;
             if (_task != null || key == _asked)
@@ -47,6 +49,14 @@ namespace Guidewire.Editor
                 return;
             }
             _asked = key;
+            if (!loop.HasParameters)
+            {
+                _found = new Found
+                {
+                    Hint = "Choose a Parameter Asset; Assets > Create > Guidewire > Parameters makes one.",
+                };
+                return;
+            }
             RunOpening opening;
             try
             {
@@ -87,6 +97,8 @@ namespace Guidewire.Editor
             {
                 Parameters = session.Parameters;
                 Target = session.Target;
+                Start = new WireState(session);
+                Start.Take(session, false, false);
                 for (int k = 0; k < session.InstrumentCount; k++)
                 {
                     Instruments.Add((session.NameOf(k), session.ChoicesOf(k)));
@@ -106,6 +118,12 @@ namespace Guidewire.Editor
 
             /// <summary>Why Play would stop at once; empty where it would not.</summary>
             public string Problem { get; set; } = "";
+
+            /// <summary>What is still to be done; empty where nothing is.</summary>
+            public string Hint { get; set; } = "";
+
+            /// <summary>The wire at its start; null where the run cannot be opened.</summary>
+            public WireState? Start { get; }
 
             /// <summary>What is allowed but most likely not meant.</summary>
             public string Warnings { get; } = "";

@@ -19,10 +19,11 @@ RUNTIME, EDITOR, TESTS = f"{HOME}/Runtime", f"{HOME}/Editor", f"{HOME}/Tests/Cor
 CORE_ASMDEF = f"{HOME}/Core/Guidewire.Core.asmdef"
 IO_ASMDEF = f"{HOME}/Io/Guidewire.Io.asmdef"
 RUNTIME_ASMDEF = f"{RUNTIME}/Guidewire.Runtime.asmdef"
+SAMPLE_ASMDEF = f"{HOME}/Samples~/InputSystem/Guidewire.Samples.InputSystem.asmdef"
 EDITOR_ASMDEF = f"{EDITOR}/Guidewire.Editor.asmdef"
 TESTS_ASMDEF = f"{TESTS}/Guidewire.Core.Tests.asmdef"
 VECTOR = f"{HOME}/Core/Numbers/Vector3d.cs"
-LOOP, HUD = f"{RUNTIME}/Loop/SimulationLoop.cs", f"{RUNTIME}/Views/Hud.cs"
+LOOP, HUD = f"{RUNTIME}/Loop/SimulationLoop.cs", "Assets/Scenes/Hud.cs"
 SCENE = "Assets/Scenes/Insertion.unity"
 WIRE = f"{RUNTIME}/Resources/Guidewire/Wire.mat"
 MANIFEST, PACKAGE = "Packages/manifest.json", f"{HOME}/package.json"
@@ -33,6 +34,12 @@ REFERENCES = r'"references": \[\]'
 # it is another.
 EDITS = {
     # Assembly definitions
+    "define misspelt": (RUNTIME_ASMDEF, '"define": "GUIDEWIRE_INPUT', '"define": "GUIDEWIRE_IMPUT', "asmdef-define"),
+    "sample's define misspelt": (SAMPLE_ASMDEF, '"define": "GUIDEWIRE_INPUT', '"define": "GUIDEWIRE_IMPUT',
+                                 "asmdef-define"),
+    "constraint misspelt": (SAMPLE_ASMDEF, '"GUIDEWIRE_INPUT_SYSTEM"\n', '"GUIDEWIRE_INPUTSYSTEM"\n', "asmdef-define"),
+    "define in a source misspelt": (f"{RUNTIME}/Loop/HostInput.cs", "GUIDEWIRE_INPUT_", "GUIDEWIRE_IMPUT_",
+                                    "asmdef-define", RUNTIME_ASMDEF),
     "cycle": (CORE_ASMDEF, REFERENCES, '"references": ["Guidewire.Io"]', "asmdef-cycle"),
     "reference misspelt": (IO_ASMDEF, '"Guidewire.Core"', '"Guidewire.Kore"', "asmdef-reference"),
     "reference by an unknown guid": (IO_ASMDEF, '"Guidewire.Core"', f'"GUID:{32 * "3"}"', "asmdef-reference"),

@@ -14,7 +14,7 @@ namespace Guidewire.Runtime
     /// the Input System package, else nothing. Never throws.</summary>
     /// <remarks>Where the Player settings leave input to that package alone, every call of Unity's Input throws. The
     /// setting cannot change while the project plays, so it is asked for once, by whoever needs it.</remarks>
-    internal readonly struct HostInput
+    public readonly struct HostInput
     {
         private readonly bool _isLegacy;
 
@@ -44,11 +44,10 @@ namespace Guidewire.Runtime
         /// <summary>Whether keys are reported at all.</summary>
         public bool IsThere =>
 #if HAS_INPUT_SYSTEM
-                _isLegacy || Keyboard.current != null;
+            _isLegacy || Keyboard.current != null;
 #else
-                return _isLegacy;
+            _isLegacy;
 #endif
-
 
         /// <summary>Where the mouse is, pixels.</summary>
         public Vector2 Mouse

@@ -1,7 +1,7 @@
 namespace Guidewire.Runtime
 {
-    /// <summary>What steers a wire: a device, a controller, a script. A component of the loop's object that has it is
-    /// asked each frame.</summary>
+    /// <summary>What steers a wire: a device, a controller, a script. The first enabled component of the loop's object
+    /// that has it is asked each frame.</summary>
     public interface IWireInput
     {
         /// <summary>Goes from -1, pull at the loop's full speed, to 1, push.</summary>

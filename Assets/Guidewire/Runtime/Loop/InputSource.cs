@@ -1,3 +1,4 @@
+using System.Collections.Generic;
 using UnityEngine;
 
 namespace Guidewire.Runtime
@@ -6,6 +7,7 @@ namespace Guidewire.Runtime
     /// </summary>
     internal sealed class InputSource
     {
+        private readonly List<IWireInput> _found = new List<IWireInput>();    // filled anew, without garbage
         private bool _had;
 
         /// <summary>Sets the loop's push and turn for a frame; without any input they are left as a script has set
@@ -13,11 +15,15 @@ namespace Guidewire.Runtime
         public void Steer(SimulationLoop loop)
         {
             IWireInput? input = loop.Input;
-            if (input == null && loop.TryGetComponent(out IWireInput found))
+            if (input == null)
             {
-                input = found;
+                loop.GetComponents(_found);
+                for (int i = 0; i < _found.Count && input == null; i++)
+                {
+                    input = IsOn(_found[i]) ? _found[i] : null;
+                }
             }
-            bool has = input != null && (!(input is Behaviour component) || component.isActiveAndEnabled);
+            bool has = input != null && IsOn(input);
             if (has || _had)
             {
                 loop.Push = has ? input!.Push : 0f;
@@ -25,5 +31,7 @@ namespace Guidewire.Runtime
             }
             _had = has;
         }
+
+        private static bool IsOn(IWireInput input) => !(input is Behaviour component) || component.isActiveAndEnabled;
     }
 }

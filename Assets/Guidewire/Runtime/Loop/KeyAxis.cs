@@ -7,10 +7,10 @@ namespace Guidewire.Runtime
     [Serializable]
     public sealed class KeyAxis
     {
-        [SerializeField] private KeyCode _up;
-        [SerializeField] private KeyCode _alsoUp;
-        [SerializeField] private KeyCode _down;
-        [SerializeField] private KeyCode _alsoDown;
+        [SerializeField, Tooltip("Push, or turn right.")] private KeyCode _up;
+        [SerializeField, Tooltip("Another key for it.")] private KeyCode _alsoUp;
+        [SerializeField, Tooltip("Pull, or turn left.")] private KeyCode _down;
+        [SerializeField, Tooltip("Another key for it.")] private KeyCode _alsoDown;
 
         /// <summary>Makes two keys for each direction; None for none.</summary>
         public KeyAxis(KeyCode up, KeyCode alsoUp, KeyCode down, KeyCode alsoDown)

@@ -7,9 +7,11 @@ namespace Guidewire.Runtime
     [AddComponentMenu("Guidewire/Key Input"), Manual("input")]
     public sealed class KeyInput : MonoBehaviour, IWireInput
     {
+        [Tooltip("Keys that push and pull.")]
         [SerializeField]
         private KeyAxis _push = new KeyAxis(KeyCode.W, KeyCode.UpArrow, KeyCode.S, KeyCode.DownArrow);
 
+        [Tooltip("Keys that turn right and left.")]
         [SerializeField]
         private KeyAxis _turn = new KeyAxis(KeyCode.D, KeyCode.RightArrow, KeyCode.A, KeyCode.LeftArrow);
 

@@ -9,40 +9,44 @@ namespace Guidewire.Runtime
 {
     /// <summary>What of a run does not change from step to step: made by the thread that steps, when the run is opened
     /// and after each change.</summary>
-    internal sealed class RunDescription
+    public sealed class RunDescription
     {
         // Keys with a few words each that a wire can be switched between while it goes on.
         private static readonly string[] Switchable = { "solver", "integrator", "sweepOrder", "elementContact" };
 
+        private readonly List<string> _titles = new List<string>();
+        private readonly List<string> _choices = new List<string>();
+        private readonly List<(string Key, string Label)> _switches = new List<(string Key, string Label)>();
         private readonly List<IReadOnlyList<string>> _names = new List<IReadOnlyList<string>>();
 
         /// <param name="walls">Their meshes.</param>
-        public RunDescription(SimulationSession session, WallMesh[] walls)
+        internal RunDescription(SimulationSession session, WallMesh[] walls)
         {
             Walls = walls;
             Parameters = session.Parameters;
             IsSteered = session.IsSteered;
             for (int k = 0; k < session.InstrumentCount; k++)
             {
-                Titles.Add(session.TitleOf(k));
+                _titles.Add(session.TitleOf(k));
                 _names.Add(session.ChoicesOf(k));
-                Choices.Add(_names[k].Count == 0 ? "" : string.Format(CultureInfo.InvariantCulture,
+                _choices.Add(_names[k].Count == 0 ? "" : string.Format(CultureInfo.InvariantCulture,
                     "{0}: {1} (1 of {2})", k == 0 ? "wire" : "catheter", session.TitleOf(k), _names[k].Count));
             }
             Warnings = session.Warnings;
             foreach (string key in Switchable)
             {
-                Switches.Add((key, key + ": " + session.Text(key)));
+                _switches.Add((key, key + ": " + session.Text(key)));
             }
         }
 
         /// <summary>The effective parameters; nobody writes to them.</summary>
         public SimulationParameters Parameters { get; }
 
+        /// <summary>Whether the hand moves the hubs.</summary>
         public bool IsSteered { get; }
 
         /// <summary>The walls, for a picture.</summary>
-        public WallMesh[] Walls { get; }
+        internal WallMesh[] Walls { get; }
 
         /// <summary>What is allowed but most likely not meant, one line each.</summary>
         public IReadOnlyList<string> Warnings { get; }
@@ -51,7 +55,7 @@ namespace Guidewire.Runtime
         /// first.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
         /// <param name="overrides">Those that count now, KEY=VALUE each.</param>
-        public IReadOnlyList<string[]> NextOf(int instrument, string[] overrides)
+        internal IReadOnlyList<string[]> NextOf(int instrument, string[] overrides)
         {
             IReadOnlyList<string> names = _names[instrument];
             string key = SimulationSession.KeyOf(instrument) + "=";
@@ -70,12 +74,12 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>What each instrument is called, the wire first.</summary>
-        public List<string> Titles { get; } = new List<string>();
+        public IReadOnlyList<string> Titles => _titles;
 
         /// <summary>The names for a button that takes the next of its kind; empty where there is none.</summary>
-        public List<string> Choices { get; } = new List<string>();
+        public IReadOnlyList<string> Choices => _choices;
 
         /// <summary>Keys that can be switched while the wire goes on, and what each has.</summary>
-        public List<(string Key, string Label)> Switches { get; } = new List<(string Key, string Label)>();
+        public IReadOnlyList<(string Key, string Label)> Switches => _switches;
     }
 }

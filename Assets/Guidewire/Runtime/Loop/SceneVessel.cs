@@ -10,7 +10,7 @@ namespace Guidewire.Runtime
     public sealed class SceneVessel : MonoBehaviour
     {
         [Tooltip("Coulomb's coefficient of friction with the wire, dimensionless.")]
-        [SerializeField] private float _frictionCoefficient;
+        [SerializeField, Min(0f)] private float _frictionCoefficient;
 
         [Tooltip("An object near the middle of each open rim of the mesh.")]
         [SerializeField] private Transform[] _openRims = Array.Empty<Transform>();

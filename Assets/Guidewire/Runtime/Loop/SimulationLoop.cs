@@ -17,11 +17,12 @@ namespace Guidewire.Runtime
     {
         private const int Patience = 100;          // ms, for the thread at the end
 
-        [Tooltip("Parameter file, from the project's folder or, in a player, from the folder that holds it.")]
-        [SerializeField] private string _parameterFile = "params/default.json";
-
-        [Tooltip("Parameter file as an asset, instead of the file.")]
+        [Tooltip("Parameter file as an asset, such as Assets > Create > Guidewire > Parameters makes.")]
         [SerializeField] private TextAsset? _parameterAsset;
+
+        [Tooltip("Without an asset: parameter file, from the project's folder or, in a player, from the folder that "
+            + "holds it.")]
+        [SerializeField] private string _parameterFile = "";
 
         [Tooltip("Instruments and meshes that the parameters name, as assets from anywhere in the project.")]
         [SerializeField] private TextAsset[] _files = Array.Empty<TextAsset>();
@@ -34,15 +35,6 @@ namespace Guidewire.Runtime
 
         [Tooltip("Folder for positions.json, parameters.json and summary.json; empty: the run is not logged.")]
         [SerializeField] private string _logFolder = "";
-
-        [Tooltip("Parameter file to which a key switches, and back; empty: none.")]
-        [SerializeField] private string _alternativeFile = "";
-
-        [Tooltip("That file as an asset, instead of the file.")]
-        [SerializeField] private TextAsset? _alternativeAsset;
-
-        [Tooltip("KEY=VALUE, one per line: parameters that override those of that file.")]
-        [SerializeField] private string[] _alternativeOverrides = Array.Empty<string>();
 
         [Header("Pace"), Tooltip("Who makes the steps: a thread, or Update or FixedUpdate between two frames.")]
         [SerializeField] private SteppingMode _stepping = SteppingMode.Worker;
@@ -66,18 +58,23 @@ namespace Guidewire.Runtime
         [SerializeField, Range(0f, 720f)] private float _turnSpeed = 180f;
 
         private readonly FrameBudget _budget = new FrameBudget();
-        private readonly TouchedSpheres _touched = new TouchedSpheres();
-        private WireRun? _run;
-        private ShownStates? _opened;       // of the run, once the loop has taken notice of it
-        private string[]? _taken;           // overrides with which it was opened, of those that were tried
+        private readonly ContactEvents _contacts = new ContactEvents();
         private readonly SpeedMeter _speed = new SpeedMeter();
         private readonly RunReport _report = new RunReport();
         private readonly InputSource _input = new InputSource();
-        private bool _isLoaded;
+        private readonly PlaceWatch _places = new PlaceWatch();
+        private readonly HubCommands _hubs = new HubCommands();
+        private WireRun? _run;
+        private ShownStates? _opened;       // of the run, once the loop has taken notice of it
+
+        // What says that something is alive is not kept when scripts are compiled anew in Play: the run is not either.
+        [NonSerialized] private string[]? _openedWith;   // overrides, of those that were tried
+        [NonSerialized] private bool _isLoaded;
+        [NonSerialized] private bool _wasAtTarget;
 
         /// <summary>The run itself, with forces, records and snapshots; null where there is none.</summary>
         /// <exception cref="InvalidOperationException">The loop's thread makes its steps: use <see cref="State"/>, or
-        /// <see cref="Do"/>.</exception>
+        /// <see cref="BetweenSteps"/>.</exception>
         public SimulationSession? Session => _run?.Session;
 
         /// <summary>The state after the newest step; null where there is no run, or not yet.</summary>
@@ -114,38 +111,80 @@ namespace Guidewire.Runtime
         /// <summary>Simulated seconds per second of real time.</summary>
         public float Pace { get => _pace; set => _pace = value; }
 
-        /// <summary>Goes from -1, pull at full speed, to 1, push; what is beyond counts as full.</summary>
-        public float Push { get; set; }
+        /// <summary>Whether input pushes and turns the wire, instead of the parameters' drive; from the next <see
+        /// cref="Load"/> on.</summary>
+        public bool IsSteered { get => _isSteered; set => _isSteered = value; }
 
-        /// <summary>Goes from -1, turn left at full speed, to 1, turn right; what is beyond counts as full.</summary>
-        public float Turn { get; set; }
+        /// <summary>Speed of a hub at full push, in units per second of simulated time.</summary>
+        public float PushSpeed { get => _pushSpeed; set => _pushSpeed = value; }
+
+        /// <summary>Rotation speed of a hub at full turn, in degrees per second of simulated time.</summary>
+        public float TurnSpeed { get => _turnSpeed; set => _turnSpeed = value; }
+
+        /// <summary>Goes from -1, pull the steered instrument at full speed, to 1, push; what is beyond counts as
+        /// full.</summary>
+        public float Push
+        {
+            get => _hubs.PushOf(SteeredInstrument);
+            set => SteerHub(SteeredInstrument, value, Turn);
+        }
+
+        /// <summary>Goes from -1, turn the steered instrument left at full speed, to 1, turn right; what is beyond
+        /// counts as full.</summary>
+        public float Turn
+        {
+            get => _hubs.TurnOf(SteeredInstrument);
+            set => SteerHub(SteeredInstrument, Push, value);
+        }
 
         /// <summary>Whose hub <see cref="Push"/> and <see cref="Turn"/> move: 0 the wire's, k that of catheter
         /// k.</summary>
-        public int Held { get; private set; }
+        public int SteeredInstrument { get; private set; }
+
+        /// <summary>Text asset of the parameters, from the next <see cref="Load"/> on; null: the file.</summary>
+        public TextAsset? ParameterAsset { get => _parameterAsset; set => _parameterAsset = value; }
+
+        /// <summary>Parameter file from <see cref="Root"/>, taken without an asset, from the next <see cref="Load"/>
+        /// on.</summary>
+        public string ParameterFile { get => _parameterFile; set => _parameterFile = value; }
+
+        /// <summary>KEY=VALUE each: what overrides the parameters, from the next <see cref="Load"/> on.</summary>
+        public string[] Overrides { get => _overrides; set => _overrides = value; }
+
+        /// <summary>Vessels of the scene, in addition to those of the parameters, from the next <see cref="Load"/>
+        /// on.</summary>
+        public SceneVessel[] Vessels { get => _vessels; set => _vessels = value; }
+
+        /// <summary>Folder of the results from <see cref="Root"/>, from the next <see cref="Load"/> on; empty: the run
+        /// is not logged.</summary>
+        public string LogFolder { get => _logFolder; set => _logFolder = value; }
 
         /// <summary>Instruments and meshes that the parameters name, from the next <see cref="Load"/> on.</summary>
         public TextAsset[] Files { get => _files; set => _files = value; }
 
-        /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: a component of this object
-        /// that is enabled, or else nobody but their setters.</summary>
+        /// <summary>What sets <see cref="Push"/> and <see cref="Turn"/> each frame; null: the first enabled component
+        /// of this object that can, or else nobody but their setters.</summary>
         public IWireInput? Input { get; set; }
 
         /// <summary>Takes what the run is commanded, from the next <see cref="Load"/> on; null: nothing does.</summary>
-        public SteeringRecord? Record { get; set; }
+        public SteeringRecord? Recording { get; set; }
 
         /// <summary>What the run is commanded instead of what the hand does, from the next <see cref="Load"/>
         /// on.</summary>
-        public SteeringRecord? Played { get; set; }
+        public SteeringRecord? Replay { get; set; }
 
         /// <summary>Number of spheres, n + 1; 0 without a run.</summary>
         public int SphereCount => State?.Rod.SphereCount ?? 0;
 
-        /// <summary>Raised with a sphere's index in the frame in which a wall has begun to act on it.</summary>
-        public event Action<int>? ContactBegan;
+        /// <summary>Raised in the frame in which a wall has begun to act on a sphere.</summary>
+        public event Action<WireContact>? ContactBegan;
 
-        /// <summary>Raised with a sphere's index in the frame in which a wall has ceased to act on it.</summary>
-        public event Action<int>? ContactEnded;
+        /// <summary>Raised in the frame in which a wall has ceased to act on a sphere, with the last force.</summary>
+        public event Action<WireContact>? ContactEnded;
+
+        /// <summary>Raised with the tip's place in the world when the wire comes to the target of its
+        /// vessel.</summary>
+        public event Action<Vector3>? TargetReached;
 
         /// <summary>Raised once where a run has ended by itself, with how and why.</summary>
         public event Action<Outcome, string>? Ended;
@@ -153,11 +192,12 @@ namespace Guidewire.Runtime
         /// <summary>Folder that paths in the Inspector start from.</summary>
         public static string Root => Path.GetDirectoryName(Application.dataPath) ?? ".";
 
-        /// <summary>What of the run does not change from step to step.</summary>
-        internal RunDescription? Description => _opened == null ? null : _run?.Description;
+        /// <summary>What of the run does not change from step to step; null where there is no run, or not
+        /// yet.</summary>
+        public RunDescription? Description => _opened == null ? null : _run?.Description;
 
-        /// <summary>Overrides of the parameters, KEY=VALUE each.</summary>
-        internal string[] Overrides => _overrides;
+        /// <summary>Whether the Inspector names parameters; without them there is nothing to open.</summary>
+        internal bool HasParameters => _parameterAsset || _parameterFile.Length > 0;
 
         /// <summary>Another text where the next run would be opened from something else.</summary>
         internal string OpeningKey => string.Join("\n", _overrides) + "\n" + _parameterFile + "\n" + _isSteered
@@ -166,29 +206,6 @@ namespace Guidewire.Runtime
 
         /// <summary>Whether a view shows where the wire touches: it costs a little of each step.</summary>
         internal bool WantsContactPoints { get; set; }
-
-        /// <summary>Names what the next <see cref="Load"/> reads, instead of the Inspector.</summary>
-        /// <param name="parameterFile">Parameter file, from <see cref="Root"/>; empty: the asset.</param>
-        /// <param name="overrides">KEY=VALUE each.</param>
-        /// <param name="logFolder">Folder of the results; empty for a run that is not logged.</param>
-        /// <param name="isSteered">Whether input steers the wire instead of the drive.</param>
-        public void Choose(string parameterFile, string[] overrides, string logFolder, bool isSteered)
-        {
-            _isSteered = isSteered;
-            _parameterFile = parameterFile;
-            _parameterAsset = parameterFile.Length > 0 ? null : _parameterAsset;
-            _overrides = overrides;
-            _logFolder = logFolder;
-        }
-
-        /// <summary>Names what the next <see cref="Load"/> takes instead of a file.</summary>
-        /// <param name="parameters">Text of a parameter file; null: the file.</param>
-        /// <param name="vessels">Vessels of the scene, in addition to those of the parameters.</param>
-        public void Choose(TextAsset? parameters, params SceneVessel[] vessels)
-        {
-            _parameterAsset = parameters;
-            _vessels = vessels;
-        }
 
         /// <summary>Positions of all spheres in the world, as this frame shows them, by this object's transform. No
         /// garbage.</summary>
@@ -202,27 +219,23 @@ namespace Guidewire.Runtime
         public void GetOrientations(Quaternion[] orientations) =>
             WorldFrames.GetOrientations(transform, Shown, orientations);
 
-        /// <summary>Takes the alternative's parameters instead of the present ones, and rebuilds the wire; does
-        /// nothing where there is no alternative.</summary>
-        public void TakeAlternative()
+        /// <summary>Steers the next instrument: wire, catheters, wire again. The one before is let go.</summary>
+        public void SteerNextInstrument()
         {
-            if (_alternativeFile.Length == 0 && !_alternativeAsset)
-            {
-                return;
-            }
-            (_parameterFile, _alternativeFile) = (_alternativeFile, _parameterFile);
-            (_overrides, _alternativeOverrides) = (_alternativeOverrides, _overrides);
-            (_parameterAsset, _alternativeAsset) = (_alternativeAsset, _parameterAsset);
-            Load();
+            SteerHub(SteeredInstrument, 0f, 0f);
+            SteeredInstrument = Description == null ? 0 : (SteeredInstrument + 1) % Description.Titles.Count;
         }
 
-        /// <summary>Selects the next instrument to steer: wire, catheters, wire again.</summary>
-        public void HoldNext() => Held = Description == null ? 0 : (Held + 1) % Description.Titles.Count;
+        /// <summary>Says how a hub moves until it is said otherwise; several may move at once.</summary>
+        /// <param name="instrument">0 the wire, k catheter k; one that the run does not have does nothing.</param>
+        /// <param name="push">From -1, pull at full speed, to 1, push.</param>
+        /// <param name="turn">From -1, turn left at full speed, to 1, turn right.</param>
+        public void SteerHub(int instrument, float push, float turn) => _hubs.Set(instrument, push, turn);
 
-        /// <summary>Takes the next name of the folders of instruments with which an instrument can be built, and builds
+        /// <summary>Uses the next name of the folders of instruments with which an instrument can be built, and builds
         /// the run anew; does nothing where there is none.</summary>
         /// <param name="instrument">0 the wire, k catheter k.</param>
-        public void TakeNextInstrument(int instrument)
+        public void UseNextInstrument(int instrument)
         {
             if (Description?.NextOf(instrument, _overrides) is { Count: > 0 } choices)
             {
@@ -280,16 +293,16 @@ namespace Guidewire.Runtime
 
         /// <summary>Does something with the run between two steps, such as saving or restoring it: on the loop's
         /// thread, or at once where it has none. What it throws stops the loop.</summary>
-        public void Do(Action<SimulationSession> change)
+        public void BetweenSteps(Action<SimulationSession> change)
         {
-            _run?.Do(change);
+            _run?.AskChange(change);
             WorkAtOnce();
         }
 
         /// <summary>Changes a parameter while the wire goes on; a value that is not allowed stops the loop.</summary>
         /// <param name="key">As in a file.</param>
         /// <param name="value">As behind KEY= in the Inspector.</param>
-        public void Set(string key, string value) => Do(session => session.Set(key, value));
+        public void Set(string key, string value) => BetweenSteps(session => session.Set(key, value));
 
         /// <summary>Ends the run and its log; a thread in the middle of a step ends within 100 ms.</summary>
         public void Close()
@@ -308,11 +321,18 @@ namespace Guidewire.Runtime
 
         private void Update()
         {
+            if (!_isLoaded && !HasParameters)
+            {
+                _isLoaded = true;
+                Debug.LogWarning("guidewire: " + name + ": choose a Parameter Asset, such as "
+                    + "Assets > Create > Guidewire > Parameters makes, or a Parameter File", this);
+            }
             if (!_isLoaded)    // the first frame, or the first after scripts were compiled anew in Play Mode
             {
                 Load();
             }
             _input.Steer(this);
+            _places.Check(this);
             if (_stepping != SteppingMode.FixedSteps)
             {
                 Advance(Time.deltaTime);
@@ -336,15 +356,16 @@ namespace Guidewire.Runtime
             WireRun? before = _run;
             (_run, _opened) = (null, null);
             _isLoaded = true;
-            (RealTime, _taken) = (0.0, null);
+            (RealTime, _openedWith, _wasAtTarget) = (0.0, null, false);
+            _places.Begin(this);
             _report.Begin();
             _speed.Begin();
             try
             {
                 before?.Dispose();
                 RunOpening opening = Opening(isLogged: true);
-                _run = new WireRun((report, cancellation) => opening.Open(choices, before, taken => _taken = taken,
-                    report, cancellation), Record, Played);
+                _run = new WireRun((report, cancellation) => opening.Open(choices, before, taken => _openedWith = taken,
+                    report, cancellation), Recording, Replay);
             }
             catch (Exception error)
             {
@@ -365,6 +386,10 @@ namespace Guidewire.Runtime
         {
             VesselMesh[] vessels = Array.ConvertAll(_vessels, vessel => vessel ? vessel.Read(transform)
                 : throw new ArgumentException("an entry of the vessels names no object"));
+            if (!HasParameters)
+            {
+                throw new ArgumentException("no parameters: choose a Parameter Asset or a Parameter File");
+            }
             string log = _logFolder.Length == 0 || !isLogged ? "" : Path.Combine(Root, _logFolder);
             return new RunOpening(_parameterAsset ? _parameterAsset!.name : Path.Combine(Root, _parameterFile),
                 _parameterAsset ? _parameterAsset!.text : null, AssetFiles.Read(_files), vessels, log, _isSteered);
@@ -372,9 +397,7 @@ namespace Guidewire.Runtime
 
         private void Steer()
         {
-            float push = Mathf.Clamp(Push, -1f, 1f) * _pushSpeed;
-            float turn = Mathf.Clamp(Turn, -1f, 1f) * _turnSpeed;
-            _run!.Steer(new SteeringCommand { Held = Held, Push = push, Turn = turn }, WantsContactPoints);
+            _run!.Steer(_hubs, _pushSpeed, _turnSpeed, WantsContactPoints);
             WantsContactPoints = false;    // views ask anew each frame
         }
 
@@ -403,9 +426,9 @@ namespace Guidewire.Runtime
             if (_opened == null && _run.Opened != null)
             {
                 _opened = _run.Opened;
-                _overrides = _taken ?? _overrides;
-                Held = Held < Description!.Titles.Count ? Held : 0;
-                _touched.Begin(SphereCount);
+                _overrides = _openedWith ?? _overrides;
+                SteeredInstrument = SteeredInstrument < Description!.Titles.Count ? SteeredInstrument : 0;
+                _contacts.Begin(SphereCount);
                 Generation++;
                 RunReport.Warn(Description.Warnings);
             }
@@ -416,7 +439,13 @@ namespace Guidewire.Runtime
             }
             if (_run.Take())
             {
-                _touched.Update(State!.ContactForces, ContactBegan, ContactEnded);
+                _contacts.Update(this, State!, ContactBegan, ContactEnded);
+                if (State!.IsAtTarget && !_wasAtTarget)
+                {
+                    Vector3 tip = State.Rod.Positions[State.Rod.ElementCount].ToUnity();
+                    TargetReached?.Invoke(transform.TransformPoint(tip));
+                }
+                _wasAtTarget = State.IsAtTarget;
                 if (_report.Take(State))
                 {
                     Ended?.Invoke(State.Outcome, State.Reason);

@@ -15,15 +15,15 @@ namespace Guidewire.Runtime
     internal sealed class WireRun : IDisposable
     {
         private readonly Func<Action<string>, CancellationToken, SimulationSession> _open;
-        private readonly SteeringRecord? _record;
-        private readonly SteeringRecord? _played;
+        private readonly SteeringRecord? _recording;
+        private readonly SteeringRecord? _replay;
         private readonly CancellationTokenSource _cancel = new CancellationTokenSource();
         private readonly CancellationToken _cancellation;
         private readonly object _gate = new object();
 
         // Guarded.
         private readonly List<Action<SimulationSession>> _changes = new List<Action<SimulationSession>>();
-        private SteeringCommand _command;
+        private readonly double[] _hubs = new double[2 * HubCommands.Most];    // speeds of push and turn of each
         private double _due;      // s of in-game time asked for and not simulated
         private int _extra;       // steps asked for beside them
         private bool _wantsPoints;
@@ -32,6 +32,9 @@ namespace Guidewire.Runtime
         // Of who steps.
         private SimulationSession? _session;
         private WireState? _mine;
+        private readonly double[] _asked = new double[2 * HubCommands.Most];    // as of the step
+        private readonly double[] _motion = new double[2 * HubCommands.Most];
+        private readonly double[] _before = new double[HubCommands.Most];    // shortfalls, m
         private Thread? _thread;
 
         private volatile RunDescription? _description;
@@ -43,16 +46,16 @@ namespace Guidewire.Runtime
 
         /// <summary>A run that is to be opened.</summary>
         /// <param name="open">Opens it; told where to report progress.</param>
-        /// <param name="record">Takes what it is commanded, or null.</param>
-        /// <param name="played">What it is commanded instead of what the hand does, or null.</param>
-        public WireRun(Func<Action<string>, CancellationToken, SimulationSession> open, SteeringRecord? record,
-            SteeringRecord? played)
+        /// <param name="recording">Takes what it is commanded, or null.</param>
+        /// <param name="replay">What it is commanded instead of what the hand does, or null.</param>
+        public WireRun(Func<Action<string>, CancellationToken, SimulationSession> open, SteeringRecord? recording,
+            SteeringRecord? replay)
         {
             _open = open;
             _cancellation = _cancel.Token;
-            _record = record;
-            _played = played;
-            played?.Rewind();
+            _recording = recording;
+            _replay = replay;
+            replay?.Rewind();
         }
 
         /// <summary>What of the run does not change; null until it is open.</summary>
@@ -71,7 +74,8 @@ namespace Guidewire.Runtime
         /// <exception cref="InvalidOperationException">A thread of its own steps it, which is not the caller's.
         /// </exception>
         public SimulationSession? Session => _thread == null || _thread == Thread.CurrentThread ? _session
-            : throw new InvalidOperationException("the run belongs to the thread that steps it: use State, or Do");
+            : throw new InvalidOperationException(
+                "the run belongs to the thread that steps it: use State, or BetweenSteps");
 
         /// <summary>Whether a thread does the work.</summary>
         public bool HasThread => _thread != null;
@@ -105,11 +109,11 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Says what the hand does from now on.</summary>
-        public void Steer(in SteeringCommand command, bool wantsPoints)
+        public void Steer(HubCommands hubs, float pushSpeed, float turnSpeed, bool wantsPoints)
         {
             lock (_gate)
             {
-                _command = command;
+                hubs.Write(_hubs, pushSpeed, turnSpeed);
                 _wantsPoints = wantsPoints;
             }
         }
@@ -147,7 +151,7 @@ namespace Guidewire.Runtime
         }
 
         /// <summary>Asks for something to be done with the session between two steps.</summary>
-        public void Do(Action<SimulationSession> change)
+        public void AskChange(Action<SimulationSession> change)
         {
             lock (_gate)
             {
@@ -273,7 +277,7 @@ namespace Guidewire.Runtime
 
         private bool Change(SimulationSession session)
         {
-            Action<SimulationSession>? change = _played?.ChangeAt(session.Simulation.StepCount);
+            Action<SimulationSession>? change = _replay?.ChangeAt(session.Simulation.StepCount);
             if (change == null)
             {
                 lock (_gate)
@@ -285,7 +289,7 @@ namespace Guidewire.Runtime
                     change = _changes[0];
                     _changes.RemoveAt(0);
                 }
-                _record?.Add(session.Simulation.StepCount, change);
+                _recording?.Add(session.Simulation.StepCount, change);
             }
             change(session);
             _description = new RunDescription(session, _description!.Walls);
@@ -296,27 +300,40 @@ namespace Guidewire.Runtime
         private bool Step(SimulationSession session)
         {
             double dt = session.Parameters.Method.TimeStep;
-            if (session.Simulation.Outcome != Outcome.Running || !TakeDue(dt, out SteeringCommand command))
+            if (session.Simulation.Outcome != Outcome.Running || !TakeDue(dt))
             {
                 return false;
             }
             int step = session.Simulation.StepCount;
-            command = _played == null ? command : _played.At(step);
-            _record?.Add(step, command);
-            int held = Math.Min(command.Held, session.InstrumentCount - 1);
-            double push = command.Push * dt;
-            double before = WireState.ShortfallOf(session, held);
-            session.Step(push, command.Turn * dt * Math.PI / 180.0, held);
-            double lost = Math.Abs(WireState.ShortfallOf(session, held) - before);
-            Publish(session, lost > 0.5 * Math.Abs(push) * session.Parameters.Scene.MetresPerUnit);
+            _replay?.Read(step, _asked);
+            _recording?.Add(step, _asked);
+            int hubs = Math.Min(HubCommands.Most, session.InstrumentCount);
+            for (int hub = 0; hub < hubs; hub++)
+            {
+                _motion[2 * hub] = _asked[2 * hub] * dt;
+                _motion[2 * hub + 1] = _asked[2 * hub + 1] * dt * Math.PI / 180.0;
+                _before[hub] = WireState.ShortfallOf(session, hub);
+            }
+            session.Step(_motion.AsSpan(0, 2 * hubs));
+            bool isJammed = false;
+            for (int hub = 0; hub < hubs; hub++)
+            {
+                double lost = Math.Abs(WireState.ShortfallOf(session, hub) - _before[hub]);
+                isJammed |= _motion[2 * hub] != 0.0
+                    && lost > 0.5 * Math.Abs(_motion[2 * hub]) * session.Parameters.Scene.MetresPerUnit;
+            }
+            Publish(session, isJammed);
             return true;
         }
 
-        private bool TakeDue(double dt, out SteeringCommand command)
+        private bool TakeDue(double dt)
         {
             lock (_gate)
             {
-                command = _command;
+                if (_replay == null)
+                {
+                    _hubs.CopyTo(_asked, 0);
+                }
                 if (_extra > 0)
                 {
                     _extra--;

@@ -18,6 +18,7 @@ namespace Guidewire.Runtime
             Rod = new RodState(run.State.ElementCount, run.State.ElementCount * run.State.ElementLength, 1.0, 0.0);
             Array.Copy(run.State.ElementLengths, Rod.ElementLengths, Rod.ElementCount);
             ContactForces = run.Contacts == null ? Array.Empty<Vector3d>() : new Vector3d[Rod.SphereCount];
+            ContactWalls = new int[ContactForces.Length];
             _hints = new int[session.Parameters.Scene.Walls.Length * Rod.ElementCount];
             Array.Fill(_hints, -1);
             ContactPoints = new Vector3d[_hints.Length];
@@ -59,6 +60,12 @@ namespace Guidewire.Runtime
 
         /// <summary>Force of the walls on each sphere, N with a material; empty without walls.</summary>
         public Vector3d[] ContactForces { get; }
+
+        /// <summary>Index of the wall that acts on each sphere, where one does.</summary>
+        internal int[] ContactWalls { get; }
+
+        /// <summary>Whether the tip is at the target of its vessel; false without one.</summary>
+        public bool IsAtTarget { get; private set; }
 
         /// <summary>Nodes of the wire and of each catheter, units.</summary>
         internal Vector3d[][] Centrelines { get; }
@@ -124,6 +131,7 @@ namespace Guidewire.Runtime
             if (contacts != null)
             {
                 Array.Copy(contacts.Forces, ContactForces, ContactForces.Length);
+                FindContactWalls(session.Parameters.Scene.Walls);
                 (ContactForce, Reaction, Passages) = (contacts.Total, contacts.Reaction, contacts.Passages);
             }
             IReadOnlyList<CoaxialRecord> catheters = run.Catheters();
@@ -153,6 +161,7 @@ namespace Guidewire.Runtime
                     Shortfall = ShortfallOf(session, 0),
                 };
             }
+            IsAtTarget = session.Target != null && session.PlaceOf(Rod.Positions)?.IsAtTarget == true;
             ContactPointCount = 0;
             if (withPoints)
             {
@@ -180,7 +189,8 @@ namespace Guidewire.Runtime
             (StepCount, StepTime, PredictionError) = (newer.StepCount, newer.StepTime, newer.PredictionError);
             (Outcome, Reason, IsJammed) = (newer.Outcome, newer.Reason, newer.IsJammed);
             (ContactForce, Reaction, Passages) = (newer.ContactForce, newer.Reaction, newer.Passages);
-            (Hub, LargestCurvature) = (newer.Hub, newer.LargestCurvature);
+            (Hub, LargestCurvature, IsAtTarget) = (newer.Hub, newer.LargestCurvature, newer.IsAtTarget);
+            Array.Copy(newer.ContactWalls, ContactWalls, ContactWalls.Length);
             ContactPointCount = newer.ContactPointCount;
         }
 
@@ -201,6 +211,24 @@ namespace Guidewire.Runtime
                 Quaterniond p = older[j];
                 double sign = p.X * q.X + p.Y * q.Y + p.Z * q.Z + p.W * q.W < 0.0 ? -1.0 : 1.0;
                 result[j] = t == 1.0 ? q : Quaterniond.Normalize((1.0 - t) * p + (sign * t) * q);
+            }
+        }
+
+        // The nearest wall of each sphere that one acts on.
+        private void FindContactWalls(ContactShape[] walls)
+        {
+            for (int i = 0; i < ContactWalls.Length && walls.Length > 1; i++)
+            {
+                double nearest = double.PositiveInfinity;
+                for (int k = 0; k < walls.Length && ContactForces[i].LengthSquared > 0.0; k++)
+                {
+                    int hint = -1;
+                    if (walls[k].Nearest(Rod.Positions[i], Rod.Positions[i], double.PositiveInfinity, ref hint,
+                        out SurfaceContact contact) && Math.Abs(contact.Distance) < nearest)
+                    {
+                        (nearest, ContactWalls[i]) = (Math.Abs(contact.Distance), k);
+                    }
+                }
             }
         }
 

@@ -1,7 +1,6 @@
 using System.Collections.Generic;
 using Guidewire.Core;
 using UnityEngine;
-using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
@@ -26,13 +25,10 @@ namespace Guidewire.Runtime
             private readonly Color _colour;
             private Material? _material;    // made when it is first needed
 
-            public Drawn(int spheres, in Color colour, float times)
+            public Drawn(SimulationLoop loop, int spheres, in Color colour, float times)
             {
                 Tube = new TubeMesh(spheres, RingsPerElement, Sides);
-                Mesh = new Mesh { name = "Catheter", indexFormat = IndexFormat.UInt32 };
-                Mesh.MarkDynamic();
-                Mesh.SetVertices(Tube.Vertices);
-                Mesh.SetTriangles(Tube.Triangles, 0);
+                Object = new MeshObject("Catheter", loop, Tube.Vertices, Tube.Triangles);
                 _colour = colour;
                 Times = times;
                 Colours = new float[spheres];
@@ -40,17 +36,14 @@ namespace Guidewire.Runtime
 
             public TubeMesh Tube { get; }
 
-            public Mesh Mesh { get; }
+            public MeshObject Object { get; }
 
             public Material Material => _material ? _material! : _material = LitMaterial.Create(_colour);
 
             public void Destroy()
             {
-                Object.Destroy(Mesh);
-                if (_material)
-                {
-                    Object.Destroy(_material!);
-                }
+                Object.Destroy();
+                MeshObject.Destroy(_material);
             }
 
             // In the colour map, which its material does not have.
@@ -67,22 +60,21 @@ namespace Guidewire.Runtime
         public TubeMesh TubeOf(int catheter) => _drawn[catheter].Tube;
 
         /// <summary>Makes the meshes of another run.</summary>
-        public void Build(SimulationParameters parameters, IReadOnlyList<CatheterState> catheters)
+        public void Build(SimulationLoop loop, SimulationParameters parameters,
+            IReadOnlyList<CatheterState> catheters)
         {
             Clear();
             for (int k = 0; k < catheters.Count; k++)
             {
-                _drawn.Add(new Drawn(catheters[k].Positions.Length, Colours[k % Colours.Length],
+                _drawn.Add(new Drawn(loop, catheters[k].Positions.Length, Colours[k % Colours.Length],
                     (float)(parameters.Scene.Catheters[k].Material.WireRadius / parameters.Material.WireRadius)));
             }
         }
 
         /// <summary>Draws the catheters.</summary>
         /// <param name="radius">That the wire is drawn with, units.</param>
-        /// <param name="place">From units of the wire to the world.</param>
         /// <param name="material">Instead of their own, or null.</param>
-        public void Draw(IReadOnlyList<CatheterState> catheters, float radius, in Matrix4x4 place, Material? material,
-            int layer)
+        public void Draw(IReadOnlyList<CatheterState> catheters, float radius, Material? material, int layer)
         {
             for (int k = 0; k < _drawn.Count; k++)
             {
@@ -90,13 +82,16 @@ namespace Guidewire.Runtime
                 if (drawn.Tube.Write(catheters[k].Positions, catheters[k].Orientations[0], drawn.Times * radius,
                     drawn.Colours))
                 {
-                    drawn.Mesh.SetVertices(drawn.Tube.Vertices);
-                    drawn.Mesh.SetNormals(drawn.Tube.Normals);
-                    drawn.Mesh.RecalculateBounds();
+                    drawn.Object.Mesh.SetVertices(drawn.Tube.Vertices);
+                    drawn.Object.Mesh.SetNormals(drawn.Tube.Normals);
+                    drawn.Object.Mesh.RecalculateBounds();
                 }
-                Graphics.DrawMesh(drawn.Mesh, place, material ? material! : drawn.Material, layer);
+                drawn.Object.Show(material ? material! : drawn.Material, layer);
             }
         }
+
+        /// <summary>Hides them until they are drawn again.</summary>
+        public void Hide() => _drawn.ForEach(drawn => drawn.Object.Hide());
 
         /// <summary>Destroys the meshes.</summary>
         public void Clear()

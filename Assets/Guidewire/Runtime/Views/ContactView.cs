@@ -15,14 +15,14 @@ namespace Guidewire.Runtime
         [SerializeField] private Material? _material;
 
         [Tooltip("Length of the longest force line, in units.")]
-        [SerializeField] private float _length = 40f;
+        [SerializeField, Min(0f)] private float _length = 40f;
 
         private Mesh? _ball;
         private Material? _yellow;
         private double _largest;
 
         /// <summary>Whether contacts are drawn.</summary>
-        [field: SerializeField] public bool IsShown { get; set; } = true;
+        [field: SerializeField, Tooltip("Whether contacts are drawn.")] public bool IsShown { get; set; } = true;
 
         /// <summary>Material of the marks, taken as it is; null: a yellow one of the pipeline.</summary>
         public Material? Material
@@ -50,7 +50,7 @@ namespace Guidewire.Runtime
             _largest = isNew ? 0.0 : _largest;
             if (!_ball)
             {
-                _ball = Marks.CreateSphere();
+                _ball = BallsAndSticks.CreateSphere();
             }
             Material material = _material ? _material! : Yellow();
             DrawPoints(state, 0.3f * (float)Loop.Parameters!.Contact.SphereRadius, material);
@@ -59,14 +59,8 @@ namespace Guidewire.Runtime
 
         private void OnDestroy()
         {
-            if (_ball)
-            {
-                Destroy(_ball!);
-            }
-            if (_yellow)
-            {
-                Destroy(_yellow!);
-            }
+            MeshObject.Destroy(_ball);
+            MeshObject.Destroy(_yellow);
         }
 
         private Material Yellow() => _yellow ? _yellow! : _yellow = LitMaterial.Create(new Color(1f, 0.85f, 0.1f));
@@ -76,7 +70,8 @@ namespace Guidewire.Runtime
             Matrix4x4 place = Place;
             for (int k = 0; k < state.ContactPointCount; k++)
             {
-                Marks.DrawSphere(_ball!, place, state.ContactPoints[k].ToUnity(), radius, material, gameObject.layer);
+                BallsAndSticks.DrawSphere(_ball!, place, state.ContactPoints[k].ToUnity(), radius, material,
+                    gameObject.layer);
             }
         }
 
@@ -92,7 +87,7 @@ namespace Guidewire.Runtime
             for (int i = 0; i < forces.Length && _largest > 0.0; i++)
             {
                 Vector3 stick = (_length / _largest * forces[i]).ToUnity();
-                Marks.DrawStick(_ball!, place, state.Rod.Positions[i].ToUnity(), stick, 1f, material,
+                BallsAndSticks.DrawStick(_ball!, place, state.Rod.Positions[i].ToUnity(), stick, 1f, material,
                     gameObject.layer);
             }
         }

@@ -9,25 +9,30 @@ namespace Guidewire.Runtime
         [Tooltip("What is shown; empty: the loop of this object, or of the nearest above.")]
         [SerializeField] private SimulationLoop? _loop;
 
-        private SimulationLoop? _builtLoop;
-        private int _builtGeneration;
+        [System.NonSerialized] private SimulationLoop? _found;
+        [System.NonSerialized] private SimulationLoop? _builtLoop;    // what was built is not kept by a reload either
+        [System.NonSerialized] private int _builtGeneration;
 
         /// <summary>What is shown; null where there is none.</summary>
         public SimulationLoop? Loop
         {
             get
             {
-                if (!_loop)
+                if (_loop)
                 {
-                    _loop = GetComponentInParent<SimulationLoop>();
+                    return _loop;
                 }
-                return _loop ? _loop : null;
+                if (!_found || !Application.isPlaying)    // in Edit Mode it may come below another one
+                {
+                    _found = GetComponentInParent<SimulationLoop>();
+                }
+                return _found ? _found : null;
             }
             set => _loop = value;
         }
 
         /// <summary>Maps units of the wire to the world.</summary>
-        protected Matrix4x4 Place => _loop!.transform.localToWorldMatrix;
+        protected Matrix4x4 Place => Loop!.transform.localToWorldMatrix;
 
         /// <summary>Whether the loop has another run than when this was last asked.</summary>
         protected bool IsNewRun()

@@ -8,25 +8,28 @@ namespace Guidewire.Runtime
     [AddComponentMenu("Guidewire/Orbit Camera"), Manual("views")]
     public sealed class OrbitCamera : LoopView
     {
+        private const float NearClip = 0.02f;    // of the distance: a scene in metres has millimetres of wire before it
+
         [Tooltip("Point at the centre of the view, in units.")]
         [SerializeField] private Vector3 _target;
 
         [Tooltip("Distance from it, in units.")]
-        [SerializeField] private float _distance = 400f;
+        [SerializeField, Min(1f)] private float _distance = 400f;
 
         [Tooltip("Angle about the vertical axis, in degrees.")]
-        [SerializeField] private float _yaw = -90f;
+        [SerializeField, Range(-360f, 360f)] private float _yaw = -90f;
 
         [Tooltip("Angle above the horizontal plane, in degrees.")]
         [SerializeField, Range(-89f, 89f)] private float _pitch = 20f;
 
         [Tooltip("Degrees per pixel of mouse motion.")]
-        [SerializeField] private float _turnSpeed = 0.3f;
+        [SerializeField, Min(0f)] private float _turnSpeed = 0.3f;
 
         private HostInput _input;
         private Vector2 _lastMouse;
 
         /// <summary>Whether the tip of the wire is kept in the middle.</summary>
+        [field: SerializeField, Tooltip("Whether the tip of the wire is kept in the middle.")]
         public bool FollowsTip { get; set; }
 
         /// <summary>Point at the centre of the view, in units of the loop's frame.</summary>
@@ -55,11 +58,23 @@ namespace Guidewire.Runtime
                 Vector3 tip = state.Positions[state.ElementCount].ToUnity();
                 _target = tip.IsFinite() ? tip : _target;
             }
+            Look(loop);
+        }
+
+        /// <summary>Puts the camera where it looks from.</summary>
+        internal void Look() => Look(Loop);
+
+        private void Look(SimulationLoop? loop)
+        {
             Quaternion rotation = Quaternion.Euler(_pitch, _yaw, 0f);
             Vector3 middle = loop == null ? _target : loop.transform.TransformPoint(_target);
             float unit = loop == null ? 1f : loop.transform.lossyScale.magnitude / Vector3.one.magnitude;
             transform.position = middle - rotation * Vector3.forward * (_distance * unit);
             transform.rotation = rotation;
+            if (TryGetComponent(out Camera own))
+            {
+                own.nearClipPlane = Mathf.Min(own.nearClipPlane, NearClip * _distance * unit);
+            }
         }
 
         private void FollowMouse(Vector2 mouse)

@@ -1,7 +1,6 @@
 using System.Collections.Generic;
 using Guidewire.Core;
 using UnityEngine;
-using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
@@ -16,6 +15,7 @@ namespace Guidewire.Runtime
         [Tooltip("Material of the walls, taken as it is; empty: a transparent one of the pipeline.")]
         [SerializeField] private Material? _material;
 
+        private readonly List<MeshObject> _shown = new List<MeshObject>();
         private readonly List<Mesh> _meshes = new List<Mesh>();
         private readonly List<WallMesh> _walls = new List<WallMesh>();
         private Material? _own;
@@ -44,17 +44,16 @@ namespace Guidewire.Runtime
                     _meshes[i].SetVertices(_walls[i].Vertices);
                     _meshes[i].RecalculateNormals();
                 }
-                Graphics.DrawMesh(_meshes[i], Place, _material ? _material! : Own(), gameObject.layer);
+                _shown[i].Show(_material ? _material! : Own(), gameObject.layer);
             }
         }
+
+        private void OnDisable() => _shown.ForEach(shown => shown.Hide());
 
         private void OnDestroy()
         {
             Clear();
-            if (_own)
-            {
-                Destroy(_own!);
-            }
+            MeshObject.Destroy(_own);
         }
 
         private Material Own()
@@ -76,22 +75,19 @@ namespace Guidewire.Runtime
             }
             foreach (WallMesh wall in loop.Description.Walls)
             {
-                var mesh = new Mesh { name = "Wall", indexFormat = IndexFormat.UInt32 };
-                mesh.SetVertices(wall.Vertices);
-                mesh.SetTriangles(wall.Triangles, 0);
-                mesh.RecalculateNormals();
-                mesh.RecalculateBounds();
-                _meshes.Add(mesh);
+                var shown = new MeshObject("Wall", loop, wall.Vertices, wall.Triangles);
+                shown.Mesh.RecalculateNormals();
+                shown.Mesh.RecalculateBounds();
+                _shown.Add(shown);
+                _meshes.Add(shown.Mesh);
                 _walls.Add(wall);
             }
         }
 
         private void Clear()
         {
-            foreach (Mesh mesh in _meshes)
-            {
-                Destroy(mesh);
-            }
+            _shown.ForEach(shown => shown.Destroy());
+            _shown.Clear();
             _meshes.Clear();
             _walls.Clear();
         }

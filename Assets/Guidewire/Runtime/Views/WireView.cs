@@ -1,12 +1,12 @@
 using System;
 using Guidewire.Core;
 using UnityEngine;
-using UnityEngine.Rendering;
 
 namespace Guidewire.Runtime
 {
     /// <summary>Shows the wire as one tube, its catheters as others, and where asked for its spheres and directors.
     /// Meshes are made when a wire is built and rewritten after that.</summary>
+    [ExecuteAlways]    // the editor has it draw the wire at its start
     [AddComponentMenu("Guidewire/Wire View"), Manual("views")]
     public sealed class WireView : LoopView
     {
@@ -27,20 +27,21 @@ namespace Guidewire.Runtime
         [Tooltip("Radius of the tube over sphereRadius, or over the radius of a wire with a material.")]
         [SerializeField, Range(0.05f, 1f)] private float _thickness = 1f;
 
+        [Tooltip("What the colour of the wire shows.")]
         [SerializeField] private Colouring _colouring = Colouring.Plain;
 
         [Tooltip("Stretch at the end of the colour scale, dimensionless.")]
-        [SerializeField] private float _stretchRange = 0.02f;
+        [SerializeField, Min(0f)] private float _stretchRange = 0.02f;
 
         [Tooltip("Curvature at the end of the colour scale, in 1/unit.")]
-        [SerializeField] private float _bendingRange = 0.02f;
+        [SerializeField, Min(0f)] private float _bendingRange = 0.02f;
 
         [Tooltip("Twist at the end of the colour scale, in rad/unit.")]
-        [SerializeField] private float _twistRange = 0.02f;
+        [SerializeField, Min(0f)] private float _twistRange = 0.02f;
 
         private readonly CatheterTubes _catheters = new CatheterTubes();
         private TubeMesh? _tube;
-        private Mesh? _mesh;
+        private MeshObject? _object;
         private Mesh? _ball;
         private Material? _coloured;
         private Texture2D? _map;
@@ -48,10 +49,11 @@ namespace Guidewire.Runtime
         private float[] _colours = Array.Empty<float>();
 
         /// <summary>Whether the spheres are drawn.</summary>
-        [field: SerializeField] public bool ShowsSpheres { get; set; }
+        [field: SerializeField, Tooltip("Whether the spheres are drawn.")] public bool ShowsSpheres { get; set; }
 
         /// <summary>Whether the directors are drawn: d1 red, d2 green, d3 blue.</summary>
-        [field: SerializeField] public bool ShowsDirectors { get; set; }
+        [field: SerializeField, Tooltip("Whether the directors are drawn: d1 red, d2 green, d3 blue.")]
+        public bool ShowsDirectors { get; set; }
 
         /// <summary>What the colour shows.</summary>
         public Colouring Colouring
@@ -91,8 +93,12 @@ namespace Guidewire.Runtime
         /// <summary>The tube as it was last drawn, or null before the first wire.</summary>
         internal TubeMesh? Tube => _tube;
 
-        /// <summary>The mesh of the wire's tube.</summary>
-        internal Mesh? Mesh => _mesh;
+        /// <summary>The mesh of the wire's tube, in units of the loop's frame; null before the first wire. It is
+        /// rewritten each frame.</summary>
+        public Mesh? Mesh => _object?.Mesh;
+
+        /// <summary>The renderer of that mesh, such as for its shadows; null before the first wire.</summary>
+        public MeshRenderer? Renderer => _object?.Renderer;
 
         /// <summary>The tubes of the catheters.</summary>
         internal CatheterTubes Catheters => _catheters;
@@ -107,15 +113,33 @@ namespace Guidewire.Runtime
             WireState? state = Loop == null ? null : Loop.Shown;
             if (state == null)
             {
+                Hide();
                 return;
             }
-            SimulationParameters parameters = Loop!.Parameters!;
+            Draw(Loop!, state, Loop!.Parameters!, isNew);
+        }
+
+        /// <summary>Draws a wire at its start, in Edit Mode; null: none can be built.</summary>
+        internal void DrawStart(WireState? start, SimulationParameters? parameters)
+        {
+            if (Loop != null && isActiveAndEnabled && start != null)
+            {
+                Draw(Loop, start, parameters!, _catheters.Count != start.Catheters.Count);
+            }
+            else
+            {
+                OnDestroy();
+            }
+        }
+
+        private void Draw(SimulationLoop loop, WireState state, SimulationParameters parameters, bool isNew)
+        {
             float radius = _thickness * (float)Radius(parameters);
             DrawnRadius = radius;
-            if (isNew || _tube == null || _tube.Spheres != state.Rod.SphereCount)
+            if (isNew || _tube == null || _object == null || _tube.Spheres != state.Rod.SphereCount)
             {
-                Build(state.Rod);
-                _catheters.Build(parameters, state.Catheters);
+                Build(loop, state.Rod);
+                _catheters.Build(loop, parameters, state.Catheters);
             }
             for (int i = 0; i < _colours.Length; i++)
             {
@@ -123,13 +147,13 @@ namespace Guidewire.Runtime
             }
             if (_tube!.Write(state.Rod, ShowsSpheres ? 0.5f * radius : radius, _colours))
             {
-                _mesh!.SetVertices(_tube.Vertices);
-                _mesh.SetNormals(_tube.Normals);
-                _mesh.SetUVs(0, _tube.Colours);
-                _mesh.RecalculateBounds();
+                Mesh!.SetVertices(_tube.Vertices);
+                Mesh.SetNormals(_tube.Normals);
+                Mesh.SetUVs(0, _tube.Colours);
+                Mesh.RecalculateBounds();
             }
             Material wire = _colouring == Colouring.Plain && _material ? _material! : Coloured();
-            Graphics.DrawMesh(_mesh!, Place, wire, gameObject.layer);
+            _object!.Show(wire, gameObject.layer);
             if (ShowsSpheres)
             {
                 DrawSpheres(state.Rod, radius, wire);
@@ -138,45 +162,48 @@ namespace Guidewire.Runtime
             {
                 DrawDirectors(state.Rod, radius);
             }
-            _catheters.Draw(state.Catheters, radius, Place, _catheterMaterial, gameObject.layer);
+            _catheters.Draw(state.Catheters, radius, _catheterMaterial, gameObject.layer);
         }
 
         private void LateUpdate() => Draw();
 
+        private void OnDisable()
+        {
+            Hide();
+            if (!Application.isPlaying)
+            {
+                OnDestroy();
+            }
+        }
+
+        // In Edit Mode the editor says what is shown.
+        private void Hide()
+        {
+            if (Application.isPlaying)
+            {
+                _object?.Hide();
+                _catheters.Hide();
+            }
+        }
+
         private void OnDestroy()
         {
-            if (_coloured)
-            {
-                Destroy(_map!);
-                Destroy(_coloured!);
-            }
-            if (_mesh)
-            {
-                Destroy(_mesh!);
-            }
-            if (_ball)
-            {
-                Destroy(_ball!);
-            }
-            foreach (Material material in _directors)
-            {
-                Destroy(material);
-            }
+            MeshObject.Destroy(_map);
+            MeshObject.Destroy(_coloured);
+            MeshObject.Destroy(_ball);
+            Array.ForEach(_directors, MeshObject.Destroy);
+            _directors = Array.Empty<Material>();
+            _object?.Destroy();
+            _object = null;
             _catheters.Clear();
         }
 
-        private void Build(RodState state)
+        private void Build(SimulationLoop loop, RodState state)
         {
-            if (_mesh)
-            {
-                Destroy(_mesh!);
-            }
+            _object?.Destroy();
             _tube = new TubeMesh(state.SphereCount, _ringsPerElement, _sides);
             _colours = new float[state.SphereCount];
-            _mesh = new Mesh { name = "Wire", indexFormat = IndexFormat.UInt32 };
-            _mesh.MarkDynamic();
-            _mesh.SetVertices(_tube.Vertices);
-            _mesh.SetTriangles(_tube.Triangles, 0);
+            _object = new MeshObject("Wire", loop, _tube.Vertices, _tube.Triangles);
         }
 
         // Made when it is first needed: a view may be told its material after it was added.
@@ -221,7 +248,7 @@ namespace Guidewire.Runtime
         {
             if (!_ball)
             {
-                _ball = Marks.CreateSphere();
+                _ball = BallsAndSticks.CreateSphere();
             }
             return _ball!;
         }
@@ -230,7 +257,8 @@ namespace Guidewire.Runtime
         {
             for (int i = 0; i < state.SphereCount; i++)
             {
-                Marks.DrawSphere(Ball(), Place, state.Positions[i].ToUnity(), radius, material, gameObject.layer);
+                BallsAndSticks.DrawSphere(Ball(), Place, state.Positions[i].ToUnity(), radius, material,
+                    gameObject.layer);
             }
         }
 
@@ -251,12 +279,12 @@ namespace Guidewire.Runtime
             {
                 Vector3 middle = (0.5 * (state.Positions[j] + state.Positions[j + 1])).ToUnity();
                 Quaterniond q = state.Orientations[j];
-                Marks.DrawStick(Ball(), place, middle, length * q.Director1.ToUnity(), 0.1f * radius, _directors[0],
-                    layer);
-                Marks.DrawStick(Ball(), place, middle, length * q.Director2.ToUnity(), 0.1f * radius, _directors[1],
-                    layer);
-                Marks.DrawStick(Ball(), place, middle, length * q.Director3.ToUnity(), 0.1f * radius, _directors[2],
-                    layer);
+                for (int k = 0; k < 3; k++)
+                {
+                    Vector3d director = k == 0 ? q.Director1 : k == 1 ? q.Director2 : q.Director3;
+                    BallsAndSticks.DrawStick(Ball(), place, middle, length * director.ToUnity(), 0.1f * radius,
+                        _directors[k], layer);
+                }
             }
         }
     }

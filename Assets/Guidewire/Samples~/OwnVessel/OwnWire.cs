@@ -4,15 +4,16 @@ using UnityEngine;
 /// <summary>Draws a wire with a line renderer and counts its contacts; KeyInput beside the loop steers it.</summary>
 public sealed class OwnWire : MonoBehaviour
 {
-    [SerializeField] private SimulationLoop _wire = null!;
-    [SerializeField] private LineRenderer _line = null!;
-    [SerializeField] private int _touching;    // spheres at the vessel's wall, for the Inspector
+    [SerializeField, Tooltip("The wire.")] private SimulationLoop _wire = null!;
+    [SerializeField, Tooltip("Draws it.")] private LineRenderer _line = null!;
+    [SerializeField, Tooltip("Spheres at the wall."), Min(0)] private int _touching;
     private Vector3[] _positions = System.Array.Empty<Vector3>();
 
     private void Start()
     {
-        _wire.ContactBegan += sphere => _touching++;
-        _wire.ContactEnded += sphere => _touching--;
+        _line.widthMultiplier = 0.0018f;    // the width of the line in metres
+        _wire.ContactBegan += contact => _touching++;
+        _wire.ContactEnded += contact => _touching--;
         _wire.Ended += (outcome, reason) => Debug.Log("the run has ended, " + outcome + ": " + reason);
     }
 

@@ -30,7 +30,8 @@ namespace Guidewire.Unity.Tests
 
         private Simulation Load(params string[] overrides)
         {
-            _loop.Choose("params/default.json", overrides, "", false);
+            _loop.ParameterAsset = new TextAsset("{}") { name = "defaults" };
+            _loop.Overrides = overrides;
             _loop.Load();
             Assert.That(_loop.Problem, Is.EqualTo(""));
             return _loop.Session!.Simulation;

@@ -16,7 +16,7 @@ namespace Guidewire.Unity.Tests
         {
             var host = new GameObject("Simulation");
             SimulationLoop loop = host.AddComponent<SimulationLoop>();
-            loop.Choose("params/default.json", new[] { "constraintSolverSteps=10" }, "", false);
+            loop.ParameterAsset = new TextAsset("{\"constraintSolverSteps\": 10}") { name = "defaults" };
             for (int frame = 0; frame < Most && (loop.State == null || loop.State.StepCount < 10); frame++)
             {
                 yield return null;

@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 using System.IO;
 using Guidewire.Io;
 using NUnit.Framework;
@@ -50,8 +51,16 @@ namespace Guidewire.Core.Tests
         /// <summary>Its wall, for one who changes it.</summary>
         private static MeshShape Read()
         {
-            return new MeshShape(MeshFile.Read(
-                Path.Combine(Root(), "params", "meshes", "arch.obj"), 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
+            string copy = Path.Combine(Path.GetTempPath(), Guid.NewGuid().ToString("N") + ".obj");
+            File.Copy(Path.Combine(Package(), "Samples~", "Scenes", "arch.obj.txt"), copy);
+            try
+            {
+                return new MeshShape(MeshFile.Read(copy, 1.0, new[] { new Vector3d(0.0, 0.0, Entrance) }));
+            }
+            finally
+            {
+                File.Delete(copy);
+            }
         }
 
         private static bool CrossesRim(in Vector3d from, in Vector3d to)
@@ -64,14 +73,27 @@ namespace Guidewire.Core.Tests
             return Math.Sqrt(at.X * at.X + at.Y * at.Y) < EntranceRadius;
         }
 
-        private static string Root()
+        // This package's folder: of this repository, or of a project in which it is embedded or installed.
+        private static string Package()
         {
-            string folder = TestContext.CurrentContext.TestDirectory;
-            while (!Directory.Exists(Path.Combine(folder, "ProjectSettings")))
+            const string Name = "org.guidewire.simulation";
+            for (string? folder = TestContext.CurrentContext.TestDirectory; folder != null;
+                folder = Path.GetDirectoryName(folder))
             {
-                folder = Path.GetDirectoryName(folder) ?? throw new DirectoryNotFoundException("no project around");
+                string cache = Path.Combine(folder, "Library", "PackageCache");
+                var found = new List<string>
+                {
+                    Path.Combine(folder, "Assets", "Guidewire"), Path.Combine(folder, "Packages", Name),
+                };
+                found.AddRange(Directory.Exists(cache) ? Directory.GetDirectories(cache, Name + "*")
+                    : Array.Empty<string>());
+                found.RemoveAll(own => !Directory.Exists(Path.Combine(own, "Samples~")));
+                if (found.Count > 0)
+                {
+                    return found[0];
+                }
             }
-            return folder;
+            throw new DirectoryNotFoundException("no package around");
         }
     }
 }

@@ -4,7 +4,7 @@ namespace Guidewire.Runtime
 {
     /// <summary>Balls and sticks for one frame: spheres, directors, contact points and forces. One mesh, drawn as
     /// often as asked, so that nothing is kept and nothing is left as garbage.</summary>
-    internal static class Marks
+    internal static class BallsAndSticks
     {
         private const int Rows = 8;
         private const int Columns = 12;
