@@ -10,7 +10,7 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from guidewire.anatomy.intersections import self_intersections
-from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, find_bodies, find_rims, signed_volume
+from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, find_bodies, find_rims, signed_volume, turned_alike
 
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
 # What vessels and their files have: a range within which a size says nothing, and the deviation of its logarithm
@@ -155,23 +155,22 @@ def inspect(mesh: Mesh, unit: str | None = None, said_by: str = "as given") -> I
     if not len(clean.triangles):
         raise AnatomyError("no triangle has three different corners")
     edges = Edges.of(clean)
+    clean, _ = turned_alike(clean)  # rims and volumes are those of triangles that agree
     bodies = find_bodies(clean)
     main = clean.part(bodies == 0)
     plain, _ = without_fins(clean)  # a fin has no rim of a lumen
     rims = sort_rims(plain, find_rims(plain, Edges.of(plain)))
     crossings, _ = self_intersections(clean)
-    pairs = edges.pairs()
-    same = edges.forward.ravel()[_halves(edges)].reshape(-1, 2) if len(pairs) else np.empty((0, 2), bool)
+    same = edges.forward.ravel()[edges.halves()]
     turned = edges.ends[edges.counts == 2][same[:, 0] == same[:, 1]]
-    main_rims = [rim for rim in find_rims(main, Edges.of(main))]
     return Inspection(
         vertices=len(raw.vertices), triangles=len(mesh.triangles), low=raw.vertices.min(axis=0),
         high=raw.vertices.max(axis=0), unit=find_unit(clean, unit, said_by), weld_length=length, near_vertices=near,
         slivers=slivers, crowded=clean.vertices[edges.ends[edges.counts > 2]].mean(axis=1),
-        turned=clean.vertices[turned].mean(axis=1) if len(turned) else np.empty((0, 3)), crossings=crossings,
+        turned=clean.vertices[turned].mean(axis=1), crossings=crossings,
         body_sizes=np.bincount(bodies).tolist(),
         body_centres=np.array([clean.part(bodies == k).vertices.mean(axis=0) for k in range(bodies.max() + 1)]),
-        rims=rims, volume=signed_volume(main, main_rims), double_wall=float(facing(main).mean()),
+        rims=rims, volume=signed_volume(main, find_rims(main, Edges.of(main))), double_wall=float(facing(main).mean()),
     )
 
 
@@ -279,9 +278,3 @@ def _meetings(mesh: Mesh, inward: bool) -> np.ndarray:
     chosen = np.unique(chosen[size[chosen] > 0.0])
     normals = areas[chosen] / size[chosen][:, None]
     return cast_rays(mesh, chosen, -normals if inward else normals)[0]
-
-
-def _halves(edges: Edges) -> np.ndarray:
-    order = np.argsort(edges.of_triangles.ravel(), kind="stable")
-    first = np.concatenate([[0], np.cumsum(edges.counts)])[:-1][edges.counts == 2]
-    return np.stack([order[first], order[first + 1]], axis=1).ravel()

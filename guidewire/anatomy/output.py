@@ -33,6 +33,7 @@ _CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by l
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _ALIKE = 0.95  # of the longest path, from which on a path is as long: the widest of these leads to the default target
 _PLACES = 10  # of a kind that a report lists
+_COMPARED = 0.01  # of a volume: a smaller one before is that of a surface that did not enclose the lumen
 _BENT = 0.25  # of a rim's radius, by which it is out of a plane
 
 
@@ -216,7 +217,7 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
                   for change in repaired.changes]
         closed = abs(signed_volume(repaired.mesh, repaired.rims)) * mm**3
         before = abs(found.volume) * mm**3
-        change = f" ({closed / before - 1.0:+.1%} of that before)" if before > 0.0 else ""
+        change = f" ({closed / before - 1.0:+.1%} of that before)" if before > _COMPARED * closed else ""
         lines.append(f"wall moved by {mm * repaired.moved:.2g} mm at most; {len(repaired.mesh.triangles)} triangles, "
                      f"volume {closed / 1e3:.4g} ml{change}")
     if line is not None:
