@@ -24,6 +24,7 @@ _SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
 _DENSITY = 40.0  # of them on the square of a narrow radius
 _STEP = 0.25  # between points of the centreline, of the radius
 _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
+_EDGE = 2.0  # radii of a blind end: so far before and behind it the lumen goes on where it is an edge
 _AT_RIM = 3.0  # radii of a rim
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
 _ROUNDS = 3
@@ -297,10 +298,21 @@ class _Builder:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]
                 if (away < (1.0 + BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
-                        beside, typical):
+                        beside, typical) or self._is_edge(chain[-1], others, int(np.argmin(away))):
                     continue
             kept.append(k)
         return kept
+
+    def _is_edge(self, tip: int, others: list[int], nearest: int) -> bool:
+        """Return whether a blind end is the edge of a lumen that is no circle, such as a crescent: it goes on there
+        along the path beside, before and behind. A branch is as wide as its end, and a dome as well."""
+        graph = self._graph
+        path = graph.centres[others]
+        own = path[np.linalg.norm(path - path[nearest], axis=1) < 2.0 * graph.radii[others[nearest]]]
+        along = np.linalg.svd(own - own.mean(axis=0), full_matrices=False)[2][0]
+        step = _EDGE * graph.radii[tip] * along
+        return all((np.linalg.norm(graph.centres - place, axis=1) < graph.radii).any()
+                   for place in (graph.centres[tip] - step, graph.centres[tip] + step))
 
     def _trim(self, chain: list[int], rim: Rim | None) -> list[int]:
         """Return a path from the root; without its last piece, into the corner of a blind end."""
