@@ -15,7 +15,7 @@ from scipy.sparse import coo_matrix
 from scipy.sparse.csgraph import dijkstra
 
 from guidewire.anatomy.inspection import narrow_radius
-from guidewire.anatomy.loops import Loop, find_loops
+from guidewire.anatomy.loops import Loop, Neck, find_loops, find_necks
 from guidewire.anatomy.medial_graph import BLIND, MedialGraph, WallDistance, walk_back
 from guidewire.anatomy.mesh import AnatomyError, Mesh, Rim, close_rims, signed_volume
 from guidewire.anatomy.sampling import resample, sample
@@ -24,11 +24,13 @@ _SAMPLES = (6_000, 40_000)  # points of the wall, at least and at most
 _DENSITY = 40.0  # of them on the square of a narrow radius
 _STEP = 0.25  # between points of the centreline, of the radius
 _THIN = 0.15  # a branch with a blind end is at least so wide, of the nearest path's radius
+_EDGE = 2.0  # radii of a blind end: so far before and behind it the lumen goes on where it is an edge
 _AT_RIM = 3.0  # radii of a rim
 _SMOOTHING = 1.5  # points, of the Gaussian along a branch
 _ROUNDS = 3
 # radii of the lumen, from where the two ways of a loop meet: the tree's end there is no end of the vessel
 _AT_CUT = 3.0
+_CORNER = 1.0  # of the widest radius: along so much of a way that runs into the wall its width is compared
 _SAC = 4.0  # widest radii from the tip of a sac, within which its neck is
 _NECK = 0.75  # of a sac's widest radius, that its neck has at most
 
@@ -53,7 +55,7 @@ class End:
 class Centreline:
     """A tree of k points: points (k, 3), radii (k,) of the inscribed spheres, parents (k,), -1 at the root and else
     smaller than the point's own index; branches (k,), from 1; ends, the widest first and sacs last; loops, where ways
-    meet that the tree does not join."""
+    meet that the tree does not join; necks, where two vessels may touch."""
 
     points: np.ndarray
     radii: np.ndarray
@@ -61,6 +63,7 @@ class Centreline:
     branches: np.ndarray
     ends: tuple[End, ...]
     loops: tuple[Loop, ...] = ()
+    necks: tuple[Neck, ...] = ()
 
     def chain(self, point: int) -> np.ndarray:
         """Indices from a point to the root."""
@@ -93,8 +96,9 @@ class Centreline:
 
     def inner(self) -> np.ndarray:
         """Return (k,): points farther than a radius from every closed end, where the sphere is bounded by the end as
-        well."""
+        well, and in no neck between two vessels."""
         inner = np.ones(len(self.points), dtype=bool)
+        inner[[point for neck in self.necks for point in neck.points]] = False
         for end in self.ends:
             if not end.is_open:
                 inner &= np.linalg.norm(self.points - end.centre, axis=1) > 1.2 * end.radius
@@ -187,17 +191,52 @@ class _Builder:
                 last[k] = len(self._points) - 1
         last[root] = 0
         loops = find_loops(closed, np.array(self._points), np.array(self._radii), np.array(self._parents))
-        # The cut of a loop is no end of the vessel.
-        ends = [self._end(k, last[k]) for k in order if self._rims[k] is not None or not self._is_cut(last[k], loops)]
-        loops = [self._joined(loop) for loop in loops]
+        # The cut of a loop is no end of the vessel: the way goes on to the other side.
+        cut = [k for k in order if self._rims[k] is None and self._is_cut(last[k], loops)]
+        ends = [self._end(k, last[k]) for k in order if k not in cut]
+        gone = self._corners([last[k] for k in cut if k != root])
+        loops = [self._joined(replace(loop, points=(self._before_any(gone, loop.points[0]),
+                                                    self._before_any(gone, loop.points[1])))) for loop in loops]
         if len(ends) < 2:
             raise AnatomyError("the lumen has one end only: no path leads through it")
         ends.sort(key=lambda end: (end.is_sac, -end.radius))
         named = [replace(end, number=number, name=end.name or f"end {number}") for number, end in enumerate(ends, 1)]
-        radii = np.array([self._open.distance(point) for point in self._points])
-        return Centreline(np.array(self._points), radii, np.array(self._parents), np.array(self._branches),
-                          tuple(named),
-                          tuple(loops))
+        kept = np.setdiff1d(np.arange(len(self._points)), list(gone))
+        number = np.full(len(self._points) + 1, -1)    # the last is that of no parent
+        number[kept] = np.arange(len(kept))
+        radii = np.array([self._open.distance(self._points[k]) for k in kept])
+        branches = np.unique(np.array(self._branches)[kept], return_inverse=True)[1] + 1
+        loops = [replace(loop, points=tuple(number[list(loop.points)].tolist())) for loop in loops]
+        places, parents = np.array(self._points)[kept], number[np.array(self._parents)[kept]]
+        return Centreline(places, radii, parents, branches,
+                          tuple(replace(end, point=int(number[end.point])) for end in named), tuple(loops),
+                          tuple(find_necks(places, radii, parents, loops)))
+
+    def _corners(self, tips: list[int]) -> set[int]:
+        """Points from these on back to the nearest one in no sphere of another branch that is about as wide as the way
+        before it: where a way runs into another one, or into the wall, it is not on the axis."""
+        uses = np.bincount(np.array(self._parents[1:]), minlength=len(self._points))
+        places, radii, branches = np.array(self._points), np.array(self._radii), np.array(self._branches)
+        found: set[int] = set()
+        for tip in tips:
+            chain, gone, widest = [tip], 0.0, 0.0
+            while self._parents[chain[-1]] >= 0 and gone < _CORNER * widest + 2.0 * self._radii[chain[-1]]:
+                chain.append(self._parents[chain[-1]])
+                gone += float(np.linalg.norm(self._points[chain[-1]] - self._points[chain[-2]]))
+                widest = max(widest, self._radii[chain[-1]])
+            others = branches != branches[tip]
+            point = tip
+            while uses[point] == (point != tip) and self._parents[point] >= 0 and (
+                    radii[point] < 0.9 * widest and point in chain
+                    or (np.linalg.norm(places[others] - places[point], axis=1) < radii[others]).any()):
+                found.add(point)
+                point = self._parents[point]
+        return found
+
+    def _before_any(self, gone: set[int], point: int) -> int:
+        while point in gone:
+            point = self._parents[point]
+        return point
 
     def _is_cut(self, tip: int, loops: list[Loop]) -> bool:
         return any(np.linalg.norm(self._points[tip] - self._points[point]) < _AT_CUT * loop.radius
@@ -209,18 +248,16 @@ class _Builder:
         one, other = loop.points
         sides = np.array([self._points[one], self._points[other]])
         away = np.linalg.norm(sides - loop.place, axis=1)
-        if np.linalg.norm(sides[0] - sides[1]) < self._radii[one] + self._radii[other]:
+        if np.linalg.norm(sides[0] - sides[1]) < 2.0 * _STEP * min(self._radii[one], self._radii[other]):
             return loop
         centres, radii = self._graph.centres, self._graph.radii
         near = np.flatnonzero(np.linalg.norm(centres - loop.place, axis=1) < 1.5 * away.max() + 2.0 * loop.radius)
-        middle, *others = (int(np.argmin(np.linalg.norm(centres[near] - point, axis=1)))
-                           for point in (loop.place, *sides))
-        cost, before = dijkstra(self._graph.weights[near][:, near], directed=False, indices=middle,
+        start, end = (int(np.argmin(np.linalg.norm(centres[near] - point, axis=1))) for point in sides)
+        cost, before = dijkstra(self._graph.weights[near][:, near], directed=False, indices=start,
                                 return_predecessors=True)
-        if not np.isfinite(cost[others]).all():
+        if not np.isfinite(cost[end]):
             return loop
-        ways = [near[walk_back(before, node)] for node in others]
-        nodes = np.r_[ways[0][::-1], ways[1][1:]]
+        nodes = near[walk_back(before, end)]
         line, own = self._smooth(np.vstack([sides[0], centres[nodes], sides[1]]),
                                  np.r_[self._radii[one], radii[nodes], self._radii[other]], None, None, (False, False),
                                  False)
@@ -261,10 +298,21 @@ class _Builder:
                 away = np.linalg.norm(graph.centres[others] - graph.centres[chain[-1]], axis=1)
                 beside = graph.radii[others[int(np.argmin(away))]]
                 if (away < (1.0 + BLIND) * graph.radii[others]).any() or graph.radii[chain[-1]] < _THIN * min(
-                        beside, typical):
+                        beside, typical) or self._is_edge(chain[-1], others, int(np.argmin(away))):
                     continue
             kept.append(k)
         return kept
+
+    def _is_edge(self, tip: int, others: list[int], nearest: int) -> bool:
+        """Return whether a blind end is the edge of a lumen that is no circle, such as a crescent: it goes on there
+        along the path beside, before and behind. A branch is as wide as its end, and a dome as well."""
+        graph = self._graph
+        path = graph.centres[others]
+        own = path[np.linalg.norm(path - path[nearest], axis=1) < 2.0 * graph.radii[others[nearest]]]
+        along = np.linalg.svd(own - own.mean(axis=0), full_matrices=False)[2][0]
+        step = _EDGE * graph.radii[tip] * along
+        return all((np.linalg.norm(graph.centres - place, axis=1) < graph.radii).any()
+                   for place in (graph.centres[tip] - step, graph.centres[tip] + step))
 
     def _trim(self, chain: list[int], rim: Rim | None) -> list[int]:
         """Return a path from the root; without its last piece, into the corner of a blind end."""
@@ -290,7 +338,12 @@ class _Builder:
             is_last = high == len(chain) - 1
             tail = rim if is_last else None
             head = self._rims[self._targets.index(self._start)] if low == 0 and not at else None
-            line, radii = self._smooth(self._graph.centres[nodes], self._graph.radii[nodes], tail, head,
+            centres = self._graph.centres[nodes].copy()
+            if chain[low] in at:
+                centres[0] = self._points[at[chain[low]]]
+            if not is_last:
+                centres[-1] = self._fork(chain[high])
+            line, radii = self._smooth(centres, self._graph.radii[nodes], tail, head,
                                        is_free=(low == 0 and not at, is_last), is_root=low == 0 and not at)
             if low == 0 and not at:
                 self._append(line[0], radii[0], -1, 1)
@@ -301,6 +354,13 @@ class _Builder:
                 self._append(point, radius, parent, branch)
                 parent = len(self._points) - 1
             at[chain[high]] = parent
+
+    def _fork(self, node: int) -> np.ndarray:
+        """Return where the sphere of a fork is largest: paths meet where they are short, beside its axis."""
+        place, radius = self._graph.centres[node], float(self._graph.radii[node])
+        for axis in np.eye(3):
+            place = self._open.centre(place, axis, radius, 0.5 * radius)
+        return place
 
     def _append(self, point: np.ndarray, radius: float, parent: int, branch: int) -> None:
         self._points.append(point)

@@ -12,6 +12,7 @@ import numpy as np
 from guidewire.anatomy import output, reading
 from guidewire.anatomy.centreline import Centreline, find_centreline
 from guidewire.anatomy.centreline_files import centreline_names, write_centreline
+from guidewire.anatomy.ends import open_ends, without_caps
 from guidewire.anatomy.inspection import Inspection, inspect
 from guidewire.anatomy.masks import Taking
 from guidewire.anatomy.mesh import AnatomyError, Mesh
@@ -58,9 +59,9 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     if not found.unit.is_sure:
         raise AnatomyError(f"unit: {found.unit.reason}")
     repaired = repair(source.mesh)
+    if source.faces is not None:
+        repaired = without_caps(repaired, source.faces)
     if arguments.open:
-        from guidewire.anatomy.ends import open_ends
-
         repaired = open_ends(repaired, None if arguments.open == "all" else list(map(int, arguments.open.split(","))),
                              source.faces)
     line = find_centreline(repaired.mesh, repaired.rims)

@@ -8,6 +8,7 @@ and their voxels are taken so.
 from __future__ import annotations
 
 import hashlib
+import importlib.util
 import itertools
 import logging
 import os
@@ -28,7 +29,7 @@ _FEWEST = 3  # slices of a volume
 _NAME = 64  # characters of a description, as many as DICOM allows
 _SAME = 1e-4  # of a direction's components
 _EVEN, _OFF = 0.02, 0.1  # of the median step, and of a pixel: by how much a slice may lie elsewhere
-_TAGS = ["SOPClassUID", "SOPInstanceUID", "SeriesInstanceUID", "SeriesNumber", "SeriesDescription", "Modality",
+_TAGS = ["SOPClassUID", "SeriesInstanceUID", "SeriesNumber", "SeriesDescription", "Modality",
          "ImageType", "ImageOrientationPatient", "ImagePositionPatient", "PixelSpacing", "Rows", "Columns",
          "SamplesPerPixel", "NumberOfFrames", "SpecificCharacterSet", "InstanceNumber"]
 _NO_VOLUMES = {  # by SOP class
@@ -37,6 +38,10 @@ _NO_VOLUMES = {  # by SOP class
     "1.2.840.10008.5.1.4.1.1.481.3": "a set of contours (RTSTRUCT)",
     "1.2.840.10008.1.3.10": "a list of files (DICOMDIR)",
 }
+# A stream of JPEG, JPEG-LS or JPEG 2000 states its sizes and ends with a mark, behind which are fill bytes and the
+# sequence's end.
+_STREAMS = tuple(f"1.2.840.10008.1.2.4.{number}" for number in (50, 51, 57, 70, 80, 81, 90, 91))
+_SIZED, _TAIL, _WHOLE = re.compile(rb"\xff[\xc0-\xc3\xf7\x51]"), 16, b"\xff\xc0\xff\xd9"
 _WAY = "3D Slicer opens it and saves it as .nrrd"
 
 
@@ -44,7 +49,6 @@ _WAY = "3D Slicer opens it and saves it as .nrrd"
 class _Slice:
     file: Path
     position: np.ndarray
-    instance: str
 
 
 @dataclass
@@ -161,7 +165,6 @@ def _stacks(folder: Path) -> tuple[list[_Stack], list[str]]:
         raise AnatomyError(f"more than {_MOST_FILES} files: give the folder of one series")
     stacks: dict[tuple, _Stack] = {}
     refused: dict[str, int] = {}
-    seen: set[str] = set()
     for file in files:
         head = _head(file)
         if head is None:
@@ -171,19 +174,33 @@ def _stacks(folder: Path) -> tuple[list[_Stack], list[str]]:
         except (AnatomyError, TypeError, ValueError) as error:
             refused[str(error)] = refused.get(str(error), 0) + 1
             continue
-        instance = str(head.get("SOPInstanceUID", file))
-        if instance in seen:    # a copy
-            continue
-        seen.add(instance)
         key = (str(head.get("SeriesInstanceUID", "")), head.Rows, head.Columns, *np.round(
             np.r_[np.array(head.ImageOrientationPatient, float) / _SAME, np.array(head.PixelSpacing, float) / _SAME]))
         stacks.setdefault(key, _Stack(head, [])).slices.append(
-            _Slice(file, np.array(head.ImagePositionPatient, dtype=float), instance))
+            _Slice(file, np.array(head.ImagePositionPatient, dtype=float)))
+    for stack in stacks.values():
+        stack.slices = _without_copies(stack.slices)
     ordered = sorted(stacks.values(), key=lambda stack: (int(stack.head.get("SeriesNumber", None) or 0),
                                                          -len(stack.slices), str(stack)))
     for number, stack in enumerate(ordered, 1):
         stack.number = number
     return ordered, [f"{count} file{'s' if count > 1 else ''}: {why}" for why, count in refused.items()]
+
+
+def _without_copies(slices: list[_Slice]) -> list[_Slice]:
+    """Return the slices without those of the place and the pixels of another one. Instances' numbers may be blank, or
+    the same in all of a series, so that they do not tell copies."""
+    import pydicom
+
+    places: dict[bytes, list[_Slice]] = {}
+    for one in slices:
+        places.setdefault((one.position + 0.0).tobytes(), []).append(one)
+    kept = []
+    for same in places.values():
+        pixels = {pydicom.dcmread(str(one.file)).get("PixelData", b""): one for one in same[::-1]} if (
+            len(same) > 1) else {b"": same[0]}
+        kept += pixels.values()
+    return kept
 
 
 def _chosen(stacks: list[_Stack], others: list[str], series: str | None) -> _Stack:
@@ -269,15 +286,22 @@ def _values(pydicom: Any, stack: _Stack, slices: list[_Slice]) -> tuple[np.ndarr
 
 
 def _pixels(data: Any, file: Path) -> np.ndarray:
+    syntax = getattr(getattr(data, "file_meta", None), "TransferSyntaxUID", None)
     try:
+        # gdcm gives pixels for a stream that it cannot decode.
+        stream = data.PixelData if syntax is not None and syntax in _STREAMS else _WHOLE
+        if not (_SIZED.search(stream) and b"\xff\xd9" in stream[-_TAIL:]):
+            raise AnatomyError(f"{file.name}: its compressed voxels break off")
         return data.pixel_array
+    except AnatomyError:
+        raise
     except Exception as error:    # pydicom raises many kinds where it cannot decode, or the file is damaged
         if isinstance(error, (KeyboardInterrupt, MemoryError)):
             raise
-        syntax = getattr(getattr(data, "file_meta", None), "TransferSyntaxUID", None)
         if syntax is not None and syntax.is_compressed:
-            raise AnatomyError(f"{file.name}: its voxels are compressed by '{syntax.name}', which cannot be read here: "
-                               f"{_WAY}, or dcmtk's dcmdjpeg and dcmdjpls unpack it") from error
+            raise AnatomyError(f"{file.name}: its voxels are compressed by '{syntax.name}', " + (
+                "and damaged" if importlib.util.find_spec("gdcm") else
+                "which needs gdcm: apt-get install python3-gdcm, or pip install python-gdcm")) from error
         reason = re.split(r"[.\n]", str(error), maxsplit=1)[0][:120]
         raise AnatomyError(f"{file.name}: its voxels cannot be read: {reason}") from error
 

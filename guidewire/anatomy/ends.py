@@ -53,6 +53,29 @@ def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces
                     [*repaired.changes, *(Change(name, count) for name, count in changes.items() if count)])
 
 
+def without_caps(repaired: Repaired, faces: Faces) -> Repaired:
+    """Return the vessel without those of a file's faces that are flat and have a sharp rim: its caps, however small the
+    vessels are that end there."""
+    mesh = repaired.mesh
+    own, vectors = np.unique(faces.of(mesh), return_inverse=True)[1], mesh.area_vectors()
+    areas = np.linalg.norm(vectors, axis=1)
+    normals = vectors / np.maximum(areas, 1e-300)[:, None]
+    pairs = Edges.of(mesh).pairs()
+    pairs = pairs[own[pairs[:, 0]] != own[pairs[:, 1]]]
+    is_sharp = np.einsum("ij,ij->i", normals[pairs[:, 0]], normals[pairs[:, 1]]) < _SHARP
+    count = int(own.max()) + 1
+    borders, sharp = (np.bincount(own[pairs].ravel(), np.repeat(weights, 2), count)
+                      for weights in (np.ones(len(pairs)), is_sharp))
+    sums = np.stack([np.bincount(own, vectors[:, k], count) for k in range(3)], axis=1)
+    is_flat = np.linalg.norm(sums, axis=1) > _FLAT * np.bincount(own, areas, count)
+    caps = np.flatnonzero(is_flat & (sharp > 0.9 * borders) & (borders > 0.0))
+    if not len(caps):
+        return repaired
+    mesh, _ = with_rims_apart(mesh.part(~np.isin(own, caps)))
+    return Repaired(mesh, sort_rims(mesh, find_rims(mesh, Edges.of(mesh))),
+                    [*repaired.changes, Change("caps taken off, faces of the file", len(caps))])
+
+
 def _face_over(mesh: Mesh, end: End, faces: Faces) -> np.ndarray | None:
     """Return (t,): the triangles of the face over an end; None where that is not of the size of a cap."""
     own = faces.of(mesh)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-MESHES = (".stl", ".obj", ".ply", ".vtp")
+MESHES = (".stl", ".obj", ".ply", ".vtp", ".vtk", ".vtu")
 MASKS = (".nii", ".nii.gz", ".nrrd", ".mha", ".vti")
 DICOM = ".dcm"  # a slice; of the files of a series many have no ending
 CENTRELINES = (".csv", ".mrk.json")
@@ -17,9 +17,10 @@ _TABLE = "save x, y, z and radius as .csv"
 OTHERS = {
     ".mhd": "3D Slicer opens it and saves it as .mha, header and voxels in one file",
     ".nhdr": "3D Slicer opens it and saves it as .nrrd, header and voxels in one file",
-    **dict.fromkeys((".hdr", ".img", ".mgz", ".mgh", ".gipl", ".tif", ".tiff", ".vtk", ".raw", ".nia", ".npy"), _IMAGE),
-    **dict.fromkeys((".vtu", ".3mf", ".glb", ".gltf", ".off", ".dae", ".x3d", ".wrl", ".usd", ".usda", ".usdc", ".fbx"),
+    **dict.fromkeys((".hdr", ".img", ".mgz", ".mgh", ".gipl", ".tif", ".tiff", ".raw", ".nia", ".npy"), _IMAGE),
+    **dict.fromkeys((".3mf", ".glb", ".gltf", ".off", ".dae", ".x3d", ".wrl", ".usd", ".usda", ".usdc", ".fbx"),
                     _MESH),
+    ".mdl": "the surface of SimVascular's model is the .vtp of the same name beside it",
     **dict.fromkeys((".step", ".stp", ".iges", ".igs"), "a CAD program saves it as .stl"),
     **dict.fromkeys((".mrb", ".mrml"), "3D Slicer opens the scene: export the segmentation as .seg.nrrd"),
     **dict.fromkeys((".zip", ".tar", ".gz", ".7z", ".rar"), "unpack it, and give the file or the folder of the series"),

@@ -10,16 +10,20 @@ from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from guidewire.anatomy.intersections import self_intersections
-from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, find_bodies, find_rims, signed_volume
+from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, Rim, find_bodies, find_rims, signed_volume, turned_alike
 
 UNITS = {"mm": 1e-3, "cm": 1e-2, "m": 1.0}
-# What vessels and their files have: a range within which a size says nothing, and the deviation of its logarithm
-# beyond.
-_RADIUS, _SIDE = (0.6e-3, 14e-3), (15e-3, 0.7)  # m, of the lumen, and of the largest side
-_BEYOND = 0.25
-_EDGE, _EDGE_SPREAD = 0.7e-3, 1.2  # m, of the median edge, which comes from voxels of some tenths of a mm to one
-_FILES = {"mm": 0.8, "cm": 0.15, "m": 0.05}  # fraction of files in a unit, where nothing else is known
+# What is known of vessels: radii, m, a range within which one is as likely as another; and of the largest side over the
+# radius the median against the logarithm of the radius, which falls from a coronary artery with its branches to an
+# aorta. Deviations are of logarithms.
+_RADIUS, _BEYOND = (0.7e-3, 14e-3), 0.25
+_SLENDER, _SPREAD = ((1e-3, 3e-3, 6e-3, 12e-3), (40.0, 33.0, 25.0, 17.0)), 0.65
+_LONGEST = 0.8  # m, a side of a body
+_EDGE, _EDGE_SPREAD = 0.7e-3, 1.5  # m, of the median edge, which comes from voxels of some tenths of a mm to one
+_STRANGE = 0.0015  # of the largest density, that of a vessel unlike all that is known: no size alone excludes a unit
+_FILES = {"mm": 0.82, "cm": 0.13, "m": 0.05}  # fraction of files in a unit, where nothing else is known
 _CERTAIN = 0.97  # of the probability, from which on a unit is taken without being given
+_NEVER = 3.0  # ranges' deviations of the radius: no vessel
 _WELD = 1e-3  # of the median edge: vertices so near are one
 _SIDES = 5  # of a rim; a gap of fewer is one triangle that is missing, or two
 _HOLE = 2.5  # a lumen so many times wider than its rim: the rim is a hole in its side
@@ -155,23 +159,22 @@ def inspect(mesh: Mesh, unit: str | None = None, said_by: str = "as given") -> I
     if not len(clean.triangles):
         raise AnatomyError("no triangle has three different corners")
     edges = Edges.of(clean)
+    clean, _ = turned_alike(clean)  # rims and volumes are those of triangles that agree
     bodies = find_bodies(clean)
     main = clean.part(bodies == 0)
     plain, _ = without_fins(clean)  # a fin has no rim of a lumen
     rims = sort_rims(plain, find_rims(plain, Edges.of(plain)))
     crossings, _ = self_intersections(clean)
-    pairs = edges.pairs()
-    same = edges.forward.ravel()[_halves(edges)].reshape(-1, 2) if len(pairs) else np.empty((0, 2), bool)
+    same = edges.forward.ravel()[edges.halves()]
     turned = edges.ends[edges.counts == 2][same[:, 0] == same[:, 1]]
-    main_rims = [rim for rim in find_rims(main, Edges.of(main))]
     return Inspection(
         vertices=len(raw.vertices), triangles=len(mesh.triangles), low=raw.vertices.min(axis=0),
         high=raw.vertices.max(axis=0), unit=find_unit(clean, unit, said_by), weld_length=length, near_vertices=near,
         slivers=slivers, crowded=clean.vertices[edges.ends[edges.counts > 2]].mean(axis=1),
-        turned=clean.vertices[turned].mean(axis=1) if len(turned) else np.empty((0, 3)), crossings=crossings,
+        turned=clean.vertices[turned].mean(axis=1), crossings=crossings,
         body_sizes=np.bincount(bodies).tolist(),
         body_centres=np.array([clean.part(bodies == k).vertices.mean(axis=0) for k in range(bodies.max() + 1)]),
-        rims=rims, volume=signed_volume(main, main_rims), double_wall=float(facing(main).mean()),
+        rims=rims, volume=signed_volume(main, find_rims(main, Edges.of(main))), double_wall=float(facing(main).mean()),
     )
 
 
@@ -198,11 +201,10 @@ def find_unit(mesh: Mesh, known: str | None = None, said_by: str = "as given") -
     if known:
         return Unit(known, f"{said_by}; {_sizes(known, radius, side)}", True)
     edge = float(np.median(mesh.edge_lengths()))
-    likely = {name: _FILES[name] * np.exp(-0.5 * (
-        _beyond(metres * radius, *_RADIUS)**2 + _beyond(metres * side, *_SIDE)**2
-        + (np.log(metres * edge / _EDGE) / _EDGE_SPREAD)**2)) for name, metres in UNITS.items()}
+    likely = {name: _FILES[name] * _likelihood(metres * radius, metres * side, metres * edge)
+              for name, metres in UNITS.items()}
     best = max(likely, key=likely.get)
-    probability = likely[best] / max(sum(likely.values()), 1e-300)
+    probability = min(likely[best] / max(sum(likely.values()), 1e-300), 0.999)
     if probability >= _CERTAIN:
         return Unit(best, f"guessed, {probability:.1%} likely; {_sizes(best, radius, side)}", True)
     listed = "; or ".join(f"--unit {name}, {_sizes(name, radius, side)}" for name in sorted(
@@ -215,9 +217,19 @@ def _sizes(unit: str, radius: float, side: float) -> str:
             f"{1e3 * UNITS[unit] * side:.4g} mm long")
 
 
-def _beyond(size: float, low: float, high: float) -> float:
-    """Return how far a size is out of a range, in deviations."""
-    return max(np.log(low / max(size, 1e-300)), np.log(size / high), 0.0) / _BEYOND
+def _likelihood(radius: float, side: float, edge: float) -> float:
+    """Return how likely the sizes of a vessel, m, are, over the most likely ones."""
+    out = _out_of(radius, *_RADIUS) / _BEYOND
+    slender = np.log(side / radius / np.interp(np.log(radius), np.log(_SLENDER[0]), _SLENDER[1])) / _SPREAD
+    long = _out_of(side, 0.0, _LONGEST) / _BEYOND
+    fine = np.log(max(edge, 1e-300) / _EDGE) / _EDGE_SPREAD
+    known = np.exp(-0.5 * (out**2 + slender**2 + long**2 + fine**2))
+    return float(known + _STRANGE * np.exp(-0.5 * (np.maximum(out - _NEVER, 0.0)**2 + long**2)))
+
+
+def _out_of(size: float, low: float, high: float) -> float:
+    """Return the logarithm by which a size is out of a range."""
+    return max(np.log(max(low, 1e-300) / max(size, 1e-300)), np.log(max(size, 1e-300) / high), 0.0)
 
 
 def typical_radius(mesh: Mesh) -> float:
@@ -279,9 +291,3 @@ def _meetings(mesh: Mesh, inward: bool) -> np.ndarray:
     chosen = np.unique(chosen[size[chosen] > 0.0])
     normals = areas[chosen] / size[chosen][:, None]
     return cast_rays(mesh, chosen, -normals if inward else normals)[0]
-
-
-def _halves(edges: Edges) -> np.ndarray:
-    order = np.argsort(edges.of_triangles.ravel(), kind="stable")
-    first = np.concatenate([[0], np.cumsum(edges.counts)])[:-1][edges.counts == 2]
-    return np.stack([order[first], order[first + 1]], axis=1).ravel()

@@ -15,7 +15,7 @@ from guidewire.anatomy.mesh import FARTHEST, AnatomyError, Mesh
 from guidewire.anatomy.patient import Axes, axes_named
 from guidewire.anatomy.tubes import Tube, mesh_of_tubes
 
-_LEAP = 5.0  # median steps: two points so far apart are not neighbours
+_LEAP = 5.0  # median steps, farther than both radii together reach: two points so far apart are not neighbours
 _CORE = 0.3  # of a radius: a line so near another one is the same there
 _CARINA = 0.12  # radius of curvature of edges between branches, of the widest branch's radius
 
@@ -27,8 +27,8 @@ _PLACES = {
     "points_0": (0, ""), "points_1": (1, ""), "points_2": (2, ""),
     "a": (1, "A"), "s": (2, "S"), "l": (0, "L"), "p": (1, "P"),    # 3D Slicer; r is R beside a and s
 }
-_RADII = {"radius": 1.0, "maximuminscribedsphereradius": 1.0, "misr": 1.0, "r": 1.0, "diameter": 0.5,
-          "diameter(mis)": 0.5}
+_RADII = {"radius": 1.0, "maximuminscribedsphereradius": 1.0, "inscribedsphereradius": 1.0, "misr": 1.0, "radii": 1.0,
+          "r": 1.0, "diameter": 0.5, "diameter(mis)": 0.5}
 _KNOWN = ("x, y, z or Points:0, Points:1, Points:2 or R, A, S or L, P, S, and Radius, MaximumInscribedSphereRadius, "
           "MISR or Diameter")
 
@@ -63,23 +63,50 @@ def read_lines(file: Path, kind: str) -> Lines:
 
 
 def lines_of_poly_data(file: Path, data) -> Lines | None:
-    """Return the centrelines of vtkPolyData that has lines with a radius at each point and no triangles, else None."""
+    """Return the centrelines of vtkPolyData that has lines with a radius at each point and no triangles, else None.
+    Lines that share points, as those of a network do, are cut and joined to one from fork to fork."""
     from vtkmodules.util.numpy_support import vtk_to_numpy
 
-    if data.GetNumberOfPolys() or not data.GetNumberOfLines():
+    if data.GetNumberOfPolys() or data.GetNumberOfStrips() or not data.GetNumberOfLines():
         return None
-    names = [data.GetPointData().GetArrayName(k) or "" for k in range(data.GetPointData().GetNumberOfArrays())]
-    radius = next((name for name in names if "radius" in name.lower()), None)
-    if radius is None:
-        raise AnatomyError(f"{file}: lines without a radius: an array named Radius at the points is needed")
-    cells = data.GetLines()
-    borders = vtk_to_numpy(cells.GetOffsetsArray())
-    index = vtk_to_numpy(cells.GetConnectivityArray())
+    at_points = data.GetPointData()
+    names = {"".join(name.lower().split()): name for name in (
+        at_points.GetArrayName(k) or "" for k in range(at_points.GetNumberOfArrays()))}
+    known = [name for name in _RADII if name in names] or [name for name in names if "radius" in name]
+    if not known:
+        raise AnatomyError(f"{file}: lines without a radius: an array named Radius, MaximumInscribedSphereRadius, MISR "
+                           "or Diameter at the points is needed")
     points = vtk_to_numpy(data.GetPoints().GetData()).astype(float)
-    radii = vtk_to_numpy(data.GetPointData().GetArray(radius)).astype(float)
-    of_lines = [index[a:b] for a, b in zip(borders[:-1], borders[1:])]
+    radii = _RADII.get(known[0], 1.0) * vtk_to_numpy(at_points.GetArray(names[known[0]])).astype(float)
+    if radii.ndim > 1:
+        raise AnatomyError(f"{file}: {names[known[0]]} has {radii.shape[1]} numbers at a point: a radius is one")
+    cells = data.GetLines()
+    borders, index = (vtk_to_numpy(one) for one in (cells.GetOffsetsArray(), cells.GetConnectivityArray()))
+    of_lines = _chains([index[a:b].tolist() for a, b in zip(borders[:-1], borders[1:])])
     return Lines([_checked(file, Line(points[own], radii[own]), f"line {k}, " if len(of_lines) > 1 else "")
                   for k, own in enumerate(of_lines, 1)])
+
+
+def _chains(cells: list[list[int]]) -> list[list[int]]:
+    """Return lines of points, cut and joined where several cells share points; as they are where none do."""
+    if sum(map(len, cells)) == len(set().union(*cells)):
+        return cells
+    beside: dict[int, set[int]] = {}
+    for a, b in (pair for cell in cells for pair in zip(cell, cell[1:]) if pair[0] != pair[1]):
+        beside.setdefault(a, set()).add(b)
+        beside.setdefault(b, set()).add(a)
+    found, done = [], set()
+    forks = {node for node, others in beside.items() if len(others) != 2}
+    # A ring without a fork begins at its smallest number.
+    for first in [*sorted(forks), *sorted(set(beside) - forks)]:
+        for after in sorted(beside[first]):
+            chain = [first, after]
+            while chain[-1] not in forks and chain[-1] != first:
+                chain += beside[chain[-1]] - {chain[-2]}
+            if first in forks and (chain[-1], chain[-2]) not in done or first not in forks and first not in done:
+                found.append(chain)
+                done |= {(first, after), *chain}
+    return found
 
 
 def mesh_of_lines(lines: list[Line]) -> tuple[Mesh, str]:
@@ -179,11 +206,12 @@ def _checked(file: Path, line: Line, name: str = "") -> Line:
     numbers = np.flatnonzero(kept) + 1
     line = Line(line.points[kept], line.radii[kept])
     steps = np.linalg.norm(np.diff(line.points, axis=0), axis=1)
-    leap = int(np.argmax(steps))
-    if steps[leap] > _LEAP * np.median(steps):
+    reach = np.maximum(_LEAP * np.median(steps), line.radii[1:] + line.radii[:-1])
+    leap = int(np.argmax(steps / reach))
+    if steps[leap] > reach[leap]:
         raise AnatomyError(f"{file}: {name}from point {numbers[leap]} to {numbers[leap + 1]} it is {steps[leap]:.4g}, "
-                           f"{steps[leap] / np.median(steps):.3g} times the median step: points of a centreline follow "
-                           "each other")
+                           f"{steps[leap] / np.median(steps):.3g} times the median step and beyond the radii there: "
+                           "points of a centreline follow each other")
     return line
 
 

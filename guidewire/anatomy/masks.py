@@ -1,23 +1,29 @@
-"""The wall of a vessel in a segmentation: extracted by marching cubes, smoothed without loss of volume, decimated to a
-stated error."""
+"""The wall of a vessel in voxels: contoured at the threshold of an image or between the voxels of a mask, smoothed
+without shrinking, decimated to a stated error, and open where the border of the image cuts the lumen."""
 
 from __future__ import annotations
 
 from dataclasses import dataclass
 
 import numpy as np
-from scipy.ndimage import binary_fill_holes
+from scipy.ndimage import binary_fill_holes, correlate1d
 from scipy.ndimage import label as label_regions
+from scipy.sparse import coo_matrix, diags
 
+from guidewire.anatomy.borders import PRISM, Border, cut_at, find_borders, prolonged
 from guidewire.anatomy.images import Image
 from guidewire.anatomy.labels import told_values, values_of, voxels_with
-from guidewire.anatomy.mesh import AnatomyError, Mesh, find_bodies, signed_volume
+from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, find_bodies, find_rims, signed_volume
 from guidewire.anatomy.surfaces import contour, decimate, farthest, smooth
 
-# Windowed sinc: over random axes and places the mean radius of a tube of 4 voxels' radius is 4.001 voxels then, that of
-# a tube of 2 voxels 2.008, each from 8 tubes; at band 0.02 a tube of 2 loses a quarter.
-_PASSES, _BAND = 20, 0.1
+_PASSES, _BAND = 20, 0.1  # of the windowed sinc; at band 0.02 a tube of 2 voxels' radius loses a quarter
+_EVENED = 20  # passes of the mean over neighbours, for what the sinc moved along the normals
+# A contour between values that are interpolated linearly is that of the values blurred by x (1 - x)/2, in the mean over
+# x of a cell by 1/12 of the second difference: that much is taken off first.
+_SHARPER = np.array([-1.0, 14.0, -1.0]) / 12.0
+_CLEAR = 0.02  # of the step: how far from the threshold the value of a voxel is at least, so that it stays on its side
 _ERROR = 0.1  # of decimation, of a voxel's smallest side
+_ROUNDED = 1e-6  # of the largest value: so little is 0
 _LISTED = 6  # regions, and values of voxels, that a line lists
 _AROUND = np.ones((3, 3, 3))  # neighbours of a voxel that touch it at a corner at least
 
@@ -84,32 +90,39 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
     inside = regions == 1 + order[chosen]
     spacing = image.spacing
     voxel = float(abs(np.linalg.det(image.to_space[:3, :3])))
-    low = np.argwhere(inside).min(axis=0)
-    high = np.argwhere(inside).max(axis=0) + 1
-    to_part = image.to_space @ np.block([[np.eye(3), (low - 2.0)[:, None]], [np.zeros(3), 1.0]])
-    own = np.pad(inside[tuple(slice(a, b) for a, b in zip(low, high))], 2)
+    places = np.argwhere(inside)
+    low, high = np.maximum(places.min(axis=0) - 2, 0), np.minimum(places.max(axis=0) + 3, inside.shape)
+    part = tuple(slice(a, b) for a, b in zip(low, high))
+    to_part = image.to_space @ np.block([[np.eye(3), low[:, None]], [np.zeros(3), 1.0]])
+    borders, own, thin = find_borders(inside[part], low, inside.shape)
     whole, joined = _in_one_piece(own, to_part)
-    filled = binary_fill_holes(whole)
-    marched = contour(filled.astype(np.float32), 0.5, spacing * (low - 2.0), spacing)
+    pad = 2 + PRISM * bool(borders)
+    filled = binary_fill_holes(np.pad(whole, 2))[2:-2, 2:-2, 2:-2]
+    field = _field(filled, None if taking.threshold is None else image.values[part] - np.float32(taking.threshold))
+    marched = contour(prolonged(field, borders, pad), 0.0, spacing * (low - pad), spacing)
     bodies = find_bodies(marched)
     if bodies.max() > 0:    # a region of voxels that share faces, without cavities, has one surface
         raise AnatomyError(f"the surface of region {chosen + 1} is of {bodies.max() + 1} pieces")
-    smoothed = smooth(marched, _PASSES, _BAND)
+    smoothed = _smoothed(marched)
     allowed = taking.error or _ERROR * float(spacing.min())
-    mesh = decimate(smoothed, allowed)
-    volumes = [voxel * int(own.sum()), *(_volume(one, image, spacing) for one in (marched, smoothed, mesh))]
+    decimated = decimate(smoothed, allowed)
+    mesh = cut_at(decimated, borders, low, spacing)
+    volume = abs(signed_volume(mesh, find_rims(mesh, Edges.of(mesh)))) * voxel / float(np.prod(spacing))
     unit = image.unit or "unit"
     sides = " x ".join(f"{side:.3g}" for side in spacing)
     notes = [f"{int(inside.sum())} voxels of {sides} {unit} in region {chosen + 1} of {count}; smoothed, wall moved "
              f"by {farthest(marched, smoothed, 3000):.2g} {unit} at most",
-             f"{len(smoothed.triangles)} triangles decimated to {len(mesh.triangles)}, wall moved by "
-             f"{farthest(smoothed, mesh):.2g} {unit} at most (allowed: {allowed:.2g} {unit})",
-             *joined]
+             f"{len(smoothed.triangles)} triangles decimated to {len(decimated.triangles)}, wall moved by "
+             f"{farthest(smoothed, decimated):.2g} {unit} at most (allowed: {allowed:.2g} {unit})",
+             *(border.told(image, low) for border in borders), *joined]
     if (filled != whole).any():
         notes.append(f"{int((filled & ~whole).sum())} voxels of cavities within it filled, around "
                      f"{_middle(filled & ~whole, to_part)}")
-    notes.append("volume: voxels {:.5g} {unit}3, their surface {:.5g}, smoothed {:.5g}, decimated {:.5g} {unit}3 "
-                 "({:+.2%})".format(*volumes, volumes[-1] / volumes[0] - 1.0, unit=unit))
+    notes.append(f"volume: voxels {voxel * int(filled.sum()):.5g} {unit}3, within the wall {volume:.5g} {unit}3 "
+                 f"({volume / (voxel * int(filled.sum())) - 1.0:+.2%})")
+    if thin.any():
+        left_out.append(f"{int(thin.sum())} voxels of thin parts beside the lumen at the border of the image, around "
+                        f"{_middle(thin, to_part)}")
     if count > 1:
         listed = [f"{k} of {sizes[at]} voxels around {_middle(regions == 1 + at, image.to_space)}"
                   for k, at in enumerate(order[:_LISTED], 1)]
@@ -122,9 +135,40 @@ def mesh_of_image(image: Image, taking: Taking = Taking()) -> Taken:
     return Taken(turned, [*image.notes, *notes], [*image.left_out, *left_out], inside, asked & ~inside)
 
 
-def _volume(mesh: Mesh, image: Image, spacing: np.ndarray) -> float:
-    """Return the volume of a mesh along the image's own axes, in mm^3 of space."""
-    return abs(signed_volume(mesh)) * float(abs(np.linalg.det(image.to_space[:3, :3] / spacing)))
+def _field(inside: np.ndarray, over: np.ndarray | None) -> np.ndarray:
+    """Return (i, j, k): values that are above 0 in the voxels of a region and below 0 in all others; of an image what
+    its values, sharpened, are over the threshold, and of a mask 1 and -1."""
+    if over is None:
+        return np.where(inside, np.float32(1.0), np.float32(-1.0))
+    step = float(np.median(over[inside]))
+    field = over.astype(np.float32)
+    for axis in range(3):
+        field = correlate1d(field, _SHARPER, axis=axis, mode="nearest")
+    field /= step if step > 0.0 else 1.0
+    # Voxels that were joined, and cavities that were filled, are inside though their values are not.
+    field[inside & (over <= 0.0)] = 1.0
+    return np.where(inside, np.maximum(field, _CLEAR), np.minimum(field, -_CLEAR))
+
+
+def _smoothed(marched: Mesh) -> Mesh:
+    """Return a contour without its steps. The sinc shrinks what is narrow, so that the mean over neighbours of what it
+    moved along the normals is given back; and vertices are moved out of the wall until the triangles between them lie
+    on it in the mean, not inside of it.
+
+    Of a surface of second derivative H the mean of h over a triangle is that of its corners less the sum of e.H e/24
+    over its edges e. The mean of the neighbours of a vertex is off it by the mean of e.H e/2: four times that.
+    """
+    mesh = smooth(marched, _PASSES, _BAND)
+    ends, count = Edges.of(mesh).ends, len(mesh.vertices)
+    graph = coo_matrix((np.ones(len(ends)), ends.T), shape=(count, count)).tocsr()
+    graph = graph + graph.T
+    mean = diags(1.0 / np.asarray(graph.sum(axis=1)).ravel()) @ graph
+    normals = mesh.vertex_normals()
+    off = np.einsum("ij,ij->i", marched.vertices - mesh.vertices, normals)
+    for _ in range(_EVENED):
+        off = 0.5 * (off + mean @ off)
+    off -= 0.25 * np.einsum("ij,ij->i", mean @ mesh.vertices - mesh.vertices, normals)
+    return Mesh(mesh.vertices + off[:, None] * normals, mesh.triangles)
 
 
 def _in_one_piece(inside: np.ndarray, to_space: np.ndarray) -> tuple[np.ndarray, list[str]]:
@@ -176,7 +220,8 @@ def _inside(image: Image, taking: Taking) -> tuple[np.ndarray, list[str]]:
         if len(found) > 2:
             raise AnatomyError(f"the voxels have {len(found)} values ({told_values(image, found, _LISTED)}): give "
                                "--label N for a mask, or --threshold T for an image")
-        inside, asked = values != 0, ""
+        # After a slope and an intercept 0 is off by rounding.
+        inside, asked = np.abs(values) > _ROUNDED * np.abs(found).max(), ""
     if taking.box is not None:
         whole, inside = inside, _in_box(inside, image, taking.box)
         left_out.append(f"{int(whole.sum() - inside.sum())} voxels outside of --box")

@@ -93,11 +93,15 @@ class Edges:
         ends = np.stack(np.divmod(keys, max(len(mesh.vertices), 1)), axis=1)
         return Edges(ends, counts, inverse.reshape(-1, 3), (halves[:, 0] == low).reshape(-1, 3))
 
-    def pairs(self) -> np.ndarray:
-        """Return (p, 2): triangles on the two sides of the edges that have exactly two, and (p,) those edges."""
+    def halves(self) -> np.ndarray:
+        """Return (p, 2): sides of triangles, 3 t + k, at the edges that have exactly two."""
         order = np.argsort(self.of_triangles.ravel(), kind="stable")
         first = np.concatenate([[0], np.cumsum(self.counts)])[:-1][self.counts == 2]
-        return np.stack([order[first] // 3, order[first + 1] // 3], axis=1)
+        return np.stack([order[first], order[first + 1]], axis=1)
+
+    def pairs(self) -> np.ndarray:
+        """Return (p, 2): triangles on the two sides of the edges that have exactly two."""
+        return self.halves() // 3
 
 
 @dataclass(frozen=True)
@@ -149,10 +153,10 @@ def find_rims(mesh: Mesh, edges: Edges) -> list[Rim]:
 
 
 def find_bodies(mesh: Mesh) -> np.ndarray:
-    """Return (t,): the body of each triangle, 0 the one with the most triangles; triangles at one vertex are of one
-    body."""
-    a, b, c = mesh.triangles.T
-    return _ranked(_labels(len(mesh.vertices), np.r_[a, b], np.r_[b, c])[a])
+    """Return (t,): the body of each triangle, 0 the one with the most triangles. As in the runner an edge joins
+    triangles, a vertex does not."""
+    n, edges = len(mesh.triangles), Edges.of(mesh)
+    return _ranked(_labels(n + len(edges.ends), np.repeat(np.arange(n), 3), n + edges.of_triangles.ravel())[:n])
 
 
 def find_sheets(mesh: Mesh) -> np.ndarray:
@@ -166,6 +170,37 @@ def _ranked(labels: np.ndarray) -> np.ndarray:
     rank = np.empty(len(counts), dtype=int)
     rank[np.argsort(-counts, kind="stable")] = np.arange(len(counts))
     return rank[inverse]
+
+
+def turned_alike(mesh: Mesh) -> tuple[Mesh, int]:
+    """Return the mesh with the triangles of each sheet oriented as most of them are, and how many were turned. A sheet
+    of one side stays as it is."""
+    first, second = _senses(mesh)
+    sheets = np.unique(np.minimum(first, second), return_inverse=True)[1]
+    turned = first > second
+    share = np.bincount(sheets, turned) / np.maximum(np.bincount(sheets), 1)
+    turned = np.where(first == second, False, turned ^ (share > 0.5)[sheets])
+    triangles = mesh.triangles.copy()
+    triangles[turned] = triangles[turned][:, ::-1]
+    return Mesh(mesh.vertices, triangles), int(turned.sum())
+
+
+def one_sided_at(mesh: Mesh) -> np.ndarray | None:
+    """Return (3,): a place of a sheet whose triangles cannot be oriented alike, as of a Moebius band; None without."""
+    first, second = _senses(mesh)
+    found = np.flatnonzero(first == second)
+    return mesh.corners[found[0]].mean(axis=0) if len(found) else None
+
+
+def _senses(mesh: Mesh) -> tuple[np.ndarray, np.ndarray]:
+    """Return (t,), (t,): components of the double cover of a surface, of each triangle as it is and as turned. A sheet
+    of two sides has two components, one of one side has one."""
+    edges, n = Edges.of(mesh), len(mesh.triangles)
+    halves = edges.halves()
+    a, b = (halves // 3).T
+    differs = edges.forward.ravel()[halves[:, 0]] == edges.forward.ravel()[halves[:, 1]]
+    labels = _labels(2 * n, np.r_[a, a + n], np.r_[b + n * differs, b + n * ~differs])
+    return labels[:n], labels[n:]
 
 
 def signed_volume(mesh: Mesh, rims: list[Rim] | None = None) -> float:

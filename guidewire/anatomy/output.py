@@ -12,7 +12,7 @@ import numpy as np
 
 from guidewire.anatomy.centreline import Centreline, End
 from guidewire.anatomy.inspection import Inspection, Unit
-from guidewire.anatomy.loops import count_loops
+from guidewire.anatomy.loops import Neck, count_loops
 from guidewire.anatomy.lumens import write_obj
 from guidewire.anatomy.mesh import AnatomyError, Mesh, close_rims, signed_volume
 from guidewire.anatomy.patient import Axes
@@ -33,6 +33,7 @@ _CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by l
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _ALIKE = 0.95  # of the longest path, from which on a path is as long: the widest of these leads to the default target
 _PLACES = 10  # of a kind that a report lists
+_COMPARED = 0.01  # of a volume: a smaller one before is that of a surface that did not enclose the lumen
 _BENT = 0.25  # of a rim's radius, by which it is out of a plane
 
 
@@ -216,7 +217,7 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
                   for change in repaired.changes]
         closed = abs(signed_volume(repaired.mesh, repaired.rims)) * mm**3
         before = abs(found.volume) * mm**3
-        change = f" ({closed / before - 1.0:+.1%} of that before)" if before > 0.0 else ""
+        change = f" ({closed / before - 1.0:+.1%} of that before)" if before > _COMPARED * closed else ""
         lines.append(f"wall moved by {mm * repaired.moved:.2g} mm at most; {len(repaired.mesh.triangles)} triangles, "
                      f"volume {closed / 1e3:.4g} ml{change}")
     if line is not None:
@@ -226,6 +227,7 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
         lines += [f"loop: two ways through the vessel meet at {_place(loop.place)}, where the lumen's radius is about "
                   f"{mm * loop.radius:.2g} mm, or two vessels touch there; paths and targets take the shorter way"
                   for loop in line.loops]
+        lines += [neck_line(neck, mm) for neck in line.necks]
         missing = count_loops(close_rims(repaired.mesh, repaired.rims)) - len(line.loops) if repaired else 0
         if missing > 0:
             lines.append(f"{missing} small handle{'s' if missing > 1 else ''} of the wall whose ways do not part: the "
@@ -240,6 +242,12 @@ def describe(found: Inspection, repaired: Repaired | None, line: Centreline | No
         lines.append(f"a wire of {diameter:g} mm " + ("passes everywhere" if not narrow else
                      f"does not pass all of branch {', '.join(map(str, narrow))}"))
     return lines
+
+
+def neck_line(neck: Neck, mm: float) -> str:
+    """Return a line on where two vessels may touch; mm : the file's unit."""
+    return (f"two vessels may touch at {_place(neck.place)}, where the way between them has a radius of "
+            f"{mm * neck.radius:.2g} mm")
 
 
 def _bent_rims(repaired: Repaired) -> dict[str, float]:

@@ -130,9 +130,9 @@ def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: 
     sha256 = hashlib.sha256(file.read_bytes()).hexdigest()
     from guidewire.anatomy import lines
 
-    data = read_by_vtk(file, kind) if kind in (".ply", ".vtp") else None
+    data = read_by_vtk(file, kind) if kind not in (".stl", ".obj", *CENTRELINES) else None
     found = (lines.read_lines(file, kind) if kind in CENTRELINES
-             else lines.lines_of_poly_data(file, data) if kind == ".vtp" else None)
+             else lines.lines_of_poly_data(file, data) if data is not None else None)
     if found is not None:
         mesh, done = lines.mesh_of_lines(found.lines)
         said = unit or found.unit or None

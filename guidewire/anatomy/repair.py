@@ -11,7 +11,7 @@ from itertools import permutations
 
 import numpy as np
 from scipy.sparse import coo_matrix
-from scipy.sparse.csgraph import breadth_first_order, connected_components
+from scipy.sparse.csgraph import connected_components
 from scipy.spatial import cKDTree
 
 from guidewire.anatomy.distance_grid import cut_open, displacement, remesh
@@ -23,8 +23,8 @@ from guidewire.anatomy.inspection import (
 from guidewire.anatomy.intersections import relaxed, self_intersections
 from guidewire.anatomy.medial_graph import WallDistance
 from guidewire.anatomy.mesh import (
-    AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, find_sheets, pinched_triangles,
-    signed_volume,
+    AnatomyError, Edges, Mesh, Rim, close_rims, find_bodies, find_rims, find_sheets, one_sided_at,
+    pinched_triangles, signed_volume, turned_alike,
 )
 from guidewire.anatomy.patch import patched
 from guidewire.anatomy.surfaces import distances
@@ -90,6 +90,7 @@ def repair(mesh: Mesh) -> Repaired:
     work = _Work(mesh)
     work.weld()
     work.drop_slivers()
+    work.turn_alike()
     work.keep_inner_sheet()
     work.drop_bodies()
     work.keep_inner_wall()
@@ -323,7 +324,7 @@ class _Work:
         for reach in _REACHES:
             mended = patched(before, made, places, reach * step, step)
             if mended is not None and _is_whole(mended := relaxed(mended), len(ends)):
-                self.mesh, _ = _turned_alike(mended)
+                self.mesh, _ = turned_alike(mended)
                 closed = close_rims(self.mesh, find_rims(self.mesh, Edges.of(self.mesh)))
                 self._note("crossings left: the wall reconstructed there from its signed distance", count,
                            displacement(close_rims(before, ends), closed, places, reach * step), place)
@@ -335,9 +336,18 @@ class _Work:
             raise AnatomyError(f"the surface passes through itself at {len(points)} places, the first at "
                                f"{np.round(points[0], 4).tolist()}, and a remesh does not mend it")
 
-    def orient(self) -> None:
-        mesh, turned = _turned_alike(self.mesh)
+    def turn_alike(self) -> None:
+        """Turn triangles to agree with their neighbours. Rims have their senses from their triangles."""
+        self.mesh, turned = turned_alike(self.mesh)
         self._note("triangles turned to agree with their neighbours", turned)
+
+    def orient(self) -> None:
+        self.turn_alike()
+        mesh = self.mesh
+        place = one_sided_at(mesh)
+        if place is not None:
+            raise AnatomyError(f"the surface has one side only, at {np.round(place, 4).tolist()}: triangles cannot be "
+                               "turned to agree")
         rims = find_rims(mesh, Edges.of(mesh))
         if signed_volume(mesh, rims) > 0.0:
             mesh = mesh.turned()
@@ -403,32 +413,3 @@ def _is_around(mesh: Mesh, bodies: np.ndarray, outer: int, inner: int) -> bool:
     points = mesh.part(bodies == inner).vertices
     points = points[:: max(1, len(points) // 100)]
     return np.mean([select.IsInsideSurface(*point) for point in points]) > 0.9
-
-
-def _turned_alike(mesh: Mesh) -> tuple[Mesh, int]:
-    """Return the same with all triangles oriented as their neighbours, and how many were turned."""
-    edges = Edges.of(mesh)
-    order = np.argsort(edges.of_triangles.ravel(), kind="stable")
-    first = np.concatenate([[0], np.cumsum(edges.counts)])[:-1][edges.counts == 2]
-    one, other = order[first], order[first + 1]
-    forward = edges.forward.ravel()
-    differs = forward[one] == forward[other]
-    if not differs.any():
-        return mesh, 0
-    a, b = one // 3, other // 3
-    n = len(mesh.triangles)
-    graph = coo_matrix((np.r_[differs + 1, differs + 1].astype(np.int8), (np.r_[a, b], np.r_[b, a])), shape=(n, n))
-    graph = graph.tocsr()
-    nodes, before = breadth_first_order(graph, 0, directed=False)
-    turned = np.zeros(n, dtype=bool)
-    steps = np.asarray(graph[nodes[1:], before[nodes[1:]]]).ravel() == 2
-    for node, parent, step in zip(nodes[1:], before[nodes[1:]], steps):
-        turned[node] = turned[parent] ^ step
-    if (turned[a] ^ turned[b] ^ differs).any():
-        place = mesh.vertices[edges.ends[edges.counts == 2][turned[a] ^ turned[b] ^ differs][0]].mean(axis=0)
-        raise AnatomyError(f"the surface has one side only, at {np.round(place, 4).tolist()}: triangles cannot be "
-                           "turned to agree")
-    turned = turned if turned.sum() * 2 <= n else ~turned
-    triangles = mesh.triangles.copy()
-    triangles[turned] = triangles[turned][:, ::-1]
-    return Mesh(mesh.vertices, triangles), int(turned.sum())

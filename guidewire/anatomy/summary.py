@@ -6,6 +6,7 @@ from dataclasses import dataclass
 
 from guidewire.anatomy.centreline import Centreline, End
 from guidewire.anatomy.inspection import Inspection
+from guidewire.anatomy.output import neck_line
 from guidewire.anatomy.reading import Source
 from guidewire.anatomy.repair import Repaired
 
@@ -38,6 +39,9 @@ def summarise(source: Source, found: Inspection, repaired: Repaired | None = Non
                   for rim in found.rims[:_ENDS]] or ["no open end"]
     if choice is not None:
         lines += [_inlet(choice, source), _target(choice)]
+        path = set() if line is None else set(line.path(choice.inlet.point, choice.target.point).tolist())
+        lines += [f"{neck_line(neck, mm)}: inlet and target are on its two sides, and may be of an artery and of a vein"
+                  for neck in line.necks if path & set(neck.points)][:1]
     if repaired is not None:
         lines += _mended(repaired, mm)
     left = [_short(one) for one in source.left_out] + ([] if repaired is None else [

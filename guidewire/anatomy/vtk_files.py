@@ -8,9 +8,11 @@ from pathlib import Path
 
 from guidewire.anatomy.mesh import AnatomyError
 
+_KINDS = {".vtp": "PolyData", ".vti": "ImageData", ".vtu": "UnstructuredGrid"}
+
 
 def read_by_vtk(file: Path, kind: str):
-    """vtkPolyData of a .ply or .vtp, or vtkImageData of a .vti.
+    """vtkPolyData of a .ply, .vtp, .vtk or .vtu, of the last the outer surface, or vtkImageData of a .vti.
 
     Raises
     ------
@@ -21,8 +23,10 @@ def read_by_vtk(file: Path, kind: str):
         head = stream.read(4096)
     if kind == ".ply":
         _check_ply(file, head, size)
+    elif kind == ".vtk":
+        _check_legacy(file, head)
     else:
-        _check_xml(file, head, size, "PolyData" if kind == ".vtp" else "ImageData")
+        _check_xml(file, head, size, _KINDS[kind])
     if _crashes(file, kind):
         raise AnatomyError(f"{file}: VTK ends when it reads this file: it is damaged")
     lines: list[str] = []
@@ -30,10 +34,20 @@ def read_by_vtk(file: Path, kind: str):
     _update(reader, lines)
     if lines:
         raise AnatomyError(f"{file}: {lines[0].strip()}")
-    data = reader.GetOutput()
+    data = _surface(reader.GetOutput()) if kind == ".vtu" else reader.GetOutput()
     if kind != ".vti":
         _check_points(file, data)
     return data
+
+
+def _surface(grid):
+    """vtkPolyData of the outer faces of cells."""
+    from vtkmodules.vtkFiltersGeometry import vtkGeometryFilter
+
+    faces = vtkGeometryFilter()
+    faces.SetInputData(grid)
+    faces.Update()
+    return faces.GetOutput()
 
 
 def _check_points(file: Path, data) -> None:
@@ -53,6 +67,10 @@ def _reader(file: Path, kind: str):
         from vtkmodules.vtkIOXML import vtkXMLPolyDataReader as Reader
     elif kind == ".vti":
         from vtkmodules.vtkIOXML import vtkXMLImageDataReader as Reader
+    elif kind == ".vtu":
+        from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridReader as Reader
+    elif kind == ".vtk":
+        from vtkmodules.vtkIOLegacy import vtkPolyDataReader as Reader
     else:
         from vtkmodules.vtkIOPLY import vtkPLYReader as Reader
     reader = Reader()
@@ -103,6 +121,15 @@ def _check_ply(file: Path, head: bytes, size: int) -> None:
     if counts.get(b"vertex", 0) * least + counts.get(b"face", 0) * 2 > body:
         raise AnatomyError(f"{file}: the file breaks off: the header tells of {counts.get(b'vertex', 0)} vertices and "
                            f"{counts.get(b'face', 0)} faces, behind it are {max(body, 0)} bytes")
+
+
+def _check_legacy(file: Path, head: bytes) -> None:
+    found = re.search(rb"^DATASET\s+(\w+)", head, re.MULTILINE)
+    if not head.startswith(b"# vtk") or found is None:
+        raise AnatomyError(f"{file}: not a VTK file: its first line is not '# vtk DataFile', or it has no DATASET")
+    if found[1] != b"POLYDATA":
+        raise AnatomyError(f"{file}: {found[1].decode()} instead of POLYDATA: 3D Slicer or ParaView opens it and saves "
+                           "an image as .nrrd, a mesh as .stl")
 
 
 def _check_xml(file: Path, head: bytes, size: int, what: str) -> None:

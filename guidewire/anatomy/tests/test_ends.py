@@ -10,7 +10,7 @@ import pytest
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
 from guidewire.anatomy.distance_grid import cut_open  # noqa: E402
-from guidewire.anatomy.ends import open_ends  # noqa: E402
+from guidewire.anatomy.ends import open_ends, without_caps  # noqa: E402
 from guidewire.anatomy.mesh import Edges, Mesh, close_rims, find_rims  # noqa: E402
 from guidewire.anatomy.reading import read  # noqa: E402
 from guidewire.anatomy.repair import repair  # noqa: E402
@@ -69,6 +69,8 @@ def test_caps_are_the_faces_that_a_file_numbers_flat_or_not(tmp_path: Path, rise
     writer.SetInputData(data)
     writer.Write()
     source = read(tmp_path / "a.vtp")
+    opened = without_caps(repair(source.mesh), source.faces)
+    assert len(opened.rims) == (2 if rise == 0.0 else 0)
     opened = open_ends(repair(source.mesh), None, source.faces)
     assert ("caps taken off", 2) in [(change.name, change.count) for change in opened.changes]
     assert np.ptp(opened.mesh.vertices @ SLANT) == pytest.approx(40.0, abs=1e-5)

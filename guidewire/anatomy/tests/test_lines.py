@@ -10,7 +10,9 @@ import pytest
 pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install python3-vtk9, or pip install vtk")
 
 from guidewire.anatomy.centreline import find_centreline  # noqa: E402
-from guidewire.anatomy.lines import Line, begin_of, mesh_of_lines, read_lines, tree_of  # noqa: E402
+from guidewire.anatomy.lines import (  # noqa: E402
+    Line, begin_of, lines_of_poly_data, mesh_of_lines, read_lines, tree_of,
+)
 from guidewire.anatomy.mesh import AnatomyError, Edges, find_rims  # noqa: E402
 from guidewire.anatomy.output import find_inlet  # noqa: E402
 
@@ -60,6 +62,46 @@ def test_a_leap_is_named(tmp_path: Path) -> None:
     (tmp_path / "a.csv").write_text("x,y,z,radius\n" + "\n".join(",".join(map(str, row[:4])) for row in rows) + "\n")
     with pytest.raises(AnatomyError, match="from point 40 to 41 it is 40, 40 times the median step"):
         read_lines(tmp_path / "a.csv", ".csv")
+
+
+def test_steps_are_uneven_up_to_what_both_radii_reach(tmp_path: Path) -> None:
+    z = np.r_[np.arange(0.0, 10.0, 0.05), np.arange(10.0, 60.0, 2.3)]
+    for gap, is_leap in ((0.0, False), (11.0, True)):
+        rows = [f"0,0,{one + gap * (one > 30.0)},5" for one in z]
+        (tmp_path / "a.csv").write_text("x,y,z,radius\n" + "\n".join(rows) + "\n")
+        if is_leap:
+            with pytest.raises(AnatomyError, match="beyond the radii there"):
+                read_lines(tmp_path / "a.csv", ".csv")
+        else:
+            assert len(read_lines(tmp_path / "a.csv", ".csv").lines[0].points) == len(z)
+
+
+@pytest.mark.parametrize("name, factor", [("Radius", 1.0), ("MaximumInscribedSphereRadius", 1.0), ("Diameter", 2.0)])
+def test_segments_of_a_network_are_lines_from_fork_to_fork(tmp_path: Path, name: str, factor: float) -> None:
+    """A Y of three arms of ten segments, every segment a cell, as a network has them, in XML and in VTK's own form."""
+    from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
+
+    from guidewire.anatomy.reading import read
+    from guidewire.anatomy.vtk_files import read_by_vtk
+    from guidewire.anatomy.vtp import write_vtp
+
+    arms = np.array([[0.0, 0.0, -1.0], [0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]])
+    points = np.concatenate([[[0.0, 0.0, 0.0]], *(np.arange(1, 11)[:, None] * arm for arm in arms)])
+    cells = [np.array([10 * arm + k if k else 0, 10 * arm + k + 1]) for arm in range(3) for k in range(10)]
+    write_vtp(tmp_path / "a.vtp", points, cells, at_points={name: np.full(len(points), factor * 1.5)})
+    data = read_by_vtk(tmp_path / "a.vtp", ".vtp")
+    found = lines_of_poly_data(tmp_path / "a.vtp", data).lines
+    assert sorted(len(line.points) for line in found) == [11, 11, 11]
+    assert all(line.radii == pytest.approx(1.5) for line in found)
+    writer = vtkPolyDataWriter()
+    writer.SetFileName(str(tmp_path / "a.vtk"))
+    writer.SetInputData(data)
+    writer.Write()
+    mesh = read(tmp_path / "a.vtk", "mm").mesh
+    assert np.ptp(mesh.vertices[:, 2]) == pytest.approx(19.0, abs=1.0)
+    write_vtp(tmp_path / "b.vtp", points, cells, at_points={"MISR": np.ones((len(points), 3))})
+    with pytest.raises(AnatomyError, match="MISR has 3 numbers at a point"):
+        lines_of_poly_data(tmp_path / "b.vtp", read_by_vtk(tmp_path / "b.vtp", ".vtp"))
 
 
 def straight(start, end, radius: float = 2.0) -> Line:

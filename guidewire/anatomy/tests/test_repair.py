@@ -10,7 +10,9 @@ pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install 
 
 from guidewire.anatomy.distance_grid import remesh  # noqa: E402
 from guidewire.anatomy.inspection import inspect  # noqa: E402
-from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, find_rims, signed_volume  # noqa: E402
+from guidewire.anatomy.mesh import (  # noqa: E402
+    AnatomyError, Edges, Mesh, find_rims, one_sided_at, signed_volume, turned_alike,
+)
 from guidewire.anatomy.repair import repair, with_rims_apart  # noqa: E402
 from guidewire.anatomy.surfaces import distances  # noqa: E402
 from guidewire.anatomy.tests.solids import SLANT, double_walled, joined, tube  # noqa: E402
@@ -82,6 +84,37 @@ def test_turned_triangles_are_turned_back() -> None:
     found = inspect(Mesh(mesh.vertices, triangles))
     assert len(found.turned) > 0
     check(Mesh(mesh.vertices, triangles), "turned to agree")
+
+
+@pytest.mark.parametrize("turned", [slice(0, 1), slice(None, None, 3)])
+def test_turned_triangles_at_a_rim_cost_nothing(turned: slice) -> None:
+    good = tube()
+    bad = Mesh(good.vertices, good.triangles.copy())
+    bad.triangles[turned] = bad.triangles[turned][:, ::-1]
+    repaired, found = repair(bad), inspect(bad)
+    assert len(repaired.mesh.triangles) == len(good.triangles) and len(repaired.rims) == 2
+    assert abs(found.volume) == pytest.approx(abs(inspect(good).volume)) and len(found.turned)
+
+
+def test_a_band_of_one_side_is_found_and_stays_as_it_is() -> None:
+    turn = np.linspace(0.0, 2.0 * np.pi, 40, endpoint=False)
+    across = np.stack([np.cos(0.5 * turn) * np.cos(turn), np.cos(0.5 * turn) * np.sin(turn), np.sin(0.5 * turn)], 1)
+    middle = 5.0 * np.stack([np.cos(turn), np.sin(turn), 0.0 * turn], 1)
+    k = np.arange(40)
+    after, twist = (k + 1) % 40, k == 39
+    a, b = np.where(twist, after + 40, after), np.where(twist, after, after + 40)
+    band = Mesh(np.concatenate([middle - across, middle + across]),
+                np.concatenate([np.stack([k, a, b], 1), np.stack([k, b, k + 40], 1)]))
+    place = one_sided_at(band)
+    assert place is not None and np.linalg.norm(place) == pytest.approx(5.0, abs=1.1) and turned_alike(band)[1] == 0
+    assert one_sided_at(tube()) is None
+
+
+def test_an_edge_joins_bodies_and_a_vertex_does_not() -> None:
+    wall = tube()
+    flake = np.array([wall.vertices[250], *(1.1 * wall.vertices[250] + [[0.1, 0.0, 0.0], [0.0, 0.1, 0.0]])])
+    check(Mesh(np.concatenate([wall.vertices, flake]), np.concatenate(
+        [wall.triangles, [np.arange(3) + len(wall.vertices)]])), "stray bodies")
 
 
 def test_a_fin_is_cut_off_and_named_with_its_place() -> None:

@@ -105,7 +105,7 @@ def of_lossless_jpeg(folder: Path):
         data.PixelData = encapsulate([b"\xff\xd8\xff\xd9"])
         data["PixelData"].is_undefined_length = True
         dcmwrite(file, data)
-    return "its voxels are compressed by 'JPEG Lossless, .*', which cannot be read here: 3D Slicer opens it"
+    return "its compressed voxels break off"
 
 
 def of_two_series(folder: Path):
@@ -116,8 +116,43 @@ def of_two_series(folder: Path):
 
 def of_two_times(folder: Path):
     scans.write_dicom(folder, SMALL)
-    scans.write_dicom(folder, SMALL, slices=range(7), changed={"AcquisitionNumber": 2}, first=500)
+    scans.write_dicom(folder, replace(SMALL, values=SMALL.values + 1.0), slices=range(7), first=500)
     return "7 slices lie where another one does, such as .*: a series of several times"
+
+
+def with_blank_numbers(folder: Path):
+    scans.write_dicom(folder, SMALL, changed={"SOPInstanceUID": ""})
+    scans.write_dicom(folder / "copy", SMALL, changed={"SOPInstanceUID": ""})
+    return SMALL
+
+
+def with_equal_numbers(folder: Path):
+    scans.write_dicom(folder, SMALL, changed={"SOPInstanceUID": "1.2.3.4"})
+    return SMALL
+
+
+def of_jpeg_2000(folder: Path):
+    return packed(folder, "JPEG2000Lossless")
+
+
+def of_jpeg_ls(folder: Path):
+    return packed(folder, "JPEGLSLossless")
+
+
+def packed(folder: Path, syntax: str):
+    gdcm = pytest.importorskip("gdcm", reason="gdcm is not installed: apt-get install python3-gdcm")
+    for file in scans.write_dicom(folder, SMALL).iterdir():
+        reader, change, writer = gdcm.ImageReader(), gdcm.ImageChangeTransferSyntax(), gdcm.ImageWriter()
+        reader.SetFileName(str(file))
+        assert reader.Read()
+        change.SetTransferSyntax(gdcm.TransferSyntax(getattr(gdcm.TransferSyntax, syntax)))
+        change.SetInput(reader.GetImage())
+        assert change.Change()
+        writer.SetFileName(str(file))
+        writer.SetFile(reader.GetFile())
+        writer.SetImage(change.GetOutput())
+        assert writer.Write()
+    return SMALL
 
 
 def with_copies(folder: Path):
@@ -193,6 +228,7 @@ def with_slopes_of_their_own(folder: Path):
 
 
 FOLDERS = [with_a_missing_slice, with_two_spacings, with_a_localiser, with_a_tilted_gantry, of_lossless_jpeg,
+           with_blank_numbers, with_equal_numbers, of_jpeg_2000, of_jpeg_ls,
            of_two_series, of_two_times, with_copies, without_places, in_colours, of_many_frames, of_a_segmentation,
            of_one_slice, that_breaks_off, with_a_slice_beside, with_other_sizes_of_pixels, of_nothing, without_pixels,
            far_away,

@@ -38,6 +38,20 @@ def test_of_twenty_vessels_no_unit_is_wrong(unit: str) -> None:
     assert asked <= {"mm": 7, "cm": 8, "m": 0}[unit]
 
 
+@pytest.mark.parametrize("radius, sides, edge", [(1.4, 12.0, 0.3), (1.4, 12.0, 0.1), (1.2, 15.0, 0.2)])
+def test_a_stump_of_a_small_artery_is_asked_for(radius: float, sides: float, edge: float) -> None:
+    found = find_unit(vessel(radius, sides * radius, edge))
+    assert not found.is_sure and "--unit mm" in found.reason and "--unit cm" in found.reason
+
+
+def test_no_guess_is_certain() -> None:
+    """However far the sizes of the other units are from those of vessels."""
+    for sizes in VESSELS:
+        for metres in UNITS.values():
+            mesh = vessel(*sizes)
+            assert "100" not in find_unit(Mesh(mesh.vertices * 1e-3 / metres, mesh.triangles)).reason.split("%")[0]
+
+
 def test_a_unit_that_is_known_is_not_doubted() -> None:
     mesh = vessel(12.0, 300.0, 1.0)
     found = find_unit(Mesh(0.1 * mesh.vertices, mesh.triangles), "mm", "as the file says")
