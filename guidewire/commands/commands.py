@@ -362,7 +362,7 @@ _ACTIONS = {
 # Commands of the repository alone: the module that executes each, and its function.
 _ELSEWHERE = {
     "demo": ("analysis.command", "demo"), "figures": ("analysis.command", "figures"), "test": ("tools.testing", "test"),
-    "package": ("tools.package", "package"), "bench": ("experiments.overhead", "bench"),
+    "lint": ("tools.lint", "lint"), "package": ("tools.package", "package"), "bench": ("experiments.overhead", "bench"),
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),
