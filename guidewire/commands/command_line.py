@@ -202,8 +202,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains, for stress.png too")
     stress.set_defaults(packages=DRAWING)
 
-    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub over time (logHub)")
-    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub, for hub.png too")
+    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub (logHub), or those of several runs in one picture")
+    hub.add_argument("folders", type=Path, metavar="DIR", nargs="+",
+                     help="folder of a run with logHub, for hub.png too; several, or a study's: one picture, with a "
+                          "band where a run has a check, or a study several runs")
+    hub.add_argument("--over", choices=("time", "insertion", "turn"), help="what the forces are drawn over (time)")
     hub.set_defaults(packages=DRAWING)
 
     compare = commands.add_parser("compare", help="draw a run beside a measured force of the hub or shape of the wire")
