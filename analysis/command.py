@@ -23,6 +23,10 @@ from guidewire.sweeps.sweep import Means
 # Of the arch with its branch, as a C-arm sees them.
 _FILM = ["--fluoroscopy", "--frames", "24", "--pixels", "288", "--noise", "0", "--target", "0", "55", "180", "--field",
          "150"]
+_NEXT = """what to try next:
+  python3 guidewire.py view {run}                   this run in the browser (view params/branch.json: steer it)
+  python3 guidewire.py run params/sheath.json       a wire pushed out of a sheath, with forces in summary.json
+  python3 guidewire.py sweep drives                 a study of four drives; --help lists all commands"""
 BEYOND_A_GATE = 1  # all that was asked for is there, and a check is not passed
 
 
@@ -42,7 +46,10 @@ def demo(arguments: argparse.Namespace) -> int:
     code = commands.run(commands.parse(["run", str(ROOT / "params" / "branch.json"), "--out", str(run)]))
     if code == 0 and not (film.exists() and film.stat().st_mtime > (run / "summary.json").stat().st_mtime):
         code = commands.run(commands.parse(["render", str(run), "--out", str(film), *_FILM]))
-    return code or _tell(drawn)
+    code = code or _tell(drawn)
+    if code == 0:
+        print(_NEXT.format(run=os.path.relpath(run)))
+    return code
 
 
 def figures(arguments: argparse.Namespace) -> int:

@@ -37,6 +37,7 @@ PYTHON = ("guidewire/anatomy", "guidewire/figures", "guidewire/logs", "tools/uni
 _QUICK = "TestCategory!=Long"
 _SECONDS = {False: 1800, True: 2 * 3600}  # for each runner
 _LAST_LINES = 60
+_TESTED = ("Assets/Guidewire/Tests/Core", "headless/Guidewire.Unity.Tests")    # sources of building.DOTNET_TESTS
 PYTEST = (sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", "-o", "faulthandler_timeout=300")
 
 
@@ -66,6 +67,8 @@ def test(arguments: argparse.Namespace) -> int:
         os.environ[FULL_CAMPAIGNS] = "1"
         os.environ.setdefault(DAY, str(date.today().toordinal()))    # one day for all workers, also at midnight
         _say(f"random tests with {DAY}={os.environ[DAY]}")
+    if arguments.what:
+        return _part(arguments.what, arguments.all)
     seconds = _SECONDS[arguments.all]
     workers = (os.cpu_count() or 1) + 1    # one more than processors: a part of their time tests wait
     not_built = threading.Event()
@@ -74,6 +77,40 @@ def test(arguments: argparse.Namespace) -> int:
         total = _dotnet(arguments.all, seconds, not_built) + python.result()
     print(total, flush=True)
     return 0 if total.failed == 0 and total.passed > 0 else 1
+
+
+def _part(words: Sequence[str], full: bool) -> int:
+    """Run the tests of some files of Python, and of some classes of C#. Returns the exit code.
+
+    Raises PreparationError for a word that is neither.
+    """
+    paths = [word for word in words if (ROOT / word.split("::")[0]).exists() and not word.endswith(".cs")]
+    classes = [Path(word).stem for word in words if word not in paths]
+    sources = {project: folder for project, folder in zip(building.DOTNET_TESTS, _TESTED)}
+    found = {project: [name for name in classes if any((ROOT / folder).rglob(f"*{name}*.cs"))]
+             for project, folder in sources.items()}
+    for name in classes:
+        if not any(name in names for names in found.values()):
+            raise PreparationError(f"{name}: no file or folder, and no class of tests in {' or '.join(_TESTED)}")
+    total = Count()
+    if classes:
+        try:
+            building.build_tested(_say)
+        finally:
+            building.end_compiler()
+    for project, names in found.items():
+        if names:
+            chosen = "|".join(f"FullyQualifiedName~{name}" for name in names)
+            total += run(project, [building.dotnet()[0], "test", str(_library(project)), "--nologo", "--filter",
+                                   chosen if full else f"({chosen})&{_QUICK}"], _SECONDS[full])
+    if paths:
+        total += run("pytest", [*PYTEST, *paths], _SECONDS[full])
+    print(total, flush=True)
+    return 0 if total.failed == 0 and total.passed > 0 else 1
+
+
+def _library(project: str, target: str = "net10.0") -> Path:
+    return building.HEADLESS / project / "bin" / "Release" / target / f"{project}.dll"
 
 
 def _python(workers: int, seconds: float, not_built: threading.Event) -> Count:
@@ -104,11 +141,10 @@ def _dotnet(full: bool, seconds: float, not_built: threading.Event) -> Count:
     total = Count()
     tests = [(name, "net10.0", _QUICK) for name in building.DOTNET_TESTS]
     for name, target, chosen in [*tests, (building.DOTNET_TESTS[0], "netstandard2.1", f"TestCategory=Target&{_QUICK}")]:
-        library = building.HEADLESS / name / "bin" / "Release" / target / f"{name}.dll"
         words = [] if full else ["--filter", chosen]
         if target != "net10.0":
             os.environ.pop(FULL_CAMPAIGNS, None)    # once is enough
-        total += run(f"{name}-{target}", [building.dotnet()[0], "test", str(library), "--nologo", *words], seconds)
+        total += run(f"{name}-{target}", [building.dotnet()[0], "test", str(_library(name, target)), "--nologo", *words], seconds)
     native.join()
     return total
 

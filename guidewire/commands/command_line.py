@@ -22,10 +22,10 @@ GROUPS = {
     "vessel": ("anatomy", "steer"),
     "instruments": ("instrument",),
     "train": ("tasks",),
-    "develop": ("python", "test", "bench", "native", "package", "unity-check"),
+    "develop": ("python", "test", "lint", "bench", "native", "package", "unity-check"),
 }
 # refused in the package
-OF_THE_REPOSITORY = ("demo", "figures", "test", "bench", "native", "package", "site", "unity-check")
+OF_THE_REPOSITORY = ("demo", "figures", "test", "lint", "bench", "native", "package", "site", "unity-check")
 
 
 def parse(argv: list[str]) -> argparse.Namespace:
@@ -41,9 +41,14 @@ def parse(argv: list[str]) -> argparse.Namespace:
     demo.add_argument("--out", type=path, default=Path("results/demo"), help="folder for the run and the pictures")
     demo.set_defaults(packages=DRAWING + SWEEPING)
 
-    test = commands.add_parser("test", help="all tests; the last line says 'N passed, N failed'")
+    test = commands.add_parser("test", help="all tests, or those named; the last line says 'N passed, N failed'")
+    test.add_argument("what", metavar="PATH", nargs="*", help="file or folder of tests in Python, or a class or file of "
+                                                              "tests in C#, such as guidewire/logs SheathTests")
     test.add_argument("--all", action="store_true", help="random campaigns in full instead of a seeded fraction")
     test.set_defaults(packages=TESTING)
+
+    lint = commands.add_parser("lint", help="what ruff, the C# compiler and eslint find in the code")
+    lint.set_defaults(packages=())
 
     run = commands.add_parser("run", help="one run of one parameter file")
     run.add_argument("file", metavar="FILE", type=Path, help="parameter file, such as params/default.json")
@@ -197,8 +202,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains, for stress.png too")
     stress.set_defaults(packages=DRAWING)
 
-    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub over time (logHub)")
-    hub.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logHub, for hub.png too")
+    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub (logHub), or those of several runs in one picture")
+    hub.add_argument("folders", type=Path, metavar="DIR", nargs="+",
+                     help="folder of a run with logHub, for hub.png too; several, or a study's: one picture, with a "
+                          "band where a run has a check, or a study several runs")
+    hub.add_argument("--over", choices=("time", "insertion", "turn"), help="what the forces are drawn over (time)")
     hub.set_defaults(packages=DRAWING)
 
     compare = commands.add_parser("compare", help="draw a run beside a measured force of the hub or shape of the wire")

@@ -244,10 +244,15 @@ def _stress(arguments: argparse.Namespace) -> int:
 
 
 def _hub(arguments: argparse.Namespace) -> int:
-    from guidewire.figures.hub import draw_hub
-    from guidewire.logs.hub import read_hub
+    from guidewire.figures.hub import draw_hub, draw_hubs
+    from guidewire.logs.hub import read_hub, read_hub_curve
 
-    return _draw_log(arguments.folder, lambda folder: draw_hub(read_hub(folder)), "hub.png")
+    first, *others = arguments.folders
+    if arguments.over is None and not others:
+        return _draw_log(first, lambda folder: draw_hub(read_hub(folder)), "hub.png")
+    over = arguments.over or "time"
+    return _draw_log(first, lambda _: draw_hubs([read_hub_curve(one) for one in arguments.folders], over),
+                     f"hub-over-{over}.png")
 
 
 def _compare(arguments: argparse.Namespace) -> int:
@@ -362,7 +367,7 @@ _ACTIONS = {
 # Commands of the repository alone: the module that executes each, and its function.
 _ELSEWHERE = {
     "demo": ("analysis.command", "demo"), "figures": ("analysis.command", "figures"), "test": ("tools.testing", "test"),
-    "package": ("tools.package", "package"), "bench": ("experiments.overhead", "bench"),
+    "lint": ("tools.lint", "lint"), "package": ("tools.package", "package"), "bench": ("experiments.overhead", "bench"),
 }
 _LEFT = {  # of a command that was interrupted
     **dict.fromkeys(("demo", "run", "sweep", "figures", "advise"),

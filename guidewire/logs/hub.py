@@ -8,7 +8,7 @@ from pathlib import Path
 
 import numpy as np
 
-from guidewire.logs.logs import LogError, find_log, read_columns
+from guidewire.logs.logs import LOG_NAMES, LogError, find_log, read_columns
 
 
 _NAMES = {"insertion": "hubInsertion", "turn": "hubTurn", "force": "hubForce", "torque": "hubTorque", "twist": "twist",
@@ -52,6 +52,48 @@ def read_hub(path: Path) -> HubLog:
         raise LogError(f"{find_log(path)}: has no data of the hub: needs a run of solver direct with logHub")
     return HubLog(columns["totalTime"], tip=np.asarray(columns["positions"][:, -1], dtype=float),
                   **{field: np.asarray(columns[name], dtype=float) for field, name in _NAMES.items()})
+
+
+@dataclass(frozen=True)
+class HubCurve:
+    """A run, and those that tell how sure it is.
+
+    Attributes
+    ----------
+    name : of its folder.
+    log : the run; of a study its first one.
+    others : finer runs that ``run --check`` left in its folder, or the other runs of a study.
+    """
+
+    name: str
+    log: HubLog
+    others: tuple[HubLog, ...]
+
+    def band(self, quantity: str) -> np.ndarray:
+        """Lowest and highest value of all runs at the times of `log`, (2, k), by linear interpolation in time. A run
+        that ended early has no value beyond."""
+        values = [getattr(self.log, quantity)]
+        values += [np.interp(self.log.time, other.time, getattr(other, quantity), right=np.nan)
+                   for other in self.others]
+        return np.array([np.nanmin(values, axis=0), np.nanmax(values, axis=0)])
+
+
+def read_hub_curve(folder: Path) -> HubCurve:
+    """Read a run with those of its ``check``, or all runs of a study that left logs.
+
+    Raises
+    ------
+    LogError : a log cannot be read, or says nothing of the hub; a study's folder has no log.
+    """
+    if not (folder / "runs.csv").is_file():
+        finer = sorted(path.parent for path in (folder / "check").glob("*/summary.json"))
+        return HubCurve(folder.name, read_hub(folder), tuple(read_hub(one) for one in finer))
+    runs = [path.parent for path in sorted(folder.glob("*/summary.json"))
+            if any((path.parent / name).is_file() for name in LOG_NAMES)]
+    if not runs:
+        raise LogError(f"{folder}: no run of this study has a log: make them with --logs")
+    first, *others = (read_hub(run) for run in runs)
+    return HubCurve(folder.name, first, tuple(others))
 
 
 _SUDDEN = math.radians(1.0)  # of turning, within which a snap takes place

@@ -17,10 +17,10 @@ def test_the_readme_has_at_most_900_words_and_its_first_screen_150():
     assert len(TEXT.split()) <= 900 and len(OPENING.split()) <= 150
 
 
-def test_the_first_screen_has_a_picture_two_commands_and_an_example():
-    assert OPENING.count("![") == 1
-    assert "python3 guidewire.py demo" in OPENING and "python3 guidewire.py test" in OPENING
-    assert f"python3 guidewire.py run params/{SHOWN_FILE.name}" in OPENING
+def test_the_first_screen_has_the_film_and_two_commands_and_no_placeholder():
+    assert OPENING.count("![") == 1 and ".gif" in OPENING
+    assert "python3 guidewire.py demo" in OPENING and f"python3 guidewire.py view params/{SHOWN_FILE.name}" in OPENING
+    assert "OWNER" not in TEXT
 
 
 def test_the_readme_names_every_command_by_its_task():

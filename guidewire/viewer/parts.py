@@ -39,8 +39,8 @@ def three(tell: Callable[[str], None]) -> dict[str, Path]:
 
 
 def require(kind: str, tell: Callable[[str], None]) -> Path:
-    """Return the folder node_modules with all packages of one kind, "dependencies" or "devDependencies" of
-    package.json.
+    """Return the folder node_modules with all packages of one kind, "dependencies", "devDependencies" or
+    "lintDependencies" of package.json.
 
     Parameters
     ----------
@@ -101,7 +101,7 @@ def _install(modules: Path, wanted: dict[str, str], tell: Callable[[str], None])
 def _all(modules: Path, wanted: dict[str, str]) -> dict[str, str]:
     """Return what is wanted and what is there already: npm takes away what it is not asked for."""
     pinned = json.loads((PAGE / "package.json").read_text(encoding="utf-8"))
-    known = {**pinned["dependencies"], **pinned["devDependencies"]}
+    known = {name: version for kind, own in pinned.items() if kind.endswith("ependencies") for name, version in own.items()}
     there = {name: version for name, version in known.items() if _version(modules / name) == version}
     return {**there, **wanted}
 
