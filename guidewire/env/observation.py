@@ -11,7 +11,7 @@ from typing import Any
 import numpy as np
 
 from guidewire.env.instruments import Instrument
-from guidewire.env.options import need_count, need_number
+from guidewire.env.options import made_of, need_count, need_number
 from guidewire.env.picture import Picture, PictureState
 from guidewire.env.route import Route
 from guidewire.env.spaces import Box, Dict, Error, Space
@@ -74,6 +74,8 @@ class Observation:
     ranges: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if isinstance(self.image, Mapping):
+            object.__setattr__(self, "image", made_of(Picture, "image", self.image))
         if isinstance(self.image, Picture):
             if self.image_space is not None:
                 raise Error("image_space is not allowed with a Picture, which has its own")
@@ -145,17 +147,58 @@ class Observer:
         self._ranges = {part: np.asarray(observation.ranges.get(part, value), dtype=float)
                         for part, value in RANGES.items()}
         self.action = np.zeros(2 * hubs)
-        self._pictures = (PictureState(observation.image, seed).of if isinstance(observation.image, Picture)
+        self._pictures = (PictureState(observation.image, seed) if isinstance(observation.image, Picture)
                           else observation.image)
+        own = {name: value for name, value in vars(observation).items() if not name.startswith("image")}
+        self._options = repr((own, observation.image if isinstance(observation.image, Picture) else None))
 
-    def of(self, state: State, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> Any:
+    def save(self) -> tuple[dict[str, Any], list[np.ndarray]]:
+        """What the next observations depend on: what JSON can hold, and arrays."""
+        pictures = self._pictures if isinstance(self._pictures, PictureState) else None
+        arrays = [one for then in self._past for one in then.values()]
+        frames = [] if pictures is None else pictures.frames
+        head = {"of": self._options, "action": self.action.tolist(), "past": len(self._past),
+                "taken": None if pictures is None else pictures.taken}
+        return head, [*arrays, *frames]
+
+    def restore(self, head: Mapping[str, Any], arrays: list[np.ndarray]) -> bool:
+        """Go on from what was saved; of other options only the last action is, and False is returned."""
+        self.action[:] = head["action"]
+        if head["of"] != self._options:
+            return False
+        parts = [part for part in self._observation.parts if part != "image"]
+        for k in range(head["past"]):
+            self._past.append(dict(zip(parts, arrays[k * len(parts):])))
+        if isinstance(self._pictures, PictureState):
+            self._pictures.restore(head["taken"], arrays[head["past"] * len(parts):])
+        return True
+
+    def of(self, state: State, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]],
+           is_known: bool = False) -> Any:
         """The observation of a state.
 
         Parameters
         ----------
         instruments : of this state.
         places : of the tips, as Route.place gives them.
+        is_known : whether it was asked for before, and saved.
         """
+        if not is_known:
+            self._take(instruments, places)
+        if self._observation.flat:
+            return np.concatenate([np.ravel(one) for then in self._past for one in then.values()]).astype(np.float32)
+        seen = self._past[-1]
+        if self._observation.history > 1:
+            seen = {part: np.stack([then[part] for then in self._past]) for part in seen}
+        return {part: self._picture(state, is_known) if part == "image" else seen[part].astype(np.float32)
+                for part in self._observation.parts}
+
+    def _picture(self, state: State, is_known: bool) -> np.ndarray:
+        if isinstance(self._pictures, PictureState):
+            return self._pictures.last() if is_known else self._pictures.of(state)
+        return self._pictures(state)
+
+    def _take(self, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> None:
         seen = {}
         for part in self._observation.parts:
             if part == "image":
@@ -163,12 +206,6 @@ class Observer:
             value = np.asarray(self._part(part, instruments, places), dtype=float)
             seen[part] = self._normalised(part, value) if self._observation.normalised else value
         self._past.extend([seen] * (1 if self._past else self._observation.history))
-        if self._observation.flat:
-            return np.concatenate([np.ravel(one) for then in self._past for one in then.values()]).astype(np.float32)
-        if self._observation.history > 1:
-            seen = {part: np.stack([then[part] for then in self._past]) for part in seen}
-        return {part: self._pictures(state) if part == "image" else seen[part].astype(np.float32)
-                for part in self._observation.parts}
 
     def _normalised(self, part: str, value: np.ndarray) -> np.ndarray:
         if part in _UNIT:

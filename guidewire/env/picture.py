@@ -98,4 +98,24 @@ class PictureState:
                 self._seed = (self._seed + 1) % 2**32
             self._frames.extend([planes] * (1 if self._frames else picture.frames))
         self._step += 1
+        return self.last()
+
+    def last(self) -> np.ndarray:
+        """Return the pictures as they were given last."""
         return np.stack([plane for planes in self._frames for plane in planes])
+
+    @property
+    def taken(self) -> tuple[int, int]:
+        """Return how often `of` was called so far, and the seed of the next frame's noise."""
+        return self._step, self._seed
+
+    @property
+    def frames(self) -> list[np.ndarray]:
+        """Those of the last moments, plane by plane."""
+        return [plane for planes in self._frames for plane in planes]
+
+    def restore(self, taken: Sequence[int], frames: list[np.ndarray]) -> None:
+        """Go on from what `taken` and `frames` said."""
+        self._step, self._seed = taken
+        planes = len(self._picture.views)
+        self._frames.extend(frames[k:k + planes] for k in range(0, len(frames), planes))

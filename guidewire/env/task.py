@@ -7,7 +7,7 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -26,7 +26,7 @@ TASKS_FILE = FOLDER / "tasks.json"
 _WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
 _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
-         "insertion", "time", "tolerance", "speed", "rotation", "follow", "random", "baseline"}
+         "insertion", "time", "tolerance", "hold", "speed", "rotation", "follow", "random", "baseline"}
 # Of what `random` draws, what is no parameter of the scene by itself.
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
 # What a task, its `random` or an option may say.
@@ -58,6 +58,7 @@ class Task:
     insertion : of each hub, or of all, at the start of an episode, m.
     time : simulated time after which an episode is truncated, s.
     tolerance : distance along the centreline at which the target is reached, units.
+    hold : for how long the tip is to stay there, s; 0: it may pass.
     speed, rotation : fastest of each hub, or of all, m/s and rad/s.
     follow : within what distance before the target along the centreline the tip of each catheter is to come, or of all,
         units; None: it need not.
@@ -80,6 +81,7 @@ class Task:
     insertion: float | Sequence[float] = 0.0
     time: float = 20.0
     tolerance: float = 3.0
+    hold: float = 0.0
     speed: float | Sequence[float] = 0.02
     rotation: float | Sequence[float] = 3.141592653589793
     follow: float | Sequence[float | None] | None = None
@@ -217,7 +219,7 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     for key in ("anatomies", "targets", "instruments", "frictions"):
         if not isinstance(entry.get(key, []), list):
             raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
-    for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("speed", 1e-9, 1e9),
+    for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("hold", 0.0, 1e9), ("speed", 1e-9, 1e9),
                              ("rotation", 1e-9, 1e9), ("insertion", *LIMITS["insertion"])):
         given = [entry[key]] if key in entry else []
         for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
@@ -303,6 +305,16 @@ def _scene(file: Path) -> dict[str, Any]:
 
 
 def _read(file: Path) -> Any:
+    """What stands in a file, which nobody changes: an episode's reset asks again for the last ones."""
+    try:
+        status = file.stat()
+    except OSError as error:
+        raise Error(f"{file}: {error.strerror}") from error
+    return _parsed(file, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=16)
+def _parsed(file: Path, _time: int, _size: int) -> Any:
     try:
         text = file.read_text(encoding="utf-8-sig")
         return without_notes(json.loads(text))

@@ -247,12 +247,18 @@ def lanes(path: Path) -> int:
     return _load(str(path)).guidewire_lanes()
 
 
+@cache
+def _built_library() -> Path | None:
+    """Return the native library; its sources, 700 files, are compared once in a process."""
+    return building.native_library()
+
+
 def host_of(native: bool | None) -> Library | Process:
     """Return what simulates: the native library where it has been built and is not refused, else a process."""
     reason = "" if native is False else obstacle()
     if native and reason:
         raise SessionError(reason)
-    library = None if native is False or reason else building.native_library()
+    library = None if native is False or reason else _built_library()
     if library is None and native:
         raise SessionError(f"the native library is not built from these sources: '{DOOR} native' builds it")
     if library is not None:
