@@ -287,6 +287,7 @@ class Environment(Env):
             raise Error(f"the episode of this snapshot has ended ({self._report.end})")
         self._first, self._held, self._origin = head["first"], head["held"], head["origin"]
         self._calls = [tuple(call) for call in head["calls"]]
+        self._drive.waiting.clear()
         self._drive.waiting.extend([tuple(pair) for pair in command] for command in head["waiting"])
         self._random.bit_generator.state = head["random"]
         return self._observer.restore(head["seen"], arrays)

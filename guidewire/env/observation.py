@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
@@ -49,7 +50,8 @@ class Observation:
     spacing : elements between two of them.
     screen : (2, 3), directions of the picture's axes to the right and upwards; the projection is parallel.
     lookahead : units.
-    image, image_space : a Picture, which needs no space; or from the state of the session to an array of this space.
+    image, image_space : a Picture, which needs no space; or from the state of the session, and where two things are
+        taken the target (3,), units, to an array of this space.
     flat : all parts as one array of float32 instead of a dict; not with an image.
     history : observations, the newest last: a first axis of each part, or one behind the other where flat; a Picture
         has frames of its own.
@@ -147,8 +149,10 @@ class Observer:
         self._ranges = {part: np.asarray(observation.ranges.get(part, value), dtype=float)
                         for part, value in RANGES.items()}
         self.action = np.zeros(2 * hubs)
-        self._pictures = (PictureState(observation.image, seed) if isinstance(observation.image, Picture)
+        self._target = route.points[route.target]
+        self._pictures = (PictureState(observation.image, seed, self._target) if isinstance(observation.image, Picture)
                           else observation.image)
+        self._takes_target = callable(observation.image) and _count_of_arguments(observation.image) > 1
         own = {name: value for name, value in vars(observation).items() if not name.startswith("image")}
         self._options = repr((own, observation.image if isinstance(observation.image, Picture) else None))
 
@@ -196,7 +200,7 @@ class Observer:
     def _picture(self, state: State, is_known: bool) -> np.ndarray:
         if isinstance(self._pictures, PictureState):
             return self._pictures.last() if is_known else self._pictures.of(state)
-        return self._pictures(state)
+        return self._pictures(state, self._target) if self._takes_target else self._pictures(state)
 
     def _take(self, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> None:
         seen = {}
@@ -249,6 +253,15 @@ class Observer:
             return (one.hub.force, 1e3 * one.hub.torque)
         forces = np.sqrt(np.einsum("ij,ij->i", one.contact_forces, one.contact_forces))
         return (forces.max(), forces.sum())
+
+
+def _count_of_arguments(function: Callable[..., Any]) -> int:
+    try:
+        taken = inspect.signature(function).parameters.values()
+    except ValueError:    # of a function that says nothing of itself
+        return 1
+    return sum(one.default is one.empty and one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)
+               for one in taken)
 
 
 def _in_frame(q: np.ndarray, vector: np.ndarray) -> np.ndarray:
