@@ -14,6 +14,7 @@ namespace Guidewire.Io
     {
         private readonly KeptMeshes _kept;
         private Placement _placement;
+        private SmoothWarp? _warp;
         private KeptMeshes.Entry? _entry;
         private MeshShape? _wall;
 
@@ -32,17 +33,18 @@ namespace Guidewire.Io
         /// <param name="rims">A point near the middle of each rim that may be open, in the file's own units.</param>
         /// <param name="placement">In the scene.</param>
         /// <param name="content">What stands in the file; null: it is read.</param>
+        /// <param name="warp">What moves the vertices before they are placed; null: nothing.</param>
         /// <exception cref="ParameterException">The file cannot be read or holds no such wall.</exception>
         internal MeshShape Read(string file, double scale, Vector3d[] rims, in Placement placement,
-            byte[]? content = null)
+            byte[]? content = null, SmoothWarp? warp = null)
         {
             KeptMeshes.Entry entry = _kept.Find(file, content ?? MeshFile.ReadBytes(file), scale, rims);
-            if (_wall != null && entry == _entry && placement.Equals(_placement))
+            if (_wall != null && entry == _entry && placement.Equals(_placement) && Equals(warp, _warp))
             {
                 return _wall.ForNextRun();
             }
-            (_wall, _entry, _placement) = (null, entry, placement);
-            return _wall = entry.Wall.At(placement);
+            (_wall, _entry, _placement, _warp) = (null, entry, placement, warp);
+            return _wall = entry.Wall.At(placement, warp);
         }
     }
 

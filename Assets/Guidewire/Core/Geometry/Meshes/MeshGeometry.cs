@@ -54,9 +54,10 @@ namespace Guidewire.Core
             Update(placement);
         }
 
-        private MeshGeometry(MeshGeometry other, in Placement placement)
+        private MeshGeometry(MeshGeometry other, in Placement placement, SmoothWarp? warp)
         {
-            (_rest, _triangles, _twin) = (other._rest, other._triangles, other._twin);
+            _rest = warp?.Apply(other._rest) ?? other._rest;
+            (_triangles, _twin) = (other._triangles, other._twin);
             (_halfEdgeOfVertex, _isRimVertex) = (other._halfEdgeOfVertex, other._isRimVertex);
             (_firstAround, _around, _other) = (other._firstAround, other._around, other);
             _corners = new Vector3d[_triangles.Length];
@@ -67,7 +68,10 @@ namespace Guidewire.Core
 
         /// <summary>The same mesh elsewhere, for another run: what does not depend on the placement is shared, and both
         /// may be queried at once.</summary>
-        public MeshGeometry At(in Placement placement) => new MeshGeometry(this, placement);
+        /// <param name="placement">Where.</param>
+        /// <param name="warp">What moves its vertices before that; null: nothing.</param>
+        public MeshGeometry At(in Placement placement, SmoothWarp? warp = null) =>
+            new MeshGeometry(this, placement, warp);
 
         /// <summary>The hierarchy over the placed triangles.</summary>
         public Bvh Tree => _tree ??= _other?.Tree.Over(_corners) ?? new Bvh(_corners);

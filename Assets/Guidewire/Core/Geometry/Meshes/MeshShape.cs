@@ -36,11 +36,11 @@ namespace Guidewire.Core
             _derived = new Derived();
         }
 
-        private MeshShape(MeshShape other, in Placement placement)
+        private MeshShape(MeshShape other, in Placement placement, SmoothWarp? warp)
         {
             _mesh = other._mesh;
-            _wall = other._wall.At(placement);
-            _closed = other._closed == other._wall ? _wall : other._closed.At(placement);
+            _wall = other._wall.At(placement, warp);
+            _closed = other._closed == other._wall ? _wall : other._closed.At(placement, warp);
             _fans = other._fans?.Over(CornersOfFans());
             _derived = new Derived();
             (_unplaced, _placement) = (other, placement);
@@ -73,7 +73,7 @@ namespace Guidewire.Core
             {
                 lock (_unplaced._derived) // runs at once may ask for it
                 {
-                    // No placement makes one or takes one away.
+                    // No placement makes one or takes one away, nor does a map that is one to one.
                     int count = _unplaced.CountSelfIntersections(out Vector3d before);
                     _derived.SelfIntersections = (count, count == 0 ? before : _placement.Apply(before));
                 }
@@ -94,7 +94,8 @@ namespace Guidewire.Core
         /// <summary>The same wall elsewhere, for a run beside others: no hierarchy is built again, and both may be
         /// queried at once.</summary>
         /// <param name="placement">Of the wall as it was made, which no placement may have moved.</param>
-        public MeshShape At(in Placement placement) => new MeshShape(this, placement);
+        /// <param name="warp">What moves its vertices before that; null: nothing.</param>
+        public MeshShape At(in Placement placement, SmoothWarp? warp = null) => new MeshShape(this, placement, warp);
 
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
