@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import asdict, dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -82,6 +82,17 @@ class Reward:
         force = (sum(weight * one for weight, one in zip(self.force, forces)) if isinstance(self.force, (list, tuple))
                  else self.force * max(forces))
         return progress + duration * (self.time + force) + self.target * (end == "target") + self.left * (end == LEFT)
+
+
+class Replayed(NamedTuple):
+    """A step of a replayed drive; of the beginning there is no action."""
+
+    action: np.ndarray | None
+    observation: Any
+    reward: float
+    terminated: bool
+    truncated: bool
+    info: dict[str, Any]
 
 
 class Environment(Env):
@@ -305,20 +316,31 @@ class Environment(Env):
         ------
         Error : it is of another task, or the instruments at the end have other bits.
         """
+        for _ in self.replayed(drive):
+            pass
+        return self._report
+
+    def replayed(self, drive: RecordedDrive) -> Iterator[Replayed]:
+        """Do again what was recorded, as `replay`, and give the beginning and then each step."""
         if drive.task != self.task.name:
             raise Error(f"this drive is of task '{drive.task}', not of '{self.task.name}'")
-        self.reset(options=drive.options)
+        observation, info = self.reset(options=drive.options)
+        yield Replayed(None, observation, 0.0, False, False, info)
+        speeds, rotations = self.drive.limits(self.task)
         for push, turn, steps in drive.calls:
             if self._report.end:    # what came after it only decides the bits
                 self.session.step(push, turn, steps)
-            else:
-                pushes, turns = of_each(push, 1), of_each(turn, 1)
-                if len(pushes) != self.hubs or len(turns) != self.hubs:
-                    raise Error(f"this drive is of {len(pushes)} hubs, not of {self.hubs}")
-                self._move(pushes, turns, steps)
+                continue
+            pushes, turns = of_each(push, 1), of_each(turn, 1)
+            if len(pushes) != self.hubs or len(turns) != self.hubs:
+                raise Error(f"this drive is of {len(pushes)} hubs, not of {self.hubs}")
+            duration = steps * self._scene.time_step
+            action = [part for one, other, speed, rotation in zip(pushes, turns, speeds, rotations)
+                      for part in (one * self._scene.unit / (speed * duration), other / (rotation * duration))]
+            self._observer.action[:] = action = np.clip(action, -1.0, 1.0)
+            yield Replayed(action, *self._move(list(pushes), list(turns), steps))
         if digest_of(self.session_state) != drive.digest:
             raise Error("the wire at the end is not bit for bit the recorded one")
-        return self._report
 
     def render(self) -> np.ndarray | None:
         """What `render_mode` says; None for a window, or without one.
@@ -383,6 +405,7 @@ class Environment(Env):
                                    zip(names_of(self.hubs), forces, report.parts)}
         if end:
             report.end, report.success = end, end == "target"
+            report.exposures, report.contrast = self._observer.exposures, self._injected()
             info["report"], info["is_success"] = report.as_info(), report.success
             self._is_running = False
         if self.render_mode == "human":
@@ -460,6 +483,13 @@ class Environment(Env):
         if is_there and self._held > self.task.hold - 1e-9:
             return "target"
         return "time" if self._report.time + self._scene.time_step > self.task.time + 1e-9 else ""
+
+    def _injected(self) -> float:
+        """Return how much contrast agent was injected in this episode, ml; 0 where the vessel takes none."""
+        try:
+            return self.session.agent().injected
+        except SessionError:
+            return 0.0
 
     def _found(self) -> list[tuple[int, float]]:
         """Find of each instrument the centreline's point that it has come to within the vessel, and the distance

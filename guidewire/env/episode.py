@@ -54,6 +54,8 @@ class Report:
     impulse : of all walls, the sum over spheres and time steps of |F| dt, N s.
     forces : largest force of a wall on one sphere after each time step, N.
     parts : of each instrument, the wire first.
+    contrast : agent that was injected, ml.
+    exposures : X-ray pictures that observations had, each plane for itself.
     way : of the wire's tip to the target along the centreline where the episode began, units.
     left, path : of the wire: distance to the target along the centreline, and way of the tip, units.
     inserted, retracted, turned : of the wire: distances of the hub forwards and backwards, m, and its rotation in both
@@ -65,6 +67,8 @@ class Report:
     end: str = ""
     reason: str = ""
     time: float = 0.0
+    contrast: float = 0.0
+    exposures: int = 0
     way: float = 0.0
     forces: list[float] = field(default_factory=list)
     parts: list[Part] = field(default_factory=lambda: [Part()])

@@ -69,7 +69,7 @@ class LoadedScene:
         if self._is_there and key == self._key and self.session.is_open:
             return True
         scene, anatomy = self._task.scene_of(draw)
-        shape = {name: draw.random[name] for name in ("warp", "entry") if name in draw.random}
+        shape = self._task.shape_of(draw)
         folder = None
         self._key, self._routes = "", {}
         try:

@@ -156,6 +156,11 @@ class Observer:
         own = {name: value for name, value in vars(observation).items() if not name.startswith("image")}
         self._options = repr((own, observation.image if isinstance(observation.image, Picture) else None))
 
+    @property
+    def exposures(self) -> int:
+        """X-ray pictures so far."""
+        return self._pictures.exposures if isinstance(self._pictures, PictureState) else 0
+
     def save(self) -> tuple[dict[str, Any], list[np.ndarray]]:
         """What the next observations depend on: what JSON can hold, and arrays."""
         pictures = self._pictures if isinstance(self._pictures, PictureState) else None
@@ -232,7 +237,7 @@ class Observer:
         if part == "overlap":
             return [(one.hub.extension / self._unit, one.hub.overlap / self._unit) for one in catheters]
         if part == "action":
-            return self.action
+            return self.action.copy()    # what is past keeps its own
         if part == "distance":
             return [left for _, left in places]
         each = [self._of_one(part, one) for one in instruments]

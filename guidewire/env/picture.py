@@ -111,7 +111,8 @@ class PictureState:
             planes, labels = [], []
             if (picture.target or picture.labels) and not self._arms:
                 self._look(state, shared)
-            for lao, cranial in picture.views:
+            for k, (lao, cranial) in enumerate(picture.views):
+                shared |= self._arms[k].place if self._arms else {}
                 planes.append(state.picture(lao=lao, cranial=cranial, seed=self._seed, **shared))
                 self._seed = (self._seed + 1) % 2**32
             for arm, plane in zip(self._arms, planes):
@@ -135,9 +136,9 @@ class PictureState:
         self._arms = [CArm(picture, lao, cranial, axes, box, unit) for lao, cranial in picture.views]
         if picture.labels:
             shown = {**shared, "noise": 0.0, "blur": 0.0}
-            for lao, cranial in picture.views:
-                filled, empty = (state.picture(lao=lao, cranial=cranial, **{**shown, "vessel": vessel}, contrast=_FILLED)
-                                 for vessel in ("contrast", "none"))
+            for arm, (lao, cranial) in zip(self._arms, picture.views):
+                filled, empty = (state.picture(lao=lao, cranial=cranial, **{**shown, **arm.place, "vessel": vessel},
+                                               contrast=_FILLED) for vessel in ("contrast", "none"))
                 self._vessels.append(filled < empty)
 
     def _labels(self, state: State, arm: CArm, vessel: np.ndarray) -> np.ndarray:
@@ -155,6 +156,11 @@ class PictureState:
     def taken(self) -> tuple[int, int]:
         """Return how often `of` was called so far, and the seed of the next frame's noise."""
         return self._step, self._seed
+
+    @property
+    def exposures(self) -> int:
+        """Return how many pictures were taken so far, each plane for itself."""
+        return len(self._picture.views) * -(-self._step // self._picture.every)
 
     @property
     def frames(self) -> list[np.ndarray]:
@@ -182,6 +188,7 @@ class CArm:
     Attributes
     ----------
     scale : pixels per unit.
+    place : "centre" and "field_of_view" of Session.picture.
     """
 
     def __init__(self, picture: Picture, lao: float, cranial: float, axes: Any, box: np.ndarray, unit: float) -> None:
@@ -197,6 +204,7 @@ class CArm:
         side = 2.0 * _MARGIN * float(np.abs((corners - middle) @ self._axes.T).max())
         side = side if picture.field_of_view is None else picture.field_of_view / unit
         self._pixels, self.scale = picture.pixels, picture.pixels / side
+        self.place = {"centre": self._centre.tolist(), "field_of_view": side * unit}
 
     def pixels_of(self, points: np.ndarray) -> np.ndarray:
         """Return columns and rows (n, 2) of points (n, 3), from the upper left corner of the picture."""

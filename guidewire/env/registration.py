@@ -16,7 +16,7 @@ def register() -> None:
     from gymnasium.envs import registration
 
     step_time, time = Drive().step_time, Reward().time
-    for name, task in all_tasks().items():
+    for name, task in all_tasks(None).items():
         known = f"guidewire/{name}-v{VERSION}"
         if known not in registration.registry:
             registration.register(id=known, entry_point="guidewire.env.environment:Environment",

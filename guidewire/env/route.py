@@ -101,6 +101,8 @@ class Route:
         self.until_end[list(self._outlets)] = 0.0
         spans = np.linalg.norm(self.points - self.points[np.maximum(parents, 0)], axis=1)
         self._downstream = self.points - self.points[np.maximum(parents, 0)]
+        for root in np.flatnonzero(parents < 0):
+            self._downstream[root] = self.points[int(np.argmax(parents == root))] - self.points[root]
         self._downstream /= np.maximum(np.linalg.norm(self._downstream, axis=1), 1e-300)[:, None]
         for k in range(len(parents) - 1, 0, -1):    # children come after their parents
             self.until_end[parents[k]] = min(self.until_end[parents[k]], self.until_end[k] + spans[k])

@@ -61,25 +61,6 @@ def play(environment: Environment, policy: Policy, seed: int) -> Played:
             return Played(seed, total, report, digest_of(environment.session.state), faults)
 
 
-def benchmark_table(rows: Sequence[tuple[str, str, Sequence[Played]]]) -> str:
-    """Return a row for each task and policy: fractions of all episodes; means of time and path ratio over successes, of
-    forces over all."""
-    head = ("task", "policy", "episodes", "success", "safe success", "time s", "path ratio", "largest force N",
-            "of any N", "impulse N s")
-    lines = [head, ("---",) * len(head)]
-    for task, policy, episodes in rows:
-        reports = [one.report for one in episodes]
-        reached = [report for report in reports if report["success"]]
-        of_reached = [f"{np.mean(values):.2f}" if values else "-" for values in (
-            [report["time"] for report in reached], [report["path"] / report["way"] for report in reached])]
-        largest = [report["largest_force"] for report in reports]
-        lines.append((task, policy, str(len(reports)), f"{len(reached) / len(reports):.1%}",
-                      f"{np.mean([report['safe_success'] for report in reports]):.1%}", *of_reached,
-                      f"{np.mean(largest):.3g}", f"{max(largest):.3g}",
-                      f"{np.mean([report['impulse'] for report in reports]):.3g}"))
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
 def table(names: Sequence[str], played: Sequence[Sequence[Played]]) -> str:
     """Return a row for each policy: fractions of episodes, means over them."""
     head = ("policy", "episodes", "success", "safe success", "time s", "return", "largest force N", "of any N",

@@ -11,6 +11,8 @@ from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from guidewire.env.instruments import of_each
 from guidewire.env.randomisation import bounds_of, check_distribution
 from guidewire.env.spaces import Error, NameNotFound
@@ -26,7 +28,7 @@ TASKS_FILE = FOLDER / "tasks.json"
 _WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
 _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
-         "insertion", "time", "tolerance", "hold", "speed", "rotation", "follow", "random", "baseline"}
+         "insertion", "time", "tolerance", "hold", "speed", "rotation", "follow", "random", "baseline", "tier"}
 # Of what `random` draws, what is no parameter of the scene by itself.
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
 # What a task, its `random` or an option may say.
@@ -48,8 +50,9 @@ class Task:
     scene : parameter file; "" where each anatomy has its own.
     overrides : keys that override the scene's.
     anatomies : of each vessel an episode may have: path of its anatomy.json beside which, with no `scene`, is its
-        scene.json; or "make", "type", "seed", "inlet" and "target" of one that is generated when it is first needed;
-        in a file, "seeds" for several of a kind.
+        scene.json; "from", such a path, and "warp", the seed of nine numbers by which its shape is another; or "make",
+        "type", "seed", "inlet" and "target" of one that is generated when it is first needed. In a file, "warps" and
+        "seeds" for several of a kind.
     targets : ends by name or number, or branches with the distance from their beginning; an episode has one.
     instruments : names of a wire that an episode may have, or lists of them, the wire first, then the catheters; none:
         the scene's own.
@@ -62,6 +65,7 @@ class Task:
     speed, rotation : fastest of each hub, or of all, m/s and rad/s.
     follow : within what distance before the target along the centreline the tip of each catheter is to come, or of all,
         units; None: it need not.
+    tier : "dev", "train" or "test": of the benchmark's held-out vessels none but those of "train" may be trained on.
     baseline : policy that comes with it: "retry", "follow" or "lead"; "": retry, with catheters follow.
     random : distributions by name, drawn for each episode (`randomisation`): "friction", "tip_turn" (rad), "insertion"
         (m) in place of the lists above; "noise" of the drive; "stiffness", a factor on the moduli of a wire without a
@@ -87,6 +91,7 @@ class Task:
     follow: float | Sequence[float | None] | None = None
     random: Mapping[str, Any] = field(default_factory=dict)
     baseline: str = ""
+    tier: str = "dev"
 
     @cached_property
     def hubs(self) -> int:
@@ -94,7 +99,8 @@ class Task:
         given = self.overrides.get("catheters")
         if given is None:
             which = self.anatomies[0]
-            file = self.scene or (None if isinstance(which, Mapping) else Path(which).with_name("scene.json"))
+            which = which.get("from") if isinstance(which, Mapping) else which
+            file = self.scene or (which and Path(which).with_name("scene.json"))
             given = _scene(Path(file)).get("catheters") if file else None
         return 1 + len(given or ())
 
@@ -106,6 +112,7 @@ class Task:
         Error : a file is missing, or is no JSON; the scene cannot have what was drawn.
         """
         which = self.anatomies[draw.anatomy]
+        which = which["from"] if isinstance(which, Mapping) and "from" in which else which
         made = {key: draw.random[key] for key in ("seed", "type") if key in draw.random}
         if made and not isinstance(which, Mapping):
             raise Error(f"random \"{next(iter(made))}\" is not allowed: {which} is a file, not a vessel that is "
@@ -146,10 +153,24 @@ class Task:
         return scene | drawn, anatomy
 
 
+    def shape_of(self, draw: Draw) -> dict[str, Any]:
+        """Return "warp" and "entry" of an episode, as of `reshaped`."""
+        shape = {name: draw.random[name] for name in ("warp", "entry") if name in draw.random}
+        which = self.anatomies[draw.anatomy]
+        if isinstance(which, Mapping) and "warp" in which:
+            own = np.random.default_rng(which["warp"]).uniform(-1.0, 1.0, 9)
+            shape["warp"] = np.clip(own + shape.get("warp", 0.0), -1.0, 1.0).tolist()
+        return shape
+
+
 @cache
-def all_tasks() -> Mapping[str, Task]:
-    """The tasks that ship, by name."""
+def _shipped() -> Mapping[str, Task]:
     return {name: _task(name, entry, TASKS_FILE) for name, entry in _read(TASKS_FILE).items()}
+
+
+def all_tasks(tier: str | None = "dev") -> Mapping[str, Task]:
+    """Return the tasks that ship, by name: of a tier, "dev", "train" or "test", or None for all."""
+    return {name: task for name, task in _shipped().items() if tier in (None, task.tier)}
 
 
 def find_task(task: str | Path | Task) -> Task:
@@ -162,7 +183,7 @@ def find_task(task: str | Path | Task) -> Task:
     """
     if isinstance(task, Task):
         return task
-    known = all_tasks()
+    known = all_tasks(None)
     if str(task) in known:
         return known[str(task)]
     path = Path(task)
@@ -199,6 +220,8 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     if not isinstance(catheters, list) or not all(isinstance(one, dict) for one in catheters):
         raise Error(f"{file}: task {name}: overrides: catheters = {json.dumps(catheters)} is not allowed: needs a list "
                     "of objects")
+    if entry.get("tier", "dev") not in ("dev", "train", "test"):
+        raise Error(f"{file}: task {name}: tier = {json.dumps(entry['tier'])} is not allowed: needs dev, train or test")
     if entry.get("baseline", "") not in BASELINES:
         raise Error(f"{file}: task {name}: baseline = {json.dumps(entry['baseline'])} is not allowed: needs one of "
                     f"{', '.join(filter(None, BASELINES))}")
@@ -277,6 +300,13 @@ def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:
     if not isinstance(anatomy, dict):
         raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: needs files, or vessels to be made")
     seeds = anatomy.get("seeds", [anatomy.get("seed")])
+    if "from" in anatomy:
+        warps = anatomy.get("warps", [anatomy.get("warp")])
+        is_list = isinstance(warps, list) and warps and all(type(seed) is int and seed >= 0 for seed in warps)
+        if not is_list or not isinstance(anatomy["from"], str) or not set(anatomy) <= {"from", "warp", "warps"}:
+            raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: a vessel of another shape needs "
+                        "from, a file, and warp or warps, whole numbers from 0")
+        return [{"from": _beside(file, anatomy["from"]), "warp": seed} for seed in warps]
     is_list = isinstance(seeds, list) and seeds and all(type(seed) is int and seed >= 0 for seed in seeds)
     if not is_list or "seeds" in anatomy and "seed" in anatomy or not {"make", "inlet", "target"} <= set(anatomy):
         raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: a generated vessel needs make, inlet, "

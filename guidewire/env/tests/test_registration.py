@@ -57,7 +57,7 @@ def test_each_task_has_a_name_by_which_what_it_names_is_made(monkeypatch, tube):
         monkeypatch.setitem(sys.modules, name, one)
     registration.register()
     registration.register()
-    assert set(registered) == {f"guidewire/{name}-v0" for name in all_tasks()}
+    assert set(registered) == {f"guidewire/{name}-v0" for name in all_tasks(None)}
     for known in registered.values():
         home, _, name = known["entry_point"].partition(":")
         assert getattr(importlib.import_module(home), name) is Environment
@@ -81,7 +81,7 @@ def test_names_are_there_once_both_are_imported_and_neither_imports_the_other(sc
              "print(spaces.Env is gymnasium.Env, spaces.Box is gymnasium.spaces.Box, *registration.registry)")
     done = subprocess.run([sys.executable, "-c", script + shown], capture_output=True, text=True, check=False,
                           env={**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(tmp_path)))})
-    names = [f"guidewire/{name}-v0" for name in all_tasks()]
+    names = [f"guidewire/{name}-v0" for name in all_tasks(None)]
     assert (done.stdout.split(), done.stderr) == (["True", "True", *names], "")
 
 
