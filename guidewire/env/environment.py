@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from guidewire.env.draws import Draw, draw_of, with_options
+from guidewire.env.draws import Draw, draw_of, eased_draw, with_options
 from guidewire.env.drive import Drive, DriveState
 from guidewire.env.episode import SAFE_FORCE, Part, Report
 from guidewire.env.instruments import Instrument, instruments_of, names_of, of_each
@@ -104,6 +104,7 @@ class Environment(Env):
     drive, observation, reward : options, with what each means; or dicts of them.
     safe_force : limit of a safe success, N.
     ends_unsafe : whether a larger force ends the episode.
+    difficulty : of the draws, from 0, the easiest, to 1, as the task has them; may be set anew between episodes.
     native : as of Session.
     render_mode : None; "rgb_array": `render` gives an X-ray picture with vessel and instruments in three dimensions
         beside it, (360, 720, 3) of uint8; "human": each reset and step shows it in a window.
@@ -127,7 +128,7 @@ class Environment(Env):
                  observation: Observation | Mapping[str, Any] = Observation(),
                  reward: Reward | Mapping[str, Any] = Reward(),
                  safe_force: float = SAFE_FORCE, ends_unsafe: bool = False, native: bool | None = None,
-                 render_mode: str | None = None) -> None:
+                 render_mode: str | None = None, difficulty: float = 1.0) -> None:
         if render_mode not in (None, *self.metadata["render_modes"]):
             raise Error(f"render_mode = {render_mode!r} is not allowed: needs None, \"human\" or \"rgb_array\"")
         need_number("safe_force", safe_force, 0.0, above=True)
@@ -138,7 +139,7 @@ class Environment(Env):
         self.drive = drive = made_of(Drive, "drive", drive)
         self.observation = observation = made_of(Observation, "observation", observation)
         self.reward = reward = made_of(Reward, "reward", reward)
-        self.safe_force, self.ends_unsafe = safe_force, ends_unsafe
+        self.safe_force, self.ends_unsafe, self.difficulty = safe_force, ends_unsafe, difficulty
         self.hubs = self.task.hubs
         drive.check(self.hubs)
         if drive.step_time > self.task.time + 1e-9:
@@ -207,6 +208,11 @@ class Environment(Env):
         self._check_open()
         super().reset(seed=seed)
         drawn = draw_of(self.task, self.np_random)    # always, so that options do not change what later episodes draw
+        need_number("difficulty", self.difficulty, 0.0)
+        if self.difficulty < 1.0:
+            drawn = eased_draw(self.task, drawn, self.difficulty)
+        elif self.difficulty > 1.0:
+            raise Error(f"difficulty = {self.difficulty!r} is not allowed: needs a number from 0 to 1")
         image = self.observation.image
         is_noisy = isinstance(image, Picture) and image.noise > 0.0 or self.drive.noise > 0.0 or "noise" in drawn.random
         noise = int(self.np_random.integers(2**32)) if is_noisy else 0

@@ -153,6 +153,23 @@ class Task:
         return scene | drawn, anatomy
 
 
+    @cached_property
+    def by_way(self) -> list[int]:
+        """Return the numbers of the targets, the one with the shortest way from the inlet first, in the first
+        vessel."""
+        from guidewire.env.draws import Draw
+        from guidewire.env.route import Route
+
+        first = Draw(0, 0, self.instruments[0] if self.instruments else None, 0.0, 0.0, self.insertion)
+        which = self.anatomies[0]
+        if isinstance(which, Mapping) and "from" not in which:    # with a seed of its own in each episode
+            return list(range(len(self.targets)))
+        scene, anatomy = self.scene_of(first)
+        inlet = next((end["point"] for end in anatomy["ends"] if str(scene.get("inlet", "")).lower() in (
+            str(end["number"]), end["name"].lower())), 0)
+        ways = [float(Route(anatomy, target).left[inlet]) for target in self.targets]
+        return sorted(range(len(ways)), key=ways.__getitem__)
+
     def shape_of(self, draw: Draw) -> dict[str, Any]:
         """Return "warp" and "entry" of an episode, as of `reshaped`."""
         shape = {name: draw.random[name] for name in ("warp", "entry") if name in draw.random}

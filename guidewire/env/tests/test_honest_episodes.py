@@ -8,6 +8,7 @@ import pytest
 
 from guidewire.env import Drive, Environment, Observation, Picture, Reward, all_tasks
 from guidewire.env.baselines import Chance, baseline_of, parts_of
+from guidewire.env.draws import draw_of, eased_draw, with_options
 from guidewire.env.picture import WIRE, CArm
 from guidewire.env.route import Route
 from guidewire.env.score import play
@@ -247,3 +248,25 @@ def test_one_session_takes_one_scene_after_another_with_the_bits_of_a_new_one(tu
         for draw in placed:
             own.reset(seed=5, options=draw)
             same(own.step([1.0, 1.0])[0], alone(task, draw))
+
+
+@pytest.mark.parametrize("name", ["siphon-train", "carotid", "artery"])
+def test_a_difficulty_orders_targets_and_draws(name):
+    task = find_task(name)
+    drawn = {}
+    for difficulty in (0.0, 0.5, 1.0):
+        random = np.random.default_rng(5)
+        draws = [draw_of(task, random) for _ in range(12)]
+        drawn[difficulty] = [eased_draw(task, one, difficulty) for one in draws]
+    assert [vars(one) for one in drawn[1.0]] == [vars(one) for one in draws], "as the task has them"
+    nominal = with_options(task, draws[0], {**NOMINAL, "target": task.by_way[0]})
+    assert all(vars(one) == vars(nominal) for one in drawn[0.0])
+    for half, whole in zip(drawn[0.5], drawn[1.0]):
+        assert half.tip_turn == 0.5 * whole.tip_turn and half.anatomy == whole.anatomy // 2
+        if "scale" in whole.random:
+            assert half.random["scale"] == pytest.approx(0.5 * (1.0 + whole.random["scale"]))
+    with Environment(task, difficulty=0.0) as own:
+        assert own.reset(seed=3)[1]["draw"]["anatomy"] == 0
+        own.difficulty = 1.5
+        with pytest.raises(Error, match="from 0 to 1"):
+            own.reset()

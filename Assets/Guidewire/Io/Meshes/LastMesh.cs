@@ -6,17 +6,17 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>Keeps the mesh that was read last, for the next run in this process or a change of parameters: if the
+    /// <summary>Keeps the meshes that were read last, for the next run or a change of parameters: if the
     /// file has the same contents, its triangles and hierarchy are not computed again, which for tens of thousands of
     /// triangles takes longer than many a run. Runs have the same bits either way.</summary>
     /// <remarks>One run at a time: its walls share their work memory.</remarks>
     public sealed class LastMesh
     {
+        private const int MostInPlace = 3;     // walls of a run that alternates between vessels where their files have them
+
         private readonly KeptMeshes _kept;
-        private Placement _placement;
-        private SmoothWarp? _warp;
-        private KeptMeshes.Entry? _entry;
-        private MeshShape? _wall;
+        private readonly List<(KeptMeshes.Entry Entry, Placement Placement, SmoothWarp? Warp, MeshShape Wall)> _walls =
+            new List<(KeptMeshes.Entry, Placement, SmoothWarp?, MeshShape)>();    // the newest last
 
         /// <param name="kept">Meshes of this run and of others at once; null: one of its own.</param>
         public LastMesh(KeptMeshes? kept = null)
@@ -25,7 +25,7 @@ namespace Guidewire.Io
         }
 
         /// <summary>SHA-256 of what was read, in hex.</summary>
-        internal string Sha256 => _entry?.Sha256 ?? "";
+        internal string Sha256 { get; private set; } = "";
 
         /// <summary>Gives the wall in a file, placed.</summary>
         /// <param name="file">As of <see cref="MeshFile.Read"/>.</param>
@@ -39,12 +39,21 @@ namespace Guidewire.Io
             byte[]? content = null, SmoothWarp? warp = null)
         {
             KeptMeshes.Entry entry = _kept.Find(file, content ?? MeshFile.ReadBytes(file), scale, rims);
-            if (_wall != null && entry == _entry && placement.Equals(_placement) && Equals(warp, _warp))
+            Sha256 = entry.Sha256;
+            Placement where = placement;
+            int known = _walls.FindIndex(one => one.Entry == entry && one.Placement.Equals(where)
+                && Equals(one.Warp, warp));
+            var wall = known >= 0 ? _walls[known] : default;
+            // Of those that were moved the last one is enough: no other run has that placement again.
+            _walls.RemoveAll(one => (known >= 0 && one.Wall == wall.Wall) || one.Warp != null
+                || !one.Placement.Equals(Placement.Identity));
+            if (known < 0)
             {
-                return _wall.ForNextRun();
+                wall = (entry, placement, warp, entry.Wall.At(placement, warp));
             }
-            (_wall, _entry, _placement, _warp) = (null, entry, placement, warp);
-            return _wall = entry.Wall.At(placement, warp);
+            _walls.Add(wall);
+            _walls.RemoveRange(0, Math.Max(0, _walls.Count - MostInPlace));
+            return known < 0 ? wall.Wall : wall.Wall.ForNextRun();
         }
     }
 
