@@ -115,7 +115,7 @@ def _played(task: str, policy: str, seeds: range, jobs: int) -> list[score.Playe
 def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
     began = time.monotonic()
     played = _played(task, policy, range(seed, seed + episodes), jobs)
-    print(score.table([policy], [played]))
+    print(benchmark.table([benchmark.results_of("", policy, {task: played})]))
     faults = [f"seed {one.seed}: {fault}" for one in played for fault in one.faults]
     for line in faults[:20]:
         print(line)

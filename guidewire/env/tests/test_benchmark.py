@@ -1,16 +1,15 @@
-"""Results that others can check, demonstrations in files of others, and a network that learns from the baseline."""
+"""Results that others can check, demonstrations in files of others, and a network."""
 
 import json
-from dataclasses import replace
 
 import numpy as np
 import pytest
 from scipy import stats
 
-from guidewire.env import Environment, Observation, RecordedDrive, all_tasks, benchmark
-from guidewire.env.baselines import TurnAndRetry, baseline_of
+from guidewire.env import Environment, RecordedDrive, all_tasks, benchmark
+from guidewire.env.baselines import TurnAndRetry
 from guidewire.env.demonstrations import demonstrate, save_minari, save_npz, trajectory_of
-from guidewire.env.network import Network, features_of, learn, options_of
+from guidewire.env.network import Network
 from guidewire.env.score import play
 from guidewire.env.spaces import Error
 from guidewire.env.task import find_task
@@ -154,15 +153,3 @@ def test_a_network_has_the_gradients_of_its_error_and_is_the_same_in_a_file(tmp_
     np.testing.assert_allclose(Network.load(tmp_path / "network.npz").of(inputs), network.of(inputs), atol=1e-5)
     fitted = Network.fitted(np.repeat(inputs, 40, axis=0), np.repeat(0.5 * outputs, 40, axis=0), seed=1)
     assert np.abs(fitted.of(inputs) - 0.5 * outputs).max() < 0.2
-
-
-def test_a_network_learns_from_the_baseline_the_same_from_the_same_seed(tube):
-    task = replace(tube, tip_turns=1)
-    one, curve = learn(task, seed=1, episodes=2, rounds=2, scored=1)
-    other, _ = learn(task, seed=1, episodes=2, rounds=2, scored=1)
-    for a, b in zip(one.weights, other.weights):
-        np.testing.assert_array_equal(a, b)
-    assert len(curve) == 2 and curve[1][0] > curve[0][0] and max(row[1] for row in curve) == 1.0
-    with Environment(task, **options_of(task)) as own:
-        assert isinstance(baseline_of(own), TurnAndRetry) and features_of(own.reset(seed=1)[0]).shape == (12,)
-        assert own.observation == Observation(parts=own.observation.parts)

@@ -12,7 +12,7 @@ namespace Guidewire.Io
     /// <remarks>One run at a time: its walls share their work memory.</remarks>
     public sealed class LastMesh
     {
-        private const int MostInPlace = 3;     // walls of a run that alternates between vessels where their files have them
+        private const int MostInPlace = 3;     // walls of runs that alternate between vessels
 
         private readonly KeptMeshes _kept;
         private readonly List<(KeptMeshes.Entry Entry, Placement Placement, SmoothWarp? Warp, MeshShape Wall)> _walls =

@@ -69,7 +69,8 @@ namespace Guidewire.Core
 #endif
         }
 
-        /// <summary>A tree of the same topology over the same triangles elsewhere; both may be queried at once.</summary>
+        /// <summary>A tree of the same topology over the same triangles elsewhere; both may be queried at
+        /// once.</summary>
         /// <param name="corners">Three a triangle, units.</param>
         /// <param name="normals">As of the constructor.</param>
         public Bvh Over(Vector3d[] corners, Vector3d[]? normals = null) => new Bvh(this, corners, normals);

@@ -65,7 +65,8 @@ namespace Guidewire.Core
             Refit(nodes);
         }
 
-        /// <summary>Makes the tree of binary nodes that stand elsewhere, of the same topology as another one's.</summary>
+        /// <summary>Makes the tree of binary nodes that stand elsewhere, of the same topology as another
+        /// one's.</summary>
         public WideBvh(WideBvh other, BvhNode[] nodes)
         {
             (_source, _child) = (other._source, other._child);

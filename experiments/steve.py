@@ -22,7 +22,6 @@ from guidewire.env.task import Task
 VELOCITY = (35.0, 3.14)  # largest, mm/s and rad/s, of DualDeviceNav
 FRICTION, THRESHOLD = 0.001, 5.0  # of its simulation; of its targets, mm
 STEP_TIME = 1.0 / 7.5  # s, of its pictures
-_TIME_STEPS = 1  # of a step
 _POINTS = 3  # of each device that are seen, 6 mm apart
 _WIRE, _CATHETER = "workhorse-0.014", "microcatheter-2.4f"
 _APART, _NEAR = 10.0, 6.0  # mm: between targets of a branch; from a branch's point to the centreline
@@ -93,7 +92,7 @@ def task_of(folder: Path, branches: Mapping[str, np.ndarray], name: str = "steve
         raise Error(f"{folder}: none of the branches {', '.join(branches)} lies in the vessel")
     catheter = {"instrument": _CATHETER, "start": 60.0, "length": length - 90.0, "elements": round((length - 90.0) / 30)}
     return Task(name, "two devices in a vessel of stEVE", overrides={
-        "timeStep": STEP_TIME / _TIME_STEPS, "contactDistance": 0.0002, "guidewireLength": length,
+        "timeStep": STEP_TIME, "contactDistance": 0.0002, "guidewireLength": length,
         "numberRodElements": round(length / 20.0), "wireSections": [], "catheters": [catheter]},
         anatomies=(str(folder / "anatomy.json"),), targets=tuple(targets), instruments=(_WIRE,), frictions=(FRICTION,),
         insertion=(0.03, 0.02), time=time, tolerance=THRESHOLD, speed=1e-3 * VELOCITY[0], rotation=VELOCITY[1])
