@@ -29,6 +29,7 @@ from guidewire.sessions.session import State
 _EVERY = 5  # states of which the geometry is searched, beside the last
 _SAME = 1e-9  # relative, of sums
 _IN_TREE = 1.05  # of a sphere's radius, for tips that count as in it
+_BROKEN = 1.05  # of a hub's limit: forces beyond it end an episode and are not taken in
 _SURE = 0.5  # of radius and tolerance, for tips that are at the target without doubt
 
 
@@ -135,7 +136,9 @@ class Judge:
         self._environment, self._way = environment, Way(environment, draw)
         self._sum = hashlib.sha256()
         self._states = [environment.session_state]
-        self._largest = self._impulse = 0.0
+        self._largest = self._impulse = self._held = 0.0
+        self._until = self._states[0].time    # up to which the report counts
+        self._is_broken = False
         self._done = np.zeros((environment.hubs, 4))    # path, inserted, retracted, turned
         self.faults: list[str] = []
         self._add(observation)
@@ -145,6 +148,14 @@ class Judge:
         state, last = self._environment.session_state, self._states[-1]
         self._states.append(state)
         self._add(observation, reward)
+        given = self._environment.session.parameters
+        limits = [one.get("hubForceLimit", 0.0) for one in (given, *(given.get("catheters") or ()))]
+        if any(0.0 < _BROKEN * limit < abs(hub.force) for limit, hub in zip(limits, _hubs(state))):
+            self._is_broken = True
+            if not ended:
+                self._fault("a hub pushes with more than it can, and the episode goes on")
+            return
+        self._until = state.time
         most, total = [], 0.0
         for k, (one, other, hub, before) in enumerate(zip(_each(last), _each(state), _hubs(state), _hubs(last))):
             sizes = np.linalg.norm(other.contact_forces, axis=1)
@@ -159,7 +170,8 @@ class Judge:
         self._impulse += total * (state.time - last.time)
         if not _same(info["force"], max(most)):
             self._fault(f"force {info['force']:g} N of a step, seen {max(most):g}")
-        if not ended and self._is_there(is_sure=True):
+        self._held = self._held + state.time - last.time if self._is_there(is_sure=True) else 0.0
+        if not ended and self._held > 0.0 and self._held > self._environment.task.hold - 1e-9:
             self._fault("at the target, and the episode goes on")
 
     def verdict(self, terminated: bool, truncated: bool, report: Mapping[str, Any]) -> str:
@@ -168,7 +180,7 @@ class Judge:
         end, terminal = report["end"], report["end"] in ("target", "force", "left the vessel")
         if terminated == truncated or terminated != terminal or report["success"] != (end == "target"):
             self._fault(f"end {end}, success {report['success']}, terminated {terminated}, truncated {truncated}")
-        if (end == "simulation") != (state.outcome is not None) or (end == "simulation") != bool(report["reason"]):
+        if (end == "simulation") != (state.outcome is not None or self._is_broken) or (end == "simulation") != bool(report["reason"]):
             self._fault(f"end {end}, outcome {state.outcome}, reason {report['reason']!r}")
         if (end == "time") != (end != "simulation" and not terminal and report["time"] > task.time - 1e-6):
             self._fault(f"end {end} after {report['time']:g} s of {task.time:g}")
@@ -178,7 +190,7 @@ class Judge:
                 if not _same(one[name], own):
                     self._fault(f"{name} {one[name]:g} in the report, seen {own:g}")
         for name, own in (("largest_force", self._largest), ("impulse", self._impulse),
-                          ("time", state.time - self._states[0].time)):
+                          ("time", self._until - self._states[0].time)):
             if not _same(report[name], own):
                 self._fault(f"{name} {report[name]:g} in the report, seen {own:g}")
         if report["success"] and not self._is_there():

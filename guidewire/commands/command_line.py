@@ -254,17 +254,27 @@ def parse(argv: list[str]) -> argparse.Namespace:
 
     tasks = commands.add_parser("tasks", help="tasks to train on: list them, score a policy, steer one by hand")
     tasks.add_argument("task", metavar="TASK", nargs="?", help="name, or a scene.json with anatomy and target")
-    tasks.add_argument("--policy", default="retry", metavar="NAME",
+    tasks.add_argument("--policy", metavar="NAME",
                        help="policy that steers: retry, random, or MODULE:NAME, a callable of the environment (retry)")
-    tasks.add_argument("--benchmark", action="store_true", help="the table of all tasks with seeds that stay the same")
+    tasks.add_argument("--benchmark", action="store_true", help="the table of a tier's tasks, with seeds that stay the "
+                                                                "same and intervals of 95 %%")
+    tasks.add_argument("--tier", choices=("dev", "train", "test"), default="dev",
+                       help="tasks of the benchmark; those of test have vessels that nothing is trained on (dev)")
+    tasks.add_argument("--results", type=path, metavar="FILE", help="results of the benchmark, for others to check")
+    tasks.add_argument("--submitted", type=Path, nargs="+", metavar="FILE",
+                       help="check results files, and print their table")
     tasks.add_argument("--episodes", type=positive, default=50, metavar="N", help="number of episodes (50)")
-    tasks.add_argument("--seed", type=positive, default=1, metavar="S", help="seed of the first episode; the next "
-                                                                             "has S + 1 (1)")
+    tasks.add_argument("--seed", type=positive, metavar="S", help="seed of the first episode; the next has S + 1 (1); "
+                                                                  "without it --record by hand has the nominal one")
     tasks.add_argument("--jobs", type=positive, default=1, metavar="N", help="number of parallel environments (1)")
     by_hand = tasks.add_mutually_exclusive_group()
     by_hand.add_argument("--record", type=path, metavar="FILE",
-                         help="open the page of the task, and save the steering when the command ends (Ctrl-C)")
-    by_hand.add_argument("--replay", type=Path, metavar="FILE", help="repeat a recorded episode")
+                         help="open the page of the task, and save the steering when the command ends (Ctrl-C); with "
+                              "--policy save the episodes in which that reaches the target safely")
+    by_hand.add_argument("--replay", type=Path, metavar="FILE", help="repeat recorded episodes")
+    tasks.add_argument("--export", type=path, metavar="PATH",
+                       help="with --replay: write observations, actions and rewards, to a file .npz or to a folder as "
+                            "Minari has it")
     tasks.add_argument("--open", action="store_true", help="open the page in a browser")
     tasks.set_defaults(packages=(*DRAWING, *VIEWING))
 

@@ -14,7 +14,7 @@ from guidewire.env.task import Task
 
 class TurnAndRetry:
     """Pushes; where the way to the target has become longer, or no shorter for a while, it pulls back until the tip is
-    out of the wrong branch and before its mouth, turns, and pushes again.
+    out of the wrong branch and before its mouth, turns, and pushes again. At a target that is to be held it rests.
 
     Parameters
     ----------
@@ -52,6 +52,8 @@ class TurnAndRetry:
             if insertion > 0.5 and distance < self._mouth + self._back:
                 return np.array([-1.0, 0.0], dtype=np.float32)
             self._mouth, self._to_turn = None, self._turn
+        if self._environment.task.hold and distance <= 0.8 * self._environment.task.tolerance and self._hub == 0:
+            return np.zeros(2, dtype=np.float32)
         if self._to_turn > 1e-9:
             part = min(1.0, self._to_turn / self._turn_of_step)
             self._to_turn -= part * self._turn_of_step

@@ -13,19 +13,17 @@ from concurrent.futures import ThreadPoolExecutor
 from pathlib import Path
 from typing import Any
 
-from guidewire.env import score
+from guidewire.env import benchmark, demonstrations, score
 from guidewire.env.baselines import Chance, baseline_of, parts_of
 from guidewire.env.environment import Environment
 from guidewire.env.observation import Observation
 from guidewire.env.recorded import RecordedDrive, digest_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import all_tasks, find_task
-from guidewire.installed import version
 from guidewire.prepare import DOOR, PreparationError
 from guidewire.sessions.session import SessionError
 
-BENCHMARK_SEED = 1_000_000  # of the first episode of each task
-_BY_HAND = {"nominal": True, "insertion": 0.0}
+_BY_HAND = {"tip_turn": 0.0, "insertion": 0.0}  # as a page begins
 
 
 def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) -> int:
@@ -36,37 +34,48 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) ->
     PreparationError : one line, for a task or a file that cannot be used.
     """
     try:
+        if arguments.submitted:
+            print(benchmark.table([benchmark.load(file) for file in arguments.submitted]))
+            return 0
         if arguments.benchmark:
-            return _benchmark(arguments.policy, arguments.task, arguments.episodes, arguments.jobs)
+            return _benchmark(arguments, arguments.policy or "retry")
         if arguments.task is None:
-            for name, task in all_tasks().items():
-                print(f"{name}: {task.summary} ({len(task.targets)} targets, {task.time:g} s)")
+            for name, task in all_tasks(None).items():
+                print(f"{name}: {task.summary} ({len(task.targets)} targets, {task.time:g} s, {task.tier})")
             return 0
         if arguments.replay is not None:
-            return _replay(arguments.task, arguments.replay)
+            return _replay(arguments.task, arguments.replay, arguments.export)
+        if arguments.record is not None and arguments.policy is None:
+            return _steer(arguments.task, arguments.record, arguments.seed, arguments.open, build_runner)
+        arguments.policy = arguments.policy or "retry"
         if arguments.record is not None:
-            return _steer(arguments.task, arguments.record, arguments.open, build_runner)
-        return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed, arguments.jobs)
+            return _demonstrate(arguments.task, arguments.policy, arguments.record, arguments.episodes,
+                                arguments.seed or 1)
+        return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed or 1, arguments.jobs)
     except (Error, SessionError) as error:
         raise PreparationError(str(error)) from error
 
 
-def _benchmark(policy: str, task: str | None, episodes: int, jobs: int) -> int:
-    rows, faults = [], 0
-    for name in [task] if task else all_tasks():
-        played = _played(name, policy, range(BENCHMARK_SEED, BENCHMARK_SEED + episodes), jobs)
-        rows.append((name, policy, played))
-        faults += sum(len(one.faults) for one in played)
-    print(score.benchmark_table(rows))
-    bits = score.digest([one for _, _, played in rows for one in played])
-    print(f"guidewire {version()}, seeds {BENCHMARK_SEED} to {BENCHMARK_SEED + episodes - 1}, {faults} faults, "
-          f"bits {bits}")
+def _benchmark(arguments: argparse.Namespace, policy: str) -> int:
+    seeds = range(benchmark.FIRST_SEED, benchmark.FIRST_SEED + arguments.episodes)
+    names = [arguments.task] if arguments.task else list(all_tasks(arguments.tier))
+    tier = find_task(arguments.task).tier if arguments.task else arguments.tier
+    played = {name: _played(name, policy, seeds, arguments.jobs) for name in names}
+    results = benchmark.results_of(tier, policy, played)
+    print(benchmark.table([results]))
+    faults = sum(len(one.faults) for episodes in played.values() for one in episodes)
+    bits = score.digest([one for episodes in played.values() for one in episodes])
+    print(f"guidewire {results['guidewire']}, tier {tier}, seeds {seeds[0]} to {seeds[-1]}, {faults} faults, bits "
+          f"{bits}")
+    if arguments.results is not None:
+        benchmark.save(results, arguments.results)
+        print(f"written: {arguments.results}, sha256 {results['sha256'][:16]}")
     return 1 if faults else 0
 
 
 def _policy_of(policy: str) -> Callable[[Environment, int], Any]:
     """Lead from an environment and a seed to what acts: a baseline by name, or MODULE:NAME, a callable that takes the
-    environment; its attribute `options`, a dict, are options of the environment."""
+    environment; its attribute `options`, a dict or what makes one of a task, are options of the environment."""
     if policy == "random":
         return Chance
     if policy == "retry":
@@ -85,11 +94,15 @@ def _policy_of(policy: str) -> Callable[[Environment, int], Any]:
     return made
 
 
+def _options_of(make: Callable[..., Any], task: str) -> dict[str, Any]:
+    given = getattr(make, "options", {})
+    found = given(find_task(task)) if callable(given) else given
+    return found or {"observation": Observation(parts=parts_of(find_task(task)))}
+
+
 def _played(task: str, policy: str, seeds: range, jobs: int) -> list[score.Played]:
     make = _policy_of(policy)
-    options = getattr(make, "options", {})
-    if not options:
-        options = {"observation": Observation(parts=parts_of(find_task(task)))}
+    options = _options_of(make, task)
 
     def part(k: int) -> list[score.Played]:
         with Environment(task, **options) as environment:
@@ -102,7 +115,7 @@ def _played(task: str, policy: str, seeds: range, jobs: int) -> list[score.Playe
 def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
     began = time.monotonic()
     played = _played(task, policy, range(seed, seed + episodes), jobs)
-    print(score.table([policy], [played]))
+    print(benchmark.table([benchmark.results_of("", policy, {task: played})]))
     faults = [f"seed {one.seed}: {fault}" for one in played for fault in one.faults]
     for line in faults[:20]:
         print(line)
@@ -114,16 +127,36 @@ def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
     return 1 if faults else 0
 
 
-def _replay(task: str, file: Path) -> int:
-    with Environment(task) as environment:
-        report = environment.replay(RecordedDrive.load(file))
-    shown = {key: value for key, value in report.as_info().items() if key != "forces"}
-    print(json.dumps(shown, indent=2))
-    print("the same bits at the end as where it was recorded")
+def _replay(task: str, file: Path, export: Path | None) -> int:
+    drives = RecordedDrive.load_all(file)
+    with Environment(task, observation=Observation(parts=parts_of(find_task(task)))) as environment:
+        made = [demonstrations.trajectory_of(environment, one) for one in drives]
+        for one in made:
+            print(json.dumps({key: value for key, value in one.report.items() if key != "forces"}, indent=2))
+        print("the same bits at the end as where it was recorded")
+        if export is not None:
+            if export.suffix == ".npz":
+                demonstrations.save_npz(made, export)
+            else:
+                demonstrations.save_minari(environment, made, export, export.name)
+            print(f"written: {export}, {len(made)} episodes, {sum(len(one.rewards) for one in made)} steps")
     return 0
 
 
-def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[str]]) -> int:
+def _demonstrate(task: str, policy: str, file: Path, episodes: int, seed: int) -> int:
+    make = _policy_of(policy)
+    options = _options_of(make, task)
+    with Environment(task, **options) as environment:
+        drives = demonstrations.demonstrate(environment, make(environment, seed), range(seed, seed + episodes),
+                                            f"by the policy {policy}")
+    if not drives:
+        raise Error(f"{policy} reaches the target safely in none of {episodes} episodes")
+    RecordedDrive.save_all(drives, file)
+    print(f"recorded: {file}, {len(drives)} episodes of {episodes}, those that reach the target safely")
+    return 0
+
+
+def _steer(name: str, file: Path, seed: int | None, opens: bool, build_runner: Callable[[], list[str]]) -> int:
     from guidewire.viewer.command import serve_scene
     from guidewire.viewer.held import HeldInstruments
 
@@ -131,7 +164,9 @@ def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[s
     if file.suffix != ".json" or not file.resolve().parent.is_dir():
         raise PreparationError(f"--record {file}: a file .json in a folder that is there")
     with Environment(task) as environment:
-        environment.reset(options=_BY_HAND)
+        drawn = {"nominal": True} if seed is None else environment.reset(seed=seed)[1]["draw"]
+        options = {**drawn, **_BY_HAND}
+        environment.reset(options=options)
         # The page lets it go on without end; the file's own drive, which nobody follows, stays within the wire.
         scene: dict[str, Any] = {**environment.scene, "maxSimulationSteps": 1}
     instruments = HeldInstruments()
@@ -147,7 +182,7 @@ def _steer(name: str, file: Path, opens: bool, build_runner: Callable[[], list[s
     if len(instruments.steered) > 1:    # each has the same calls, of its own hub
         calls = [([push for push, _, _ in of_all], [turn for _, turn, _ in of_all], of_all[0][2])
                  for of_all in zip(*(one.calls for one in instruments.steered))]
-    RecordedDrive(task.name, _BY_HAND, calls, digest_of(steered.state), "by keys, through the page").save(file)
+    RecordedDrive(task.name, options, calls, digest_of(steered.state), "by keys, through the page").save(file)
     print(f"recorded: {file}, {len(calls)} calls; "
           f"'{DOOR} tasks {name} --replay {file}' does them again")
     return 0

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from guidewire.env.randomisation import drawn_from, is_choice, middle_of
+from guidewire.env.randomisation import drawn_from, eased, is_choice, middle_of
 from guidewire.env.spaces import Error
 from guidewire.env.task import LIMITS, Task, check_instruments
 
@@ -49,6 +49,25 @@ def draw_of(task: Task, random: np.random.Generator) -> Draw:
     values = _checked(task, "random", {name: drawn_from(given, random) for name, given in task.random.items()})
     return _with_values(Draw(anatomy, target, task.instruments[instrument] if task.instruments else None,
                              float(task.frictions[friction]), _turn(turn, task.tip_turns), task.insertion), values)
+
+
+def eased_draw(task: Task, draw: Draw, difficulty: float) -> Draw:
+    """A draw made easier: at a difficulty of 0 the nearest target of the first vessel with the first of all lists, no
+    turn and the middle of what is random; at 1 the draw itself. Between them its place in each list, of targets by
+    their ways, and the distance of each number from the middle are the fraction."""
+    def part(index: int) -> int:
+        return int(difficulty * index + 1e-9)
+
+    order = task.by_way
+    own = {name: eased(task.random[name], value, difficulty) if name in task.random else value
+           for name, value in {**draw.random, **{key: getattr(draw, key) for key in _OPTIONS[4:7]}}.items()}
+    if "friction" not in task.random:
+        own["friction"] = task.frictions[part(list(task.frictions).index(draw.friction))]
+    if "tip_turn" not in task.random:
+        own["tip_turn"] = difficulty * draw.tip_turn
+    instrument = task.instruments[part(list(task.instruments).index(draw.instrument))] if task.instruments else None
+    return _with_values(replace(draw, anatomy=part(draw.anatomy), target=order[part(order.index(draw.target))],
+                                instrument=instrument, random={}), own)
 
 
 def with_options(task: Task, drawn: Draw, options: Mapping[str, Any]) -> Draw:

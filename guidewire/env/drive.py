@@ -34,6 +34,7 @@ class Drive:
     delay : steps by which a command comes late.
     noise : standard deviation of speed and of rotation rate, as a fraction of each.
     retraction : whether the hubs may be pulled.
+    stops_at_ends : whether a hub stops where the tip of its instrument meets an open end of the vessel.
 
     Raises
     ------
@@ -47,6 +48,7 @@ class Drive:
     delay: int = 0
     noise: float = 0.0
     retraction: bool = True
+    stops_at_ends: bool = False
 
     def __post_init__(self) -> None:
         if self.actions not in ("continuous", "discrete"):
@@ -108,6 +110,10 @@ class DriveState:
     drive : its properties.
     speeds, rotations : largest of each hub, m/s and rad/s.
     noise : in place of the drive's.
+
+    Attributes
+    ----------
+    waiting : commands that are not made yet.
     """
 
     def __init__(self, drive: Drive, speeds: Sequence[float], rotations: Sequence[float], noise: float | None = None
@@ -115,13 +121,13 @@ class DriveState:
         self._retraction, self._noise = drive.retraction, drive.noise if noise is None else noise
         self._largest = [(speed * drive.step_time, rotation * drive.step_time)
                          for speed, rotation in zip(speeds, rotations)]
-        self._waiting: deque[Command] = deque([[(0.0, 0.0)] * len(self._largest)] * drive.delay)
+        self.waiting: deque[Command] = deque([[(0.0, 0.0)] * len(self._largest)] * drive.delay)
 
     def motion(self, command: Command, random: np.random.Generator) -> list[tuple[float, float]]:
         """Insertion, m, and turn, rad, of each hub in this step, before what limits the insertion."""
-        self._waiting.append(command)
+        self.waiting.append(command)
         motions = []
-        for (speed, rotation), (most, most_turn) in zip(self._waiting.popleft(), self._largest):
+        for (speed, rotation), (most, most_turn) in zip(self.waiting.popleft(), self._largest):
             if speed < 0.0 and not self._retraction:
                 speed = 0.0
             if self._noise > 0.0:

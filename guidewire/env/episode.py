@@ -47,14 +47,15 @@ class Report:
     ----------
     safe_force : limit of a safe success, N.
     success : whether the target was reached.
-    end : "target", "time", "force", "left the vessel", "a hub needs more than its hubForceLimit", "simulation", or ""
-        while it goes on.
+    end : "target", "time", "force", "left the vessel", "simulation", or "" while it goes on.
     reason : what the simulation said where it ended the episode.
     time : simulated, s.
     largest_force : of a wall on one sphere of any instrument after any time step, N.
     impulse : of all walls, the sum over spheres and time steps of |F| dt, N s.
     forces : largest force of a wall on one sphere after each time step, N.
     parts : of each instrument, the wire first.
+    contrast : agent that was injected, ml.
+    exposures : X-ray pictures that observations had, each plane for itself.
     way : of the wire's tip to the target along the centreline where the episode began, units.
     left, path : of the wire: distance to the target along the centreline, and way of the tip, units.
     inserted, retracted, turned : of the wire: distances of the hub forwards and backwards, m, and its rotation in both
@@ -66,6 +67,8 @@ class Report:
     end: str = ""
     reason: str = ""
     time: float = 0.0
+    contrast: float = 0.0
+    exposures: int = 0
     way: float = 0.0
     forces: list[float] = field(default_factory=list)
     parts: list[Part] = field(default_factory=lambda: [Part()])

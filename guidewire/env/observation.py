@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import math
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
@@ -11,7 +12,7 @@ from typing import Any
 import numpy as np
 
 from guidewire.env.instruments import Instrument
-from guidewire.env.options import need_count, need_number
+from guidewire.env.options import made_of, need_count, need_number
 from guidewire.env.picture import Picture, PictureState
 from guidewire.env.route import Route
 from guidewire.env.spaces import Box, Dict, Error, Space
@@ -49,7 +50,8 @@ class Observation:
     spacing : elements between two of them.
     screen : (2, 3), directions of the picture's axes to the right and upwards; the projection is parallel.
     lookahead : units.
-    image, image_space : a Picture, which needs no space; or from the state of the session to an array of this space.
+    image, image_space : a Picture, which needs no space; or from the state of the session, and where two things are
+        taken the target (3,), units, to an array of this space.
     flat : all parts as one array of float32 instead of a dict; not with an image.
     history : observations, the newest last: a first axis of each part, or one behind the other where flat; a Picture
         has frames of its own.
@@ -74,6 +76,8 @@ class Observation:
     ranges: Mapping[str, Any] = field(default_factory=dict)
 
     def __post_init__(self) -> None:
+        if isinstance(self.image, Mapping):
+            object.__setattr__(self, "image", made_of(Picture, "image", self.image))
         if isinstance(self.image, Picture):
             if self.image_space is not None:
                 raise Error("image_space is not allowed with a Picture, which has its own")
@@ -145,17 +149,65 @@ class Observer:
         self._ranges = {part: np.asarray(observation.ranges.get(part, value), dtype=float)
                         for part, value in RANGES.items()}
         self.action = np.zeros(2 * hubs)
-        self._pictures = (PictureState(observation.image, seed).of if isinstance(observation.image, Picture)
+        self._target = route.points[route.target]
+        self._pictures = (PictureState(observation.image, seed, self._target) if isinstance(observation.image, Picture)
                           else observation.image)
+        self._takes_target = callable(observation.image) and _count_of_arguments(observation.image) > 1
+        own = {name: value for name, value in vars(observation).items() if not name.startswith("image")}
+        self._options = repr((own, observation.image if isinstance(observation.image, Picture) else None))
 
-    def of(self, state: State, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> Any:
+    @property
+    def exposures(self) -> int:
+        """X-ray pictures so far."""
+        return self._pictures.exposures if isinstance(self._pictures, PictureState) else 0
+
+    def save(self) -> tuple[dict[str, Any], list[np.ndarray]]:
+        """What the next observations depend on: what JSON can hold, and arrays."""
+        pictures = self._pictures if isinstance(self._pictures, PictureState) else None
+        arrays = [one for then in self._past for one in then.values()]
+        frames = [] if pictures is None else pictures.frames
+        head = {"of": self._options, "action": self.action.tolist(), "past": len(self._past),
+                "taken": None if pictures is None else pictures.taken}
+        return head, [*arrays, *frames]
+
+    def restore(self, head: Mapping[str, Any], arrays: list[np.ndarray]) -> bool:
+        """Go on from what was saved; of other options only the last action is, and False is returned."""
+        self.action[:] = head["action"]
+        if head["of"] != self._options:
+            return False
+        parts = [part for part in self._observation.parts if part != "image"]
+        for k in range(head["past"]):
+            self._past.append(dict(zip(parts, arrays[k * len(parts):])))
+        if isinstance(self._pictures, PictureState):
+            self._pictures.restore(head["taken"], arrays[head["past"] * len(parts):])
+        return True
+
+    def of(self, state: State, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]],
+           is_known: bool = False) -> Any:
         """The observation of a state.
 
         Parameters
         ----------
         instruments : of this state.
         places : of the tips, as Route.place gives them.
+        is_known : whether it was asked for before, and saved.
         """
+        if not is_known:
+            self._take(instruments, places)
+        if self._observation.flat:
+            return np.concatenate([np.ravel(one) for then in self._past for one in then.values()]).astype(np.float32)
+        seen = self._past[-1]
+        if self._observation.history > 1:
+            seen = {part: np.stack([then[part] for then in self._past]) for part in seen}
+        return {part: self._picture(state, is_known) if part == "image" else seen[part].astype(np.float32)
+                for part in self._observation.parts}
+
+    def _picture(self, state: State, is_known: bool) -> np.ndarray:
+        if isinstance(self._pictures, PictureState):
+            return self._pictures.last() if is_known else self._pictures.of(state)
+        return self._pictures(state, self._target) if self._takes_target else self._pictures(state)
+
+    def _take(self, instruments: Sequence[Instrument], places: Sequence[tuple[int, float]]) -> None:
         seen = {}
         for part in self._observation.parts:
             if part == "image":
@@ -163,12 +215,6 @@ class Observer:
             value = np.asarray(self._part(part, instruments, places), dtype=float)
             seen[part] = self._normalised(part, value) if self._observation.normalised else value
         self._past.extend([seen] * (1 if self._past else self._observation.history))
-        if self._observation.flat:
-            return np.concatenate([np.ravel(one) for then in self._past for one in then.values()]).astype(np.float32)
-        if self._observation.history > 1:
-            seen = {part: np.stack([then[part] for then in self._past]) for part in seen}
-        return {part: self._pictures(state) if part == "image" else seen[part].astype(np.float32)
-                for part in self._observation.parts}
 
     def _normalised(self, part: str, value: np.ndarray) -> np.ndarray:
         if part in _UNIT:
@@ -191,7 +237,7 @@ class Observer:
         if part == "overlap":
             return [(one.hub.extension / self._unit, one.hub.overlap / self._unit) for one in catheters]
         if part == "action":
-            return self.action
+            return self.action.copy()    # what is past keeps its own
         if part == "distance":
             return [left for _, left in places]
         each = [self._of_one(part, one) for one in instruments]
@@ -212,6 +258,15 @@ class Observer:
             return (one.hub.force, 1e3 * one.hub.torque)
         forces = np.sqrt(np.einsum("ij,ij->i", one.contact_forces, one.contact_forces))
         return (forces.max(), forces.sum())
+
+
+def _count_of_arguments(function: Callable[..., Any]) -> int:
+    try:
+        taken = inspect.signature(function).parameters.values()
+    except ValueError:    # of a function that says nothing of itself
+        return 1
+    return sum(one.default is one.empty and one.kind in (one.POSITIONAL_ONLY, one.POSITIONAL_OR_KEYWORD)
+               for one in taken)
 
 
 def _in_frame(q: np.ndarray, vector: np.ndarray) -> np.ndarray:

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
+from collections.abc import Mapping
 from numbers import Integral, Real
+from typing import Any
 
 from guidewire.env.spaces import Error
 
@@ -30,3 +33,19 @@ def need_count(name: str, value: object, low: int) -> None:
     """
     if not isinstance(value, Integral) or isinstance(value, bool) or value < low:
         raise Error(f"{name} = {value!r} is not allowed: needs a whole number from {low}")
+
+
+def made_of(kind: type, name: str, given: Any) -> Any:
+    """Return an object of options, made of a plain dict where it is one, as a file or a spec in JSON has it.
+
+    Raises
+    ------
+    Error : it is neither, or has an option that there is not.
+    """
+    if isinstance(given, kind):
+        return given
+    names = [field.name for field in dataclasses.fields(kind)]
+    if not isinstance(given, Mapping) or not set(given) <= set(names):
+        raise Error(f"{name} = {given!r} is not allowed: needs {kind.__name__}, or a dict with some of "
+                    f"{', '.join(names)}")
+    return kind(**given)

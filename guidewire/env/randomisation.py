@@ -75,6 +75,20 @@ def is_choice(given: Any, value: Any) -> bool:
     return kind == "choice" and any(type(one) is type(value) and one == value for one in numbers)
 
 
+def eased(given: Any, value: Any, difficulty: float) -> Any:
+    """Return a drawn value brought nearer to the middle of its distribution: at a difficulty of 0 it is that, at 1 the
+    value itself. A choice is one of the first that are listed."""
+    kind, numbers, _ = _parts(given)
+    if kind == "vector":
+        return [eased(one, other, difficulty) for one, other in zip(numbers, value)]
+    if kind == "choice":
+        index = next(k for k, one in enumerate(numbers) if type(one) is type(value) and one == value)
+        return numbers[int(difficulty * index + 1e-9)]
+    middle = middle_of(given)
+    eased_value = (1.0 - difficulty) * middle + difficulty * value
+    return round(eased_value) if kind == "integers" else eased_value
+
+
 def middle_of(given: Any) -> Any:
     """What an episode without chance has: the middle, or the first."""
     kind, numbers, _ = _parts(given)

@@ -39,8 +39,14 @@ class RecordedDrive:
 
     def save(self, file: str | Path) -> None:
         """Write it as JSON; numbers read back to the same bits."""
-        write_whole(Path(file), json.dumps({"format": self._format, "task": self.task, "options": self.options,
-                                            "source": self.source, "digest": self.digest, "calls": self.calls}) + "\n")
+        self.save_all([self], file)
+
+    @staticmethod
+    def save_all(drives: Sequence[RecordedDrive], file: str | Path) -> None:
+        """Write several, one in a line."""
+        write_whole(Path(file), "".join(json.dumps({
+            "format": one._format, "task": one.task, "options": one.options, "source": one.source,
+            "digest": one.digest, "calls": one.calls}) + "\n" for one in drives))
 
     @property
     def _format(self) -> str:
@@ -48,18 +54,28 @@ class RecordedDrive:
 
     @staticmethod
     def load(file: str | Path) -> RecordedDrive:
-        """Read one.
+        """Read one, the first of several.
 
         Raises
         ------
         Error : the file is missing or is no recorded drive.
         """
+        return RecordedDrive.load_all(file)[0]
+
+    @staticmethod
+    def load_all(file: str | Path) -> list[RecordedDrive]:
+        """Read all; errors as of `load`."""
         try:
-            read = json.loads(Path(file).read_text(encoding="utf-8"))
-            if read["format"] not in _FORMATS:
-                raise ValueError(f"format is {read['format']!r}")
-            return RecordedDrive(read["task"], read["options"], [tuple(call) for call in read["calls"]],
-                                 read["digest"], read["source"])
+            drives = []
+            for line in Path(file).read_text(encoding="utf-8").splitlines():
+                read = json.loads(line)
+                if read["format"] not in _FORMATS:
+                    raise ValueError(f"format is {read['format']!r}")
+                drives.append(RecordedDrive(read["task"], read["options"], [tuple(call) for call in read["calls"]],
+                                            read["digest"], read["source"]))
+            if not drives:
+                raise ValueError("it is empty")
+            return drives
         except OSError as error:
             raise Error(f"{file}: {error.strerror}") from error
         except (ValueError, KeyError, TypeError) as error:

@@ -15,7 +15,7 @@ from guidewire.env.spaces import Error
 
 STRAIN = 0.08  # of a coefficient of 1: of nine at most 0.24 together, so that no place meets another one
 MOST_TILT = 30.0  # degrees
-_MESH, _ANATOMY = "vessel.obj", "anatomy.json"
+_ANATOMY = "anatomy.json"
 
 
 class Field:
@@ -24,12 +24,12 @@ class Field:
 
     Parameters
     ----------
-    points : (n, 3), of the vessel, in its own units.
+    box : (2, 3), corners of the box around the vessel, in its own units.
     coefficients : nine from -1 to 1: of the displacement along x the waves along x, y and z, then along y, then z.
     """
 
-    def __init__(self, points: np.ndarray, coefficients: Sequence[float]) -> None:
-        low, high = points.min(axis=0), points.max(axis=0)
+    def __init__(self, box: np.ndarray, coefficients: Sequence[float]) -> None:
+        low, high = box
         self._middle, self._wave = 0.5 * (low + high), 2.0 * math.pi / float(np.linalg.norm(high - low))
         self._strains = STRAIN * np.array(coefficients, dtype=float).reshape(3, 3)
 
@@ -44,7 +44,8 @@ class Field:
 
 def reshaped(scene: Mapping[str, Any], anatomy: Mapping[str, Any], warp: Sequence[float] | None,
              entry: Sequence[float] | None, folder: Path) -> tuple[dict[str, Any], Mapping[str, Any]]:
-    """Return a scene with another vessel, whose files are written into a folder, and its anatomy.
+    """Return a scene with another vessel, whose anatomy is written into a folder, and that anatomy. The core moves the
+    mesh, by the same field.
 
     Parameters
     ----------
@@ -63,12 +64,10 @@ def reshaped(scene: Mapping[str, Any], anatomy: Mapping[str, Any], warp: Sequenc
         file = Path(vessel.get("file", ""))
         if file.suffix.lower() != ".obj":
             raise Error(f"random \"warp\" is not allowed: it needs a vessel that is a mesh in a file .obj, not {file}")
-        vertices, rest = _read(file)
-        field = Field(vertices, warp)
-        lines = [f"v {x!r} {y!r} {z!r}" for x, y, z in field.moved(vertices).tolist()]
-        (folder / _MESH).write_text("\n".join([*lines, rest]) + "\n", encoding="utf-8")
-        vessel["file"] = str(folder / _MESH)
-        _move(anatomy, field)
+        vessel["warp"] = [float(one) for one in warp]
+        # The rims of the mesh as it is in its file.
+        vessel.setdefault("openRims", {end["name"]: end["centre"] for end in anatomy["ends"] if end["open"]})
+        _move(anatomy, Field(_box(file), warp))
     if entry is not None and any(entry):
         end = _inlet(anatomy, scene.get("inlet"))
         end["direction"] = _tilted(np.array(end["direction"]), entry).tolist()
@@ -133,12 +132,12 @@ def _check(name: str, numbers: Sequence[float] | None, count: int, most: float) 
         raise Error(f"random \"{name}\" = {numbers!r} is not allowed: needs {count} numbers from {-most:g} to {most:g}")
 
 
-@lru_cache(maxsize=4)
-def _read(file: Path) -> tuple[np.ndarray, str]:
-    """Vertices (n, 3) of a mesh, and the other lines."""
+@lru_cache(maxsize=16)
+def _box(file: Path) -> np.ndarray:
+    """(2, 3): corners of the box around a mesh."""
     try:
         lines = file.read_text(encoding="utf-8").splitlines()
         vertices = np.array([line.split()[1:4] for line in lines if line.startswith("v ")], dtype=float)
     except (OSError, ValueError) as error:
         raise Error(f"{file}: {error}") from error
-    return vertices, "\n".join(line for line in lines if not line.startswith("v "))
+    return np.array([vertices.min(axis=0), vertices.max(axis=0)])

@@ -57,6 +57,12 @@ class Route:
     ------
     Error : the vessel has no such end or branch; the line lists those that there are.
 
+    Attributes
+    ----------
+    left : (n,), of each point of the centreline the way to the target, units.
+    until_end : (n,), the way to the nearest end downstream, units.
+    is_beyond : (n,), whether it is downstream of the target.
+
     Notes
     -----
     A point p belongs to the sphere of the centreline with the least |p - c|^2 - r^2, as in the runner's summary.
@@ -90,6 +96,18 @@ class Route:
         has_child[parents[parents >= 0]] = True
         self._outlets = {int(k): self.points[k] - self.points[parents[k]] for k in np.flatnonzero(~has_child)
                          if parents[k] >= 0}
+        self.until_end = np.full(len(parents), np.inf)    # to the nearest end downstream
+        self.is_beyond = np.zeros(len(parents), dtype=bool)    # of the target
+        self.until_end[list(self._outlets)] = 0.0
+        spans = np.linalg.norm(self.points - self.points[np.maximum(parents, 0)], axis=1)
+        self._downstream = self.points - self.points[np.maximum(parents, 0)]
+        for root in np.flatnonzero(parents < 0):
+            self._downstream[root] = self.points[int(np.argmax(parents == root))] - self.points[root]
+        self._downstream /= np.maximum(np.linalg.norm(self._downstream, axis=1), 1e-300)[:, None]
+        for k in range(len(parents) - 1, 0, -1):    # children come after their parents
+            self.until_end[parents[k]] = min(self.until_end[parents[k]], self.until_end[k] + spans[k])
+        for k in range(1, len(parents)):    # which do not go on upstream of a root
+            self.is_beyond[k] = parents[k] == self.target or self.is_beyond[parents[k]]
         self._power = np.einsum("ij,ij->i", self.points, self.points) - self._radii**2
         self.next = parents.copy()
         self.next[self.target] = self.target
@@ -120,6 +138,11 @@ class Route:
         """Return whether a point (3,) is beyond one of the ends but the first, in whose sphere its place is."""
         index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
         return bool(index in self._outlets and (point - self.points[index]) @ self._outlets[index] > 0.0)
+
+    def until_outlet(self, point: np.ndarray) -> float:
+        """Return how far it is from a point (3,) along the centreline to the nearest open end downstream, units."""
+        index = int(np.argmin(self._power - 2.0 * (self.points @ point)))
+        return float(self.until_end[index] - (point - self.points[index]) @ self._downstream[index])
 
     def ahead(self, index: int, distance: float) -> np.ndarray:
         """Return the centreline's point (3,) that is so much nearer to the target, units, or the target."""

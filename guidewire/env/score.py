@@ -61,41 +61,6 @@ def play(environment: Environment, policy: Policy, seed: int) -> Played:
             return Played(seed, total, report, digest_of(environment.session.state), faults)
 
 
-def benchmark_table(rows: Sequence[tuple[str, str, Sequence[Played]]]) -> str:
-    """Return a row for each task and policy: fractions of all episodes; means of time and path ratio over successes, of
-    forces over all."""
-    head = ("task", "policy", "episodes", "success", "safe success", "time s", "path ratio", "largest force N",
-            "of any N", "impulse N s")
-    lines = [head, ("---",) * len(head)]
-    for task, policy, episodes in rows:
-        reports = [one.report for one in episodes]
-        reached = [report for report in reports if report["success"]]
-        of_reached = [f"{np.mean(values):.2f}" if values else "-" for values in (
-            [report["time"] for report in reached], [report["path"] / report["way"] for report in reached])]
-        largest = [report["largest_force"] for report in reports]
-        lines.append((task, policy, str(len(reports)), f"{len(reached) / len(reports):.1%}",
-                      f"{np.mean([report['safe_success'] for report in reports]):.1%}", *of_reached,
-                      f"{np.mean(largest):.3g}", f"{max(largest):.3g}",
-                      f"{np.mean([report['impulse'] for report in reports]):.3g}"))
-    return "\n".join("| " + " | ".join(line) + " |" for line in lines)
-
-
-def table(names: Sequence[str], played: Sequence[Sequence[Played]]) -> str:
-    """Return a row for each policy: fractions of episodes, means over them."""
-    head = ("policy", "episodes", "success", "safe success", "time s", "return", "largest force N", "of any N",
-            "impulse N s", "inserted mm", "retracted mm")
-    rows = [head, ("---",) * len(head)]
-    for name, episodes in zip(names, played):
-        mean = {key: float(np.mean([one.report[key] for one in episodes])) for key in (
-            "success", "safe_success", "time", "largest_force", "impulse", "inserted", "retracted")}
-        largest = max(one.report["largest_force"] for one in episodes)
-        rows.append((name, str(len(episodes)), f"{mean['success']:.1%}", f"{mean['safe_success']:.1%}",
-                     f"{mean['time']:.2f}", f"{np.mean([one.total for one in episodes]):.3f}",
-                     f"{mean['largest_force']:.3g}", f"{largest:.3g}", f"{mean['impulse']:.3g}",
-                     f"{1e3 * mean['inserted']:.0f}", f"{1e3 * mean['retracted']:.0f}"))
-    return "\n".join("| " + " | ".join(row) + " |" for row in rows)
-
-
 def digest(played: Sequence[Played]) -> str:
     """A sum over the ends of all episodes."""
     return hashlib.sha256("".join(one.digest for one in played).encode()).hexdigest()[:16]
@@ -118,7 +83,7 @@ def _faults_of(environment: Environment, report: dict[str, Any], terminated: boo
     # Of a path of length d between two points the chord is at most d; the tip is within a radius of its own place.
     if report["success"] and np.linalg.norm(tip - goal) > scene.tolerance + environment.widest:
         faults.append(f"target reached, and the tip is {np.linalg.norm(tip - goal):.3g} units from it")
-    if report["end"] == "time" and report["time"] < scene.time - 1e-6:
+    if report["end"] == "time" and not scene.time - environment.drive.step_time < report["time"] <= scene.time + 1e-6:
         faults.append(f"out of time after {report['time']:g} s of {scene.time:g} s")
     if not all(np.isfinite(report[key]) for key in ("time", "left", "largest_force", "impulse", "path")):
         faults.append(f"not finite: {report}")

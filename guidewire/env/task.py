@@ -7,9 +7,11 @@ import json
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
-from functools import cache, cached_property
+from functools import cache, cached_property, lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
+
+import numpy as np
 
 from guidewire.env.instruments import of_each
 from guidewire.env.randomisation import bounds_of, check_distribution
@@ -26,7 +28,7 @@ TASKS_FILE = FOLDER / "tasks.json"
 _WIRE = {"wireRadius", "youngsModulus", "shearModulus", "density", "wireSections"}  # what an instrument stands for
 _STEP = 0.14  # s, of a drive as it comes: time steps are to be a fraction of it
 _KEYS = {"summary", "scene", "overrides", "anatomies", "targets", "instruments", "frictions", "tipTurns",
-         "insertion", "time", "tolerance", "speed", "rotation", "follow", "random", "baseline"}
+         "insertion", "time", "tolerance", "hold", "speed", "rotation", "follow", "random", "baseline", "tier"}
 # Of what `random` draws, what is no parameter of the scene by itself.
 _DRAWN = ("friction", "tip_turn", "insertion", "noise", "stiffness", "seed", "type", "warp", "entry")
 # What a task, its `random` or an option may say.
@@ -48,8 +50,9 @@ class Task:
     scene : parameter file; "" where each anatomy has its own.
     overrides : keys that override the scene's.
     anatomies : of each vessel an episode may have: path of its anatomy.json beside which, with no `scene`, is its
-        scene.json; or "make", "type", "seed", "inlet" and "target" of one that is generated when it is first needed;
-        in a file, "seeds" for several of a kind.
+        scene.json; "from", such a path, and "warp", the seed of nine numbers by which its shape is another; or "make",
+        "type", "seed", "inlet" and "target" of one that is generated when it is first needed. In a file, "warps" and
+        "seeds" for several of a kind.
     targets : ends by name or number, or branches with the distance from their beginning; an episode has one.
     instruments : names of a wire that an episode may have, or lists of them, the wire first, then the catheters; none:
         the scene's own.
@@ -58,9 +61,11 @@ class Task:
     insertion : of each hub, or of all, at the start of an episode, m.
     time : simulated time after which an episode is truncated, s.
     tolerance : distance along the centreline at which the target is reached, units.
+    hold : for how long the tip is to stay there, s; 0: it may pass.
     speed, rotation : fastest of each hub, or of all, m/s and rad/s.
     follow : within what distance before the target along the centreline the tip of each catheter is to come, or of all,
         units; None: it need not.
+    tier : "dev", "train" or "test": of the benchmark's held-out vessels none but those of "train" may be trained on.
     baseline : policy that comes with it: "retry", "follow" or "lead"; "": retry, with catheters follow.
     random : distributions by name, drawn for each episode (`randomisation`): "friction", "tip_turn" (rad), "insertion"
         (m) in place of the lists above; "noise" of the drive; "stiffness", a factor on the moduli of a wire without a
@@ -80,11 +85,13 @@ class Task:
     insertion: float | Sequence[float] = 0.0
     time: float = 20.0
     tolerance: float = 3.0
+    hold: float = 0.0
     speed: float | Sequence[float] = 0.02
     rotation: float | Sequence[float] = 3.141592653589793
     follow: float | Sequence[float | None] | None = None
     random: Mapping[str, Any] = field(default_factory=dict)
     baseline: str = ""
+    tier: str = "dev"
 
     @cached_property
     def hubs(self) -> int:
@@ -92,7 +99,8 @@ class Task:
         given = self.overrides.get("catheters")
         if given is None:
             which = self.anatomies[0]
-            file = self.scene or (None if isinstance(which, Mapping) else Path(which).with_name("scene.json"))
+            which = which.get("from") if isinstance(which, Mapping) else which
+            file = self.scene or (which and Path(which).with_name("scene.json"))
             given = _scene(Path(file)).get("catheters") if file else None
         return 1 + len(given or ())
 
@@ -104,6 +112,7 @@ class Task:
         Error : a file is missing, or is no JSON; the scene cannot have what was drawn.
         """
         which = self.anatomies[draw.anatomy]
+        which = which["from"] if isinstance(which, Mapping) and "from" in which else which
         made = {key: draw.random[key] for key in ("seed", "type") if key in draw.random}
         if made and not isinstance(which, Mapping):
             raise Error(f"random \"{next(iter(made))}\" is not allowed: {which} is a file, not a vessel that is "
@@ -144,10 +153,41 @@ class Task:
         return scene | drawn, anatomy
 
 
+    @cached_property
+    def by_way(self) -> list[int]:
+        """Return the numbers of the targets, the one with the shortest way from the inlet first, in the first
+        vessel."""
+        from guidewire.env.draws import Draw
+        from guidewire.env.route import Route
+
+        first = Draw(0, 0, self.instruments[0] if self.instruments else None, 0.0, 0.0, self.insertion)
+        which = self.anatomies[0]
+        if isinstance(which, Mapping) and "from" not in which:    # with a seed of its own in each episode
+            return list(range(len(self.targets)))
+        scene, anatomy = self.scene_of(first)
+        inlet = next((end["point"] for end in anatomy["ends"] if str(scene.get("inlet", "")).lower() in (
+            str(end["number"]), end["name"].lower())), 0)
+        ways = [float(Route(anatomy, target).left[inlet]) for target in self.targets]
+        return sorted(range(len(ways)), key=ways.__getitem__)
+
+    def shape_of(self, draw: Draw) -> dict[str, Any]:
+        """Return "warp" and "entry" of an episode, as of `reshaped`."""
+        shape = {name: draw.random[name] for name in ("warp", "entry") if name in draw.random}
+        which = self.anatomies[draw.anatomy]
+        if isinstance(which, Mapping) and "warp" in which:
+            own = np.random.default_rng(which["warp"]).uniform(-1.0, 1.0, 9)
+            shape["warp"] = np.clip(own + shape.get("warp", 0.0), -1.0, 1.0).tolist()
+        return shape
+
+
 @cache
-def all_tasks() -> Mapping[str, Task]:
-    """The tasks that ship, by name."""
+def _shipped() -> Mapping[str, Task]:
     return {name: _task(name, entry, TASKS_FILE) for name, entry in _read(TASKS_FILE).items()}
+
+
+def all_tasks(tier: str | None = "dev") -> Mapping[str, Task]:
+    """Return the tasks that ship, by name: of a tier, "dev", "train" or "test", or None for all."""
+    return {name: task for name, task in _shipped().items() if tier in (None, task.tier)}
 
 
 def find_task(task: str | Path | Task) -> Task:
@@ -160,7 +200,7 @@ def find_task(task: str | Path | Task) -> Task:
     """
     if isinstance(task, Task):
         return task
-    known = all_tasks()
+    known = all_tasks(None)
     if str(task) in known:
         return known[str(task)]
     path = Path(task)
@@ -197,6 +237,8 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     if not isinstance(catheters, list) or not all(isinstance(one, dict) for one in catheters):
         raise Error(f"{file}: task {name}: overrides: catheters = {json.dumps(catheters)} is not allowed: needs a list "
                     "of objects")
+    if entry.get("tier", "dev") not in ("dev", "train", "test"):
+        raise Error(f"{file}: task {name}: tier = {json.dumps(entry['tier'])} is not allowed: needs dev, train or test")
     if entry.get("baseline", "") not in BASELINES:
         raise Error(f"{file}: task {name}: baseline = {json.dumps(entry['baseline'])} is not allowed: needs one of "
                     f"{', '.join(filter(None, BASELINES))}")
@@ -217,7 +259,7 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
     for key in ("anatomies", "targets", "instruments", "frictions"):
         if not isinstance(entry.get(key, []), list):
             raise Error(f"{file}: task {name}: {key} = {json.dumps(entry[key])} is not allowed: needs a list")
-    for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("speed", 1e-9, 1e9),
+    for key, least, most in (("time", 1e-6, 1e9), ("tolerance", 1e-9, 1e9), ("hold", 0.0, 1e9), ("speed", 1e-9, 1e9),
                              ("rotation", 1e-9, 1e9), ("insertion", *LIMITS["insertion"])):
         given = [entry[key]] if key in entry else []
         for one in given[0] if given and key in _EACH and isinstance(given[0], list) else given:
@@ -275,6 +317,13 @@ def _vessels(anatomy: Any, task: str, file: Path) -> list[Any]:
     if not isinstance(anatomy, dict):
         raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: needs files, or vessels to be made")
     seeds = anatomy.get("seeds", [anatomy.get("seed")])
+    if "from" in anatomy:
+        warps = anatomy.get("warps", [anatomy.get("warp")])
+        is_list = isinstance(warps, list) and warps and all(type(seed) is int and seed >= 0 for seed in warps)
+        if not is_list or not isinstance(anatomy["from"], str) or not set(anatomy) <= {"from", "warp", "warps"}:
+            raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: a vessel of another shape needs "
+                        "from, a file, and warp or warps, whole numbers from 0")
+        return [{"from": _beside(file, anatomy["from"]), "warp": seed} for seed in warps]
     is_list = isinstance(seeds, list) and seeds and all(type(seed) is int and seed >= 0 for seed in seeds)
     if not is_list or "seeds" in anatomy and "seed" in anatomy or not {"make", "inlet", "target"} <= set(anatomy):
         raise Error(f"{file}: task {task}: anatomies has {json.dumps(anatomy)}: a generated vessel needs make, inlet, "
@@ -303,6 +352,16 @@ def _scene(file: Path) -> dict[str, Any]:
 
 
 def _read(file: Path) -> Any:
+    """What stands in a file, which nobody changes: an episode's reset asks again for the last ones."""
+    try:
+        status = file.stat()
+    except OSError as error:
+        raise Error(f"{file}: {error.strerror}") from error
+    return _parsed(file, status.st_mtime_ns, status.st_size)
+
+
+@lru_cache(maxsize=16)
+def _parsed(file: Path, _time: int, _size: int) -> Any:
     try:
         text = file.read_text(encoding="utf-8-sig")
         return without_notes(json.loads(text))

@@ -77,19 +77,10 @@ class Session:
         self._head = (0, 0.0, 0.0)    # of the newest: steps, time, prediction error
         self._layout: dict[str, tuple[int, ...]] = {}
         try:
-            asked: dict[str, Any] = {"set": overrides, "hand": hand}
-            if file is not None:
-                asked["parameters"] = str(file)
-            answer = self._ask("open", **asked)
+            self._open(file, hand, overrides)
         except BaseException:
             self.close()
             raise
-        self.parameters: Mapping[str, Any] = answer["effective"]
-        self.hand: bool = answer["hand"]
-        self.hubs = 1 + sum(re.fullmatch(r"catheter\d+", name) is not None for name in answer)
-        self._take(answer)
-        for line in answer["warnings"]:
-            warnings.warn(line, stacklevel=2)
 
     @property
     def is_open(self) -> bool:
@@ -165,6 +156,26 @@ class Session:
             positions.append(state.positions)
             directors.append(state.directors)
         return Frames(np.array(times), np.stack(positions), np.stack(directors), state.outcome, state.reason)
+
+    def reopen(self, file: str | Path | None = None, hand: bool | None = None, **overrides: Any) -> State:
+        """Begin another run in place of this one, with the bits of a new session; arguments, errors and warnings as of
+        that. What it has of the same mesh, wherever that is placed, is not read again."""
+        with self._lock:
+            self._leave()
+            return self._open(file, hand, overrides)
+
+    def _open(self, file: str | Path | None, hand: bool | None, overrides: Mapping[str, Any]) -> State:
+        asked: dict[str, Any] = {"set": overrides, "hand": hand}
+        if file is not None:
+            asked["parameters"] = str(file)
+        answer = self._ask("open", **asked)
+        self.parameters: Mapping[str, Any] = answer["effective"]
+        self.hand: bool = answer["hand"]
+        self.hubs = 1 + sum(re.fullmatch(r"catheter\d+", name) is not None for name in answer)
+        state = self._take(answer)
+        for line in answer["warnings"]:
+            warnings.warn(line, stacklevel=3)
+        return state
 
     def reset(self) -> State:
         """Go back to the start."""

@@ -12,7 +12,7 @@ import os
 import subprocess
 import sys
 import threading
-from collections.abc import Mapping, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -253,12 +253,18 @@ def lanes(path: Path) -> int:
     return _load(str(path)).guidewire_lanes()
 
 
+@cache
+def _found(find: Callable[[], Path | None]) -> Path | None:
+    """Return what it finds, asked once in a process: to compare 700 sources takes as long as to open a session."""
+    return find()
+
+
 def host_of(native: bool | None) -> Library | Process:
     """Return what simulates: the native library where it has been built and is not refused, else a process."""
     reason = "" if native is False else obstacle()
     if native and reason:
         raise SessionError(reason)
-    library = None if native is False or reason else building.native_library()
+    library = None if native is False or reason else _found(building.native_library)
     if library is None and native:
         raise SessionError(f"the native library is not built from these sources: '{DOOR} native' builds it")
     if library is not None:

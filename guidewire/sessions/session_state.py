@@ -210,10 +210,15 @@ class State:
         SessionError : as `Session.picture`; or the state has left its session behind (closed, or copied to another
             process).
         """
+        return self.session.picture_of(*self.drawn, **view)
+
+    @property
+    def session(self) -> Any:
+        """Return the session that it is a state of. Raises SessionError where it has left that behind."""
         session = self._session()
         if session is None:
             raise SessionError("this state has no session that could take a picture")
-        return session.picture_of(*self.drawn, **view)
+        return session
 
     @property
     def drawn(self) -> tuple[list[np.ndarray], list[np.ndarray]]:

@@ -14,7 +14,7 @@ namespace Guidewire.Browser
     internal static partial class Exports
     {
         private const int Head = 4;
-        private static readonly NativeSession Session = new NativeSession();
+        private static readonly NativeSession Session = new NativeSession(new KeptMeshes(1));
         private static double[] _numbers = new double[1024];
 
         /// <summary>Says where the program stands: the folder of instruments is below it.</summary>

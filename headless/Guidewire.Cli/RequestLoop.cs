@@ -18,8 +18,9 @@ namespace Guidewire.Cli
         public static int Serve(TextReader input, TextWriter output,
             Func<RunRequest, ParameterHandler, RunResult> execute, Func<bool> stopRequested)
         {
-            var sessions = new SessionHost(stopRequested);
-            var mesh = new LastMesh();
+            var meshes = new KeptMeshes(SessionHost.MeshesKept);
+            var sessions = new SessionHost(stopRequested, meshes);
+            var mesh = new LastMesh(meshes);
             string? line;
             while (!stopRequested() && (line = input.ReadLine()) != null)
             {

@@ -13,7 +13,11 @@ namespace Guidewire.Cli
     /// bits.</summary>
     internal sealed class SessionHost
     {
+        /// <summary>Meshes that a process keeps for its sessions: of the few vessels that one after another has.</summary>
+        public const int MeshesKept = 6;
+
         private readonly Func<bool> _stopRequested;
+        private readonly LastMesh _mesh;       // for the sessions that are opened here one after another
         private SimulationSession? _session;
         private readonly SessionState _state = new SessionState();
         private byte[] _bytes = Array.Empty<byte>();
@@ -22,9 +26,11 @@ namespace Guidewire.Cli
         private readonly List<Vector3d[]> _displacements = new List<Vector3d[]>();
 
         /// <param name="stopRequested">Asked before every step.</param>
-        public SessionHost(Func<bool> stopRequested)
+        /// <param name="meshes">Meshes that other sessions have read, too.</param>
+        public SessionHost(Func<bool> stopRequested, KeptMeshes meshes)
         {
             _stopRequested = stopRequested;
+            _mesh = new LastMesh(meshes);
         }
 
         /// <summary>Does what a request asks for and fills its answer.</summary>
@@ -35,7 +41,7 @@ namespace Guidewire.Cli
             {
                 case "open":
                     _pictures = null;
-                    _session = SimulationSession.Open(request.ParameterFile, request.Overrides, request.Hand);
+                    _session = SimulationSession.Open(request.ParameterFile, request.Overrides, request.Hand, _mesh);
                     answer["hand"] = _session.IsSteered;
                     answer["warnings"] = new JArray(_session.Warnings);
                     answer["effective"] = _session.EffectiveParameters;

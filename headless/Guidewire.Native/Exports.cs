@@ -16,6 +16,8 @@ namespace Guidewire.Native
         private static readonly ConcurrentDictionary<long, NativeSession> Sessions =
             new ConcurrentDictionary<long, NativeSession>();
 
+        private static readonly KeptMeshes Meshes = new KeptMeshes(SessionHost.MeshesKept);
+
         private static long _last;
 
         /// <summary>A session, which "open" then opens; returns its number.</summary>
@@ -23,7 +25,7 @@ namespace Guidewire.Native
         public static long New()
         {
             long number = Interlocked.Increment(ref _last);
-            Sessions[number] = new NativeSession();
+            Sessions[number] = new NativeSession(Meshes);
             return number;
         }
 
@@ -89,9 +91,16 @@ namespace Guidewire.Native
                     new Span<byte>(grey, capacity)) : 0;
         }
 
-        /// <summary>Forgets a session.</summary>
+        /// <summary>Forgets a session, with the last one the meshes.</summary>
         [UnmanagedCallersOnly(EntryPoint = "guidewire_close")]
-        public static void Close(long number) => Sessions.TryRemove(number, out _);
+        public static void Close(long number)
+        {
+            Sessions.TryRemove(number, out _);
+            if (Sessions.IsEmpty)
+            {
+                Meshes.Clear();
+            }
+        }
 
         /// <summary>Does what the console program does with these arguments; returns its exit code.</summary>
         /// <param name="count">How many there are.</param>

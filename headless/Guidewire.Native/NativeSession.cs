@@ -11,10 +11,16 @@ namespace Guidewire.Native
     /// <summary>One session of the library. One thread asks it at a time.</summary>
     internal sealed class NativeSession
     {
-        private readonly SessionHost _host = new SessionHost(() => false);
+        private readonly SessionHost _host;
         private readonly SessionState _state = new SessionState();
         private PictureView _picture = new PictureView();
         private byte[] _view = Array.Empty<byte>();    // the text of it
+
+        /// <param name="meshes">Meshes that other sessions have read, too.</param>
+        public NativeSession(KeptMeshes meshes)
+        {
+            _host = new SessionHost(() => false, meshes);
+        }
 
         /// <summary>The answer for a number that no session has.</summary>
         public static string Closed => Refusal(ExitCodes.BadInput, "request: this session is closed");

@@ -67,6 +67,15 @@ def test_wrappers_go_over_several(tube, wrap):
     played(wrap(VectorEnvironment(tube, 2, observation=FLAT)))
 
 
+def test_a_spec_is_json_with_its_options_and_makes_the_same_environment():
+    from gymnasium.envs.registration import EnvSpec
+
+    with gymnasium.make("guidewire/artery-v0", observation={"flat": True}, drive={"actions": "discrete"}) as made:
+        with gymnasium.make(EnvSpec.from_json(made.spec.to_json())) as again:
+            assert again.observation_space == made.observation_space and again.action_space == made.action_space
+        assert made.spec.max_episode_steps == 70 and made.spec.reward_threshold == pytest.approx(1.804)
+
+
 def test_stable_baselines_checks_and_learns(tube):
     stable = pytest.importorskip("stable_baselines3", reason="stable_baselines3 is not installed")
     from stable_baselines3.common.env_checker import check_env as check

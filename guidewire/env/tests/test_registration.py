@@ -10,8 +10,8 @@ import pytest
 
 from guidewire.env import Reward, all_tasks, command, registration
 from guidewire.env.environment import Environment
-from guidewire.env.score import benchmark_table, play
 from guidewire.env.spaces import Error
+from guidewire.env.task import find_task
 from guidewire.env.tests.environment_cases import tube  # noqa: F401
 from guidewire.prepare import ROOT
 
@@ -57,8 +57,11 @@ def test_each_task_has_a_name_by_which_what_it_names_is_made(monkeypatch, tube):
         monkeypatch.setitem(sys.modules, name, one)
     registration.register()
     registration.register()
-    assert set(registered) == {f"guidewire/{name}-v0" for name in all_tasks()}
+    assert set(registered) == {f"guidewire/{name}-v0" for name in all_tasks(None)}
     for known in registered.values():
+        task = find_task(known["kwargs"]["task"])
+        assert known["max_episode_steps"] == pytest.approx(task.time / 0.14, abs=0.01)    # as the environment truncates
+        assert known["reward_threshold"] == pytest.approx(2.0 - 0.02 * task.time)
         home, _, name = known["entry_point"].partition(":")
         assert getattr(importlib.import_module(home), name) is Environment
         home, _, name = known["vector_entry_point"].partition(":")
@@ -81,7 +84,7 @@ def test_names_are_there_once_both_are_imported_and_neither_imports_the_other(sc
              "print(spaces.Env is gymnasium.Env, spaces.Box is gymnasium.spaces.Box, *registration.registry)")
     done = subprocess.run([sys.executable, "-c", script + shown], capture_output=True, text=True, check=False,
                           env={**os.environ, "PYTHONPATH": os.pathsep.join((str(ROOT), str(tmp_path)))})
-    names = [f"guidewire/{name}-v0" for name in all_tasks()]
+    names = [f"guidewire/{name}-v0" for name in all_tasks(None)]
     assert (done.stdout.split(), done.stderr) == (["True", "True", *names], "")
 
 
@@ -91,18 +94,6 @@ def test_gymnasium_makes_what_is_registered():
     with gymnasium.make("guidewire/artery-v0", safe_force=1.0) as made:
         assert made.unwrapped.safe_force == 1.0 and made.reset(seed=1)[1]["draw"]
     gymnasium.make_vec("guidewire/artery-v0", num_envs=2, vectorization_mode="vector_entry_point").close()
-
-
-def test_a_table_of_a_benchmark_counts_what_reports_say(tube):
-    with Environment(tube, **Forwards.options) as own:
-        played = [play(own, Forwards(own), seed) for seed in (1, 2)]
-    head, _, row = benchmark_table([("tube", "forwards", played)]).splitlines()
-    cells = dict(zip((one.strip() for one in head.split("|")), (one.strip() for one in row.split("|"))))
-    reached = [one.report for one in played if one.report["success"]]
-    assert len(reached) > 0 and cells["success"] == f"{len(reached) / 2:.1%}" and cells["episodes"] == "2"
-    ratio = sum(one["path"] / one["way"] for one in reached) / len(reached)
-    assert float(cells["path ratio"]) == pytest.approx(ratio, abs=0.006)
-    assert float(cells["of any N"]) == pytest.approx(max(one.report["largest_force"] for one in played), rel=0.01)
 
 
 def test_a_policy_is_given_by_its_module_and_name():

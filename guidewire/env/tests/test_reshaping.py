@@ -5,6 +5,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from scipy.spatial import cKDTree
 
 from guidewire.env import Environment
 from guidewire.env.reshaping import STRAIN, Field, reshaped
@@ -12,6 +13,7 @@ from guidewire.env.spaces import Error
 from guidewire.env.task import FOLDER
 from guidewire.env.tests.environment_cases import tube  # noqa: F401
 from guidewire.env.vessels import made_vessel
+from guidewire.sessions.session import Session
 
 ARCH = FOLDER / "vessels" / "arch-2"
 WARP = [0.9, -1.0, 0.8, -0.7, 1.0, -0.9, 1.0, 0.6, -1.0]
@@ -19,10 +21,6 @@ WARP = [0.9, -1.0, 0.8, -0.7, 1.0, -0.9, 1.0, 0.6, -1.0]
 
 def vertices_of(file):
     return np.array([line.split()[1:] for line in Path(file).read_text().splitlines() if line[:2] == "v "], float)
-
-
-def faces_of(file):
-    return [line for line in Path(file).read_text().splitlines() if line[:1] == "f"]
 
 
 @pytest.fixture(scope="module")
@@ -36,7 +34,7 @@ def moved(tmp_path_factory):
 def test_a_field_has_the_gradient_of_its_points_and_joins_no_two():
     random = np.random.default_rng(1)
     points = random.uniform(-50.0, 150.0, (200, 3))
-    field = Field(points, WARP)
+    field = Field(np.array([points.min(axis=0), points.max(axis=0)]), WARP)
     step = 1e-4 * np.eye(3)
     numeric = np.stack([(field.moved(points + one) - field.moved(points - one)) / 2e-4 for one in step], axis=2)
     np.testing.assert_allclose(field.gradients(points), numeric, atol=1e-9)
@@ -54,14 +52,17 @@ def test_spheres_of_a_moved_centreline_fit_its_moved_wall(moved):
     from guidewire.anatomy.surfaces import distances
 
     scene, anatomy, before = moved
-    wall = vertices_of(scene["vessel"]["file"])
-    triangles = np.array([line.split()[1:] for line in faces_of(scene["vessel"]["file"])], int) - 1
-    assert faces_of(scene["vessel"]["file"]) == faces_of(ARCH / "vessel.obj")
-    assert len(wall) == len(vertices_of(ARCH / "vessel.obj"))
+    rest = json.loads((ARCH / "scene.json").read_text())
+    with Session(None, hand=True, **{**rest, "vessel": {**rest["vessel"], **scene["vessel"]}}) as session:
+        (wall,) = session.walls()
+    vertices = vertices_of(ARCH / "vessel.obj")
+    expected = Field(np.array([vertices.min(axis=0), vertices.max(axis=0)]), WARP).moved(vertices)
+    assert len(wall.vertices) == len(vertices)
+    assert cKDTree(wall.vertices).query(expected)[0].max() < 1e-9, "the core moves the mesh by the same field"
     spheres, plain = (np.array(one["centreline"]["points"])[::5] for one in (anatomy, before))
     inner = np.all([np.linalg.norm(plain[:, :3] - end["centre"], axis=1) > 1.5 * end["radius"]
                     for end in before["ends"]], axis=0)
-    away = distances(spheres[inner, :3], Mesh(wall, triangles))
+    away = distances(spheres[inner, :3], Mesh(wall.vertices, wall.triangles))
     error = np.abs(spheres[inner, 3] / away - 1.0)
     # Where a branch leaves, its first spheres touch both walls, and not across the branch's own beginning.
     assert np.median(error) < 0.005 and np.quantile(error, 0.8) < 0.03 and error.max() < 0.12
@@ -71,8 +72,8 @@ def test_spheres_of_a_moved_centreline_fit_its_moved_wall(moved):
 
 def test_the_wire_enters_by_the_angle_that_was_drawn(moved):
     scene, anatomy, before = moved
-    plain = reshaped(scene, before, None, [0.0, 0.0], Path(scene["vessel"]["file"]).parent)[1]
-    tilted = reshaped(scene, before, None, [3.0, -4.0], Path(scene["vessel"]["file"]).parent)[1]
+    plain = reshaped(scene, before, None, [0.0, 0.0], Path(scene["vessel"]["anatomy"]).parent)[1]
+    tilted = reshaped(scene, before, None, [3.0, -4.0], Path(scene["vessel"]["anatomy"]).parent)[1]
     was, now = (np.array(one["ends"][1]["direction"]) for one in (plain, tilted))
     assert np.degrees(np.arccos(was @ now)) == pytest.approx(5.0, abs=1e-4)
     assert plain["ends"] == before["ends"] and tilted["ends"][0] == before["ends"][0]
@@ -86,7 +87,7 @@ def test_a_task_draws_shapes_that_options_repeat_and_refuses_wrong_ones():
         first = own.session_state.positions
         np.testing.assert_array_equal(other.reset(options=drawn)[0]["tip"], own._seen()["tip"])
         np.testing.assert_array_equal(other.session_state.positions, first)
-        folder = Path(own.scene["vessel"]["file"]).parent
+        folder = Path(own.scene["vessel"]["anatomy"]).parent
         assert folder.is_dir()
         for wrong, said in (({"warp": [0.5] * 8}, "9 numbers"), ({"warp": [2.0] * 9}, "-1 to 1"),
                             ({"entry": [40.0, 0.0]}, "-30 to 30")):

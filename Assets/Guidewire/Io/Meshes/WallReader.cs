@@ -77,7 +77,7 @@ namespace Guidewire.Io
                         return Tube(fields, scene, placement);
                     case "mesh":
                         Allow(fields, "file", "metresPerUnit", "openRims",
-                            "anatomy", SoftnessReader.Regions, Sha256);
+                            "warp", "anatomy", SoftnessReader.Regions, Sha256);
                         return Mesh(fields, scene, placement, fileSource, from);
                     default:
                         throw fields.Wrong("shape", "one of \"plane\", \"tube\", \"mesh\"");
@@ -175,7 +175,7 @@ namespace Guidewire.Io
                 rims = anatomy.OpenRims;
             }
             LastMesh last = from.Mesh ?? new LastMesh();
-            MeshShape wall = last.Read(file, scale, rims, placement, held);
+            MeshShape wall = last.Read(file, scale, rims, placement, held, Warp(fields));
             // The parameters of a run carry the sum of its vessel: who reads the run sees no other vessel.
             string stated = fields.Text(Sha256);
             if (stated.Length > 0 && stated != last.Sha256)
@@ -184,6 +184,17 @@ namespace Guidewire.Io
             }
             fields.Replace(Sha256, last.Sha256);
             return wall;
+        }
+
+        private static SmoothWarp? Warp(JsonFields fields)
+        {
+            if (!fields.Has("warp"))
+            {
+                return null;
+            }
+            double[] coefficients = fields.Numbers("warp", 9);
+            return coefficients.Length == 9 && Array.TrueForAll(coefficients, one => Math.Abs(one) <= 1.0)
+                ? new SmoothWarp(coefficients) : throw fields.Wrong("warp", "nine numbers from -1 to 1");
         }
 
         private static ContactShape Obstacle(JsonFields fields)

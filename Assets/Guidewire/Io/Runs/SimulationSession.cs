@@ -99,10 +99,10 @@ namespace Guidewire.Io
             Open(file, CommandLineHandler.ReadAssignments(overrides), isSteered);
 
         internal static SimulationSession Open(string? file, IEnumerable<KeyValuePair<string, JToken>> overrides,
-            bool? isSteered)
+            bool? isSteered, LastMesh? mesh = null)
         {
             var given = new List<KeyValuePair<string, JToken>>(overrides);
-            ParameterSource from = ParameterSource.OfRequest(file, new LastMesh());
+            ParameterSource from = ParameterSource.OfRequest(file, mesh ?? new LastMesh());
             ParameterHandler handler = ParameterHandler.Load(from, given, isSteered == true);
             MethodParameters method = handler.Values.Simulation.Method;
             MethodTraits traits = MethodTable.Of(method.Solver);

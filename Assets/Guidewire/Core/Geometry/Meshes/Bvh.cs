@@ -8,6 +8,7 @@ namespace Guidewire.Core
     internal sealed class Bvh
     {
         private const int StackSize = 96;
+        private const int LargestPatch = 64;   // triangles: more of them are not flat enough for a slab of their own
         private const double RoundedUp = 1.0 + 1e-9;
         private readonly BvhNode[] _nodes;
         private readonly int[] _order;
@@ -53,6 +54,27 @@ namespace Guidewire.Core
             Refit(corners);
         }
 
+        private Bvh(Bvh other, Vector3d[] corners, Vector3d[]? normals)
+        {
+            _givenNormals = normals;
+            _nodes = (BvhNode[])other._nodes.Clone();
+            (_order, _leaf) = (other._order, other._leaf);
+            _corners = new Vector3d[corners.Length];
+            _normals = new Vector3d[_nodes.Length];
+            _from = new int[_nodes.Length];
+            _count = new int[_nodes.Length];
+            Refit(corners);
+#if NET8_0_OR_GREATER
+            _wide = WideBvh.IsSupported ? new WideBvh(other.Wide, _nodes) : null;
+#endif
+        }
+
+        /// <summary>A tree of the same topology over the same triangles elsewhere; both may be queried at
+        /// once.</summary>
+        /// <param name="corners">Three a triangle, units.</param>
+        /// <param name="normals">As of the constructor.</param>
+        public Bvh Over(Vector3d[] corners, Vector3d[]? normals = null) => new Bvh(this, corners, normals);
+
         /// <summary>All triangles, those of a node one after another.</summary>
         public int[] Order => _order;
 
@@ -83,7 +105,14 @@ namespace Guidewire.Core
                     _count[i] = _count[left] + _count[left + 1];
                     _normals[i] = _normals[left] + _normals[left + 1];
                 }
-                node.EncloseSlab(_normals[i], _corners, 3 * _from[i], 3 * _count[i]);
+                if (_count[i] <= LargestPatch)
+                {
+                    node.EncloseSlab(_normals[i], _corners, 3 * _from[i], 3 * _count[i]);
+                }
+                else
+                {
+                    node.EncloseSlabOfBox(_normals[i]);
+                }
             }
 #if NET8_0_OR_GREATER
             _wide?.Refit(_nodes);

@@ -77,6 +77,17 @@ namespace Guidewire.Core
             High += border;
         }
 
+        /// <summary>Makes the slab hold all of the box.</summary>
+        public void EncloseSlabOfBox(in Vector3d normal)
+        {
+            Normal = Vector3d.Normalize(normal);
+            double middle = Vector3d.Dot(Normal, Centre);
+            double half = Math.Abs(Normal.X) * Extent.X + Math.Abs(Normal.Y) * Extent.Y
+                + Math.Abs(Normal.Z) * Extent.Z + 1e-15 * (Centre.Length + Extent.Length);
+            Low = middle - half;
+            High = middle + half;
+        }
+
         /// <summary>Is true where two boxes share a point.</summary>
         [MethodImpl(MethodImplOptions.AggressiveInlining)]
         public readonly bool Overlaps(in BvhNode other)

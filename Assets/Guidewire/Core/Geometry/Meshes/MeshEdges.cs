@@ -80,9 +80,12 @@ namespace Guidewire.Core
             Vector3d first = _mesh.FaceNormals[edge / 3];
             Vector3d second = _mesh.FaceNormals[twin / 3];
             int opposite = 3 * (twin / 3) + (twin % 3 + 2) % 3;
-            bool bulges = Vector3d.Dot(_mesh.Corners[opposite] - _mesh.Corners[edge], first) < 0.0;
+            if (!(Vector3d.Dot(_mesh.Corners[opposite] - _mesh.Corners[edge], first) < 0.0))
+            {
+                return 0.0;
+            }
             double angle = Math.Atan2(Vector3d.Cross(first, second).Length, Vector3d.Dot(first, second));
-            return bulges && angle > MinAngle ? angle : 0.0;
+            return angle > MinAngle ? angle : 0.0;
         }
     }
 }

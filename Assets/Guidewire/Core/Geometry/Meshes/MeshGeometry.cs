@@ -12,10 +12,13 @@ namespace Guidewire.Core
         private readonly int[] _twin;             // half-edge in the opposite direction, -1 at a rim
         private readonly int[] _halfEdgeOfVertex;
         private readonly bool[] _isRimVertex;
-        private readonly Vector3d[] _vertices;
+        private readonly int[] _firstAround;      // of a vertex's half-edges in the next array
+        private readonly int[] _around;           // half-edges by the vertex at which they start, in their order
         private readonly Vector3d[] _corners;
         private readonly Vector3d[] _faceNormals;
-        private readonly Vector3d[] _vertexNormals;
+        private readonly Vector3d[] _vertexNormals;    // 0 where it was not asked for yet
+        private readonly MeshGeometry? _other;    // the same mesh before its placement
+        private Bvh? _tree;
         private bool _mirrored;
 
         /// <summary>Makes the mesh, with a fan over each open rim or without.</summary>
@@ -44,16 +47,34 @@ namespace Guidewire.Core
                     _isRimVertex[_triangles[HalfEdges.Next(halfEdge)]] = true;
                 }
             }
-            _vertices = new Vector3d[_rest.Length];
+            SortByVertex(out _firstAround, out _around);
             _corners = new Vector3d[_triangles.Length];
             _faceNormals = new Vector3d[_triangles.Length / 3];
             _vertexNormals = new Vector3d[_rest.Length];
             Update(placement);
-            Tree = new Bvh(_corners);
         }
 
+        private MeshGeometry(MeshGeometry other, in Placement placement, SmoothWarp? warp)
+        {
+            _rest = warp?.Apply(other._rest) ?? other._rest;
+            (_triangles, _twin) = (other._triangles, other._twin);
+            (_halfEdgeOfVertex, _isRimVertex) = (other._halfEdgeOfVertex, other._isRimVertex);
+            (_firstAround, _around, _other) = (other._firstAround, other._around, other);
+            _corners = new Vector3d[_triangles.Length];
+            _faceNormals = new Vector3d[_triangles.Length / 3];
+            _vertexNormals = new Vector3d[_rest.Length];
+            Update(placement);
+        }
+
+        /// <summary>The same mesh elsewhere, for another run: what does not depend on the placement is shared, and both
+        /// may be queried at once.</summary>
+        /// <param name="placement">Where.</param>
+        /// <param name="warp">What moves its vertices before that; null: nothing.</param>
+        public MeshGeometry At(in Placement placement, SmoothWarp? warp = null) =>
+            new MeshGeometry(this, placement, warp);
+
         /// <summary>The hierarchy over the placed triangles.</summary>
-        public Bvh Tree { get; }
+        public Bvh Tree => _tree ??= _other?.Tree.Over(_corners) ?? new Bvh(_corners);
 
         /// <summary>Corners of triangle t, at 3 t to 3 t + 2, units.</summary>
         public Vector3d[] Corners => _corners;
@@ -101,7 +122,7 @@ namespace Guidewire.Core
         public void Place(in Placement placement)
         {
             Update(placement);
-            Tree.Refit(_corners);
+            _tree?.Refit(_corners);
         }
 
         /// <summary>The contact of point x with the feature on which its nearest point c lies.</summary>
@@ -130,7 +151,7 @@ namespace Guidewire.Core
             {
                 int vertex = _triangles[3 * triangle + feature - ClosestPoints.Corner];
                 isRim = _isRimVertex[vertex];
-                return _vertexNormals[vertex];
+                return NormalOfVertex(vertex);
             }
             int twin = _twin[3 * triangle + feature - ClosestPoints.Edge];
             isRim = twin < 0;
@@ -141,31 +162,59 @@ namespace Guidewire.Core
         private void Update(in Placement placement)
         {
             _mirrored = placement.Mirrors;
-            for (int i = 0; i < _rest.Length; i++)
+            var vertices = new Vector3d[_rest.Length];
+            for (int i = 0; i < vertices.Length; i++)
             {
-                _vertices[i] = placement.Apply(_rest[i]);
-                _vertexNormals[i] = Vector3d.Zero;
+                vertices[i] = placement.Apply(_rest[i]);
             }
+            Array.Clear(_vertexNormals, 0, _vertexNormals.Length);
             for (int t = 0; t < _faceNormals.Length; t++)
             {
-                for (int k = 0; k < 3; k++)
+                for (int k = 3 * t; k < 3 * t + 3; k++)
                 {
-                    _corners[3 * t + k] = _vertices[_triangles[3 * t + k]];
+                    _corners[k] = vertices[_triangles[k]];
                 }
                 Vector3d normal = Vector3d.Normalize(Vector3d.Cross(
                     _corners[3 * t + 1] - _corners[3 * t], _corners[3 * t + 2] - _corners[3 * t]));
                 _faceNormals[t] = _mirrored ? -normal : normal;
-                for (int k = 0; k < 3; k++)
-                {
-                    double angle = Angle(
-                        _corners[3 * t + (k + 1) % 3] - _corners[3 * t + k],
-                        _corners[3 * t + (k + 2) % 3] - _corners[3 * t + k]);
-                    _vertexNormals[_triangles[3 * t + k]] += angle * _faceNormals[t];
-                }
             }
-            for (int i = 0; i < _vertexNormals.Length; i++)
+        }
+
+        // The sum of the faces' normals around it, each weighted by its angle there. A run asks for a few of them.
+        private Vector3d NormalOfVertex(int vertex)
+        {
+            if (_vertexNormals[vertex].LengthSquared > 0.0)
             {
-                _vertexNormals[i] = Vector3d.Normalize(_vertexNormals[i]);
+                return _vertexNormals[vertex];
+            }
+            Vector3d sum = Vector3d.Zero;
+            for (int at = _firstAround[vertex]; at < _firstAround[vertex + 1]; at++)
+            {
+                int t = _around[at] / 3;
+                int k = _around[at] % 3;
+                double angle = Angle(_corners[3 * t + (k + 1) % 3] - _corners[3 * t + k],
+                    _corners[3 * t + (k + 2) % 3] - _corners[3 * t + k]);
+                sum += angle * _faceNormals[t];
+            }
+            return _vertexNormals[vertex] = Vector3d.Normalize(sum);
+        }
+
+        private void SortByVertex(out int[] first, out int[] around)
+        {
+            first = new int[_rest.Length + 1];
+            foreach (int vertex in _triangles)
+            {
+                first[vertex + 1]++;
+            }
+            for (int vertex = 0; vertex < _rest.Length; vertex++)
+            {
+                first[vertex + 1] += first[vertex];
+            }
+            around = new int[_triangles.Length];
+            int[] next = (int[])first.Clone();
+            for (int halfEdge = 0; halfEdge < _triangles.Length; halfEdge++)
+            {
+                around[next[_triangles[halfEdge]]++] = halfEdge;
             }
         }
 

@@ -20,7 +20,11 @@ namespace Guidewire.Core
         private readonly StructList<int> _found = new StructList<int>(256);
 
         /// <summary>Searches this mesh at its placement.</summary>
-        public MeshNearby(MeshGeometry mesh, MeshEdges edgeContacts)
+        /// <param name="mesh">Its triangles.</param>
+        /// <param name="edgeContacts">Its convex edges.</param>
+        /// <param name="other">The search before the placement, whose hierarchy does where the same edges are convex.
+        /// </param>
+        public MeshNearby(MeshGeometry mesh, MeshEdges edgeContacts, MeshNearby? other = null)
         {
             _mesh = mesh;
             _centre = new Vector3d[mesh.Corners.Length / 3];
@@ -48,7 +52,8 @@ namespace Guidewire.Core
                     corners[3 * k + 1] = mesh.Corners[to];
                     corners[3 * k + 2] = mesh.Corners[to];
                 }
-                _edgeTree = new Bvh(corners, _edgeNormal);
+                _edgeTree = other != null && other._convexEdge.AsSpan().SequenceEqual(_convexEdge)
+                    ? other._edgeTree!.Over(corners, _edgeNormal) : new Bvh(corners, _edgeNormal);
             }
         }
 

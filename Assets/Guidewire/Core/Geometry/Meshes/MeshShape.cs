@@ -14,8 +14,11 @@ namespace Guidewire.Core
     {
         private readonly TriangleMesh _mesh;
         private readonly MeshGeometry _wall;
-        private readonly MeshGeometry _closed;
+        private readonly MeshGeometry _closed;     // with a fan over each rim behind the wall's triangles; no hierarchy
+        private readonly Bvh? _fans;               // over those
         private readonly Derived _derived;
+        private readonly MeshShape? _unplaced;     // the same wall before its placement
+        private Placement _placement;
 
         /// <summary>The wall where its file has it.</summary>
         public MeshShape(TriangleMesh mesh)
@@ -29,7 +32,18 @@ namespace Guidewire.Core
             _mesh = mesh;
             _wall = new MeshGeometry(mesh, closeRims: false, placement);
             _closed = mesh.Rims.Count > 0 ? new MeshGeometry(mesh, closeRims: true, placement) : _wall;
+            _fans = _closed == _wall ? null : new Bvh(CornersOfFans());
             _derived = new Derived();
+        }
+
+        private MeshShape(MeshShape other, in Placement placement, SmoothWarp? warp)
+        {
+            _mesh = other._mesh;
+            _wall = other._wall.At(placement, warp);
+            _closed = other._closed == other._wall ? _wall : other._closed.At(placement, warp);
+            _fans = other._fans?.Over(CornersOfFans());
+            _derived = new Derived();
+            (_unplaced, _placement) = (other, placement);
         }
 
         private MeshShape(MeshShape other)
@@ -37,7 +51,9 @@ namespace Guidewire.Core
             _mesh = other._mesh;
             _wall = other._wall;
             _closed = other._closed;
+            _fans = other._fans;
             _derived = other._derived;
+            (_unplaced, _placement) = (other._unplaced, other._placement);
         }
 
         /// <summary>What was found in the mesh and repaired.</summary>
@@ -53,6 +69,15 @@ namespace Guidewire.Core
         /// </summary>
         public int CountSelfIntersections(out Vector3d position)
         {
+            if (_derived.SelfIntersections == null && _unplaced != null)
+            {
+                lock (_unplaced._derived) // runs at once may ask for it
+                {
+                    // No placement makes one or takes one away, nor does a map that is one to one.
+                    int count = _unplaced.CountSelfIntersections(out Vector3d before);
+                    _derived.SelfIntersections = (count, count == 0 ? before : _placement.Apply(before));
+                }
+            }
             if (_derived.SelfIntersections == null)
             {
                 int count = SelfIntersection.Count(_wall, out Vector3d first);
@@ -66,9 +91,16 @@ namespace Guidewire.Core
         /// from the triangles, so placing one places the other, and only one may be queried at a time.</summary>
         public MeshShape ForNextRun() => new MeshShape(this);
 
+        /// <summary>The same wall elsewhere, for a run beside others: no hierarchy is built again, and both may be
+        /// queried at once.</summary>
+        /// <param name="placement">Of the wall as it was made, which no placement may have moved.</param>
+        /// <param name="warp">What moves its vertices before that; null: nothing.</param>
+        public MeshShape At(in Placement placement, SmoothWarp? warp = null) => new MeshShape(this, placement, warp);
+
         /// <summary>Moves, turns and scales the wall; its hierarchy is refitted, not built again.</summary>
         public void Place(in Placement placement)
         {
+            _placement = placement;
             _wall.Place(placement);
             _derived.Nearby = null;
             _derived.SelfIntersections = null;
@@ -77,8 +109,11 @@ namespace Guidewire.Core
             if (_closed != _wall)
             {
                 _closed.Place(placement);
+                _fans!.Refit(CornersOfFans());
             }
         }
+
+        private Vector3d[] CornersOfFans() => _closed.Corners.AsSpan(_wall.Corners.Length).ToArray();
 
         /// <inheritdoc/>
         public override bool Nearest(
@@ -144,7 +179,19 @@ namespace Guidewire.Core
 
         private MeshEdges EdgeContacts => _derived.EdgeContacts ??= new MeshEdges(_wall);
 
-        private MeshNearby Nearby => _derived.Nearby ??= new MeshNearby(_wall, EdgeContacts);
+        private MeshNearby Nearby => _derived.Nearby ??= new MeshNearby(_wall, EdgeContacts, NearbyBefore());
+
+        private MeshNearby? NearbyBefore()
+        {
+            if (_unplaced == null)
+            {
+                return null;
+            }
+            lock (_unplaced._derived) // runs at once may ask for it
+            {
+                return _unplaced.Nearby;
+            }
+        }
 
         /// <summary>Finds the narrowest place as <see cref="MeshWidth"/> says.</summary>
         internal override double NarrowestRadius(double above, double below)
@@ -160,12 +207,22 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override bool Contains(in Vector3d point)
         {
-            if (!_closed.Tree.Encloses(point))
+            if (!_wall.Tree.Encloses(point)) // a fan lies between its rim's vertices
             {
                 return false;
             }
-            int triangle = _closed.Tree.Nearest(
+            int triangle = _wall.Tree.Nearest(
                 point, point, double.PositiveInfinity, -1, out double squared, out _, out Vector3d c, out int feature);
+            if (_fans != null)
+            {
+                int fan = _fans.Nearest(point, point, double.PositiveInfinity, -1, out double ofFan, out _,
+                    out Vector3d onFan, out int featureOfFan);
+                if (ofFan < squared)
+                {
+                    (triangle, squared) = (_wall.Corners.Length / 3 + fan, ofFan);
+                    (c, feature) = (onFan, featureOfFan);
+                }
+            }
             return _closed.ContactAt(point, 0.0, c, Math.Sqrt(squared), triangle, feature).Distance > 0.0;
         }
 

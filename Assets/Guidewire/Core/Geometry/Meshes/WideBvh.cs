@@ -65,6 +65,15 @@ namespace Guidewire.Core
             Refit(nodes);
         }
 
+        /// <summary>Makes the tree of binary nodes that stand elsewhere, of the same topology as another
+        /// one's.</summary>
+        public WideBvh(WideBvh other, BvhNode[] nodes)
+        {
+            (_source, _child) = (other._source, other._child);
+            _bounds = new float[other._bounds.Length];
+            Refit(nodes);
+        }
+
         /// <summary>Whether the processor computes with such registers.</summary>
         public static bool IsSupported => Avx2.IsSupported;
 

@@ -99,9 +99,10 @@ namespace Guidewire.Io
             new JsonEntry("vessel", JTokenType.Object,
                 "null, {\"shape\": \"plane\", \"point\", \"normal\"}, {\"shape\":"
                 + " \"tube\", \"knots\", \"radius\", \"openStart\", \"openEnd\", \"smooth\"} or {\"shape\": \"mesh\","
-                + " \"file\", \"metresPerUnit\", \"openRims\", \"anatomy\"}",
+                + " \"file\", \"metresPerUnit\", \"openRims\", \"warp\", \"anatomy\"}",
                 "the wall around the wire; smooth (false) rounds a tube's corners; openRims names a point near each "
-                + "rim; wallStiffness makes it soft (docs/soft-walls.md)")
+                + "rim; warp, nine numbers from -1 to 1, moves the mesh by smooth waves;"
+                + " wallStiffness makes it soft (docs/soft-walls.md)")
                 .OnlyWith(Takers.Walls),
             new JsonEntry("sheath", JTokenType.Object, "null or {\"exit\", \"direction\"}, each [x, y, z]",
                 "a straight, frictionless guide around the proximal part; needs a vessel, proximalEnd \"clamped\" and "

@@ -45,6 +45,68 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void WallsThatAreNotMoved_AreKeptBesideEachOther_AndOfTheMovedTheLast()
+        {
+            string cube = Write("cube.obj", 1.0);
+            string other = Write("other.obj", 2.0);
+            var last = new LastMesh(new KeptMeshes(6));
+            MeshGeometry first = last.Read(cube, 1.0, NoRims, Placement.Identity).Wall;
+            last.Read(other, 1.0, NoRims, Placement.Identity);
+            MeshGeometry moved = last.Read(cube, 1.0, NoRims, Moved).Wall;
+            Assert.That(last.Read(cube, 1.0, NoRims, Placement.Identity).Wall, Is.SameAs(first));
+            Assert.That(last.Read(cube, 1.0, NoRims, Moved).Wall, Is.Not.SameAs(moved));
+            Assert.That(last.Sha256, Has.Length.EqualTo(64));
+        }
+
+        [Test]
+        public void WallElsewhere_AnswersAsOneThatIsMadeThere()
+        {
+            string cube = Write("cube.obj", 1.0);
+            var placement = new Placement(new Vector3d(1.0, -2.0, 0.5),
+                Placement.FromEulerDegrees(new Vector3d(20.0, 50.0, -70.0)), new Vector3d(1.3, 1.3, 1.3));
+            MeshShape wall = new LastMesh(new KeptMeshes(2)).Read(cube, 1.0, NoRims, placement);
+            var made = new MeshShape(MeshFile.Read(cube, 1.0, NoRims), placement);
+            var random = new Random(3);
+            Vector3d Point() => new Vector3d(4.0 * random.NextDouble() - 1.0, 4.0 * random.NextDouble() - 4.0,
+                4.0 * random.NextDouble() - 1.5);
+            for (int k = 0; k < 300; k++)
+            {
+                Vector3d a = Point();
+                Vector3d b = a + 0.3 * (Point() - Point());
+                int hint = -1;
+                int other = -1;
+                Assert.That(wall.Nearest(a, b, 9.0, ref hint, out SurfaceContact contact),
+                    Is.EqualTo(made.Nearest(a, b, 9.0, ref other, out SurfaceContact expected)));
+                Assert.That(contact.Distance, Is.EqualTo(expected.Distance).Within(1e-14));
+                Assert.That(wall.Contains(a), Is.EqualTo(made.Contains(a)));
+            }
+        }
+
+        [Test]
+        public void Warp_MovesVertices_AsItsWavesSay()
+        {
+            string cube = Write("cube.obj", 1.0);
+            var last = new LastMesh();
+            Vector3d[] rest = last.Read(cube, 1.0, NoRims, Placement.Identity).Wall.Corners;
+            double[] coefficients = { 0.5, -1.0, 0.0, 0.0, 1.0, 0.25, -0.75, 0.0, 1.0 };
+            MeshShape warped = last.Read(cube, 1.0, NoRims, Placement.Identity, null, new SmoothWarp(coefficients));
+            Extents box = Extents.Of(rest);
+            double k = 2.0 * Math.PI / (box.High - box.Low).Length;
+            Vector3d middle = 0.5 * (box.Low + box.High);
+            for (int i = 0; i < rest.Length; i++)
+            {
+                Vector3d p = rest[i] - middle;
+                double x = rest[i].X + 0.08 / k * (0.5 * Math.Sin(k * p.X) - Math.Sin(k * p.Y));
+                double z = rest[i].Z + 0.08 / k * (-0.75 * Math.Sin(k * p.X) + Math.Sin(k * p.Z));
+                Assert.That(warped.Wall.Corners[i].X, Is.EqualTo(x).Within(1e-14));
+                Assert.That(warped.Wall.Corners[i].Z, Is.EqualTo(z).Within(1e-14));
+            }
+            Assert.That(last.Read(cube, 1.0, NoRims, Placement.Identity, null, new SmoothWarp(coefficients)).Wall,
+                Is.SameAs(warped.Wall));
+            Assert.That(last.Read(cube, 1.0, NoRims, Placement.Identity).Wall, Is.Not.SameAs(warped.Wall));
+        }
+
+        [Test]
         public void FileThatWasWrittenAnew_IsReadAnew_AlsoWithItsOldTime()
         {
             string file = Write("cube.obj", 1.0);

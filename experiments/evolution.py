@@ -1,6 +1,6 @@
 """A small policy that learns: evolution strategies in numpy, in parallel over processes of its own.
 
-    python3 guidewire.py python guidewire/env/evolution.py [SECONDS] [WORKERS]
+    python3 guidewire.py python experiments/evolution.py [SECONDS] [WORKERS]
 
 writes learned.json and learned.png into the current folder.
 
