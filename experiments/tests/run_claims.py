@@ -28,8 +28,8 @@ SUMMARY_KEYS = {
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
-    "axialForceTime", "axialTorqueTime", "elementForceTime", "driveAsked", "hub", "lengthInBody", "spheresInBody",
-    "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
+    "axialForceTime", "axialForceDrag", "drag", "axialTorqueTime", "elementForceTime", "driveAsked", "hub",
+    "lengthInBody", "spheresInBody", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
     "wallIterations", "halvedSteps", "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque",
     "elementForce", "wallPressure", "wallDisplacement", "wallWork", "frictionPower", "frictionWork",

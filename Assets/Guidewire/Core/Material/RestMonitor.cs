@@ -83,7 +83,8 @@ namespace Guidewire.Core
         /// <param name="time">s.</param>
         public bool IsUnstable(double time)
         {
-            if (_tangent != null)
+            // On walls a wire may slide or roll off without end: that is not what this is about.
+            if (_tangent != null || _scene.Walls.Length > 0)
             {
                 return false;
             }

@@ -155,8 +155,8 @@ namespace Guidewire.Core
         public static readonly WarningKind Unstable = AfterReason("unstable",
             "the wire ends where it is unstable, as beyond a critical load: any disturbance would grow, and a "
             + "symmetric motion has none; a small load across the wire shows where it goes",
-            "the second derivative of the energy has a negative eigenvalue at the end, and the wire has not moved by "
-            + "1e-4 L along its mode");
+            "without walls, near a balance of forces: the second derivative of the energy has a negative eigenvalue at "
+            + "the end, and the wire has not moved by 1e-4 L along its mode");
 
         /// <summary>Energy that the scheme takes.</summary>
         public static readonly WarningKind EnergyLost = AfterReason("energyLost",

@@ -21,6 +21,7 @@ namespace Guidewire.Io
 
         private const string Steps = "maxSimulationSteps";
         private const double PoissonRounding = 1e-3;    // E and G are written with few digits
+        private const int FewestElements = 3;      // of which a clamp's rule can be of fourth order
         private const double OddClamp = 0.01;    // of a deflection
         private const int MaxSteps = 1_000_000_000;
 
@@ -419,7 +420,8 @@ namespace Guidewire.Io
         private void WarnOfClamps(SimulationParameters simulation)
         {
             if (Method != Solver.Pbd && simulation.Material.ClampRule == ClampRule.FourthOrder
-                && simulation.Scene.Sheath == null && simulation.Scene.Catheters.Count == 0)
+                && simulation.Scene.Sheath == null && simulation.Scene.Catheters.Count == 0
+                && ElementLayout.Count(simulation) >= FewestElements)
             {
                 double error = ParameterConflict.ClampError(simulation);
                 if (error > OddClamp)

@@ -74,7 +74,8 @@ namespace Guidewire.Core.Tests
             ["poissonRatio"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'youngsModulus': 200e9",
             ["sectionShort"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 10, 'wireSections': [{'from':"
                 + " 50, 'to': 52, 'wireRadius': 0.001}]",
-            ["clampElements"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 1",
+            ["clampElements"] = Wire + ", 'maxSimulationSteps': 1, 'numberRodElements': 3, 'wireSections':"
+                + " [{'from': 0, 'to': 70, 'numberRodElements': 1}]",
             ["shearedStart"] = "'guidewireLength': 100, 'numberRodElements': 2, 'deltaThreshold': 0, 'displacement': 0,"
                 + " 'maxSimulationSteps': 1, 'start': {'positions': [[0, 0, 0], [0, 0, 50], [0, 0, 100]],"
                 + " 'orientations': [[0, 0, 0, 1], [0.70710678, 0, 0, 0.70710678]]}",
