@@ -208,7 +208,8 @@ namespace Guidewire.Core
         private static Rule OfSheath(Predicate<Facts> holds, string needed) =>
             new Rule("sheath", p => p.Scene.Sheath != null && !holds(p), needed);
 
-        private static Rule OfMotion(string key, Func<Facts, EndMotion?> motion, Predicate<Facts> holds, string needed) =>
+        private static Rule OfMotion(string key, Func<Facts, EndMotion?> motion, Predicate<Facts> holds,
+            string needed) =>
             new Rule(key, p => motion(p) != null && !(p.Method.Solver == Solver.Direct && holds(p)), needed);
 
         private static bool HasHollowTooWide(MaterialParameters material)

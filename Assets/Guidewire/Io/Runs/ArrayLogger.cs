@@ -10,8 +10,8 @@ using Guidewire.Core;
 
 namespace Guidewire.Io
 {
-    /// <summary>One array of a log: the quantity, the catheter's index, its name and type, the shape of one entry, and its place
-    /// and length in a row, bytes.</summary>
+    /// <summary>One array of a log: the quantity, the catheter's index, its name and type, the shape of one entry, and
+    /// its place and length in a row, bytes.</summary>
     internal readonly struct ArrayColumn
     {
         public readonly Quantity Quantity;

@@ -288,7 +288,8 @@ namespace Guidewire.Core
 
         /// <inheritdoc/>
         public override void MeasureRates(RodShape shape, Vector3d[] spins, in Vector3d proximal, in Vector3d distal,
-            Vector3d[] rates) => throw new NotSupportedException("coaxial instruments have no damping of their strains");
+            Vector3d[] rates) =>
+            throw new NotSupportedException("coaxial instruments have no damping of their strains");
 
         /// <inheritdoc/>
         public override double TurnCouple(RodShape shape, int instrument = 0)
