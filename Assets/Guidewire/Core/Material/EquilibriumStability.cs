@@ -103,7 +103,8 @@ namespace Guidewire.Core
             return _modes[0];
         }
 
-        /// <summary>Whether the rod is near an equilibrium with an eigenvalue so negative that rounding cannot have made
+        /// <summary>Whether the rod is near an equilibrium with an eigenvalue so negative that rounding cannot have
+        /// made
         /// it of a 0. In a violent motion, far from any, its sign says nothing.</summary>
         public bool IsNearSaddle(RodShape shape)
         {

@@ -78,7 +78,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Whether the wire is where any disturbance grows, and has not noticed. Its forces are almost in
-        /// balance, K has a negative eigenvalue, and along its mode the wire is not yet displaced, nor does it move. A straight or symmetric motion stays so
+        /// balance, K has a negative eigenvalue, and along its mode the wire is not yet displaced, nor does it move. A
+        /// straight or symmetric motion stays so
         /// in a computation beyond its critical load.</summary>
         /// <param name="time">s.</param>
         public bool IsUnstable(double time)

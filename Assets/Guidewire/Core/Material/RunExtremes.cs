@@ -18,7 +18,8 @@ namespace Guidewire.Core
         public double Curvature => Math.Sqrt(_curvatureSquared);
 
         /// <summary>Largest strain of the outermost fibre of the core: its radius times the change of a joint's
-        /// curvature from rest, and the stretch or compression of the element beside it that has more. Dimensionless.</summary>
+        /// curvature from rest, and the stretch or compression of the element beside it that has more.
+        /// Dimensionless.</summary>
         public double Strain { get; private set; }
 
         /// <summary>When that strain was the largest, s.</summary>

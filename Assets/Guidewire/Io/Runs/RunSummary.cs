@@ -89,7 +89,8 @@ namespace Guidewire.Io
                     hubs.Add(HubTravel(one.CommandedDisplacement, one.Displacement, one.Shortfall));
                 }
                 json.Property("hub")!.AddAfterSelf(new JProperty("hubs", hubs));
-                json.Property("hub")!.AddAfterSelf(new JProperty("catheters", new JArray(catheters.Select((one, k) => Catheter(moment, k)))));
+                json.Property("hub")!.AddAfterSelf(new JProperty("catheters",
+                    new JArray(catheters.Select((one, k) => Catheter(moment, k)))));
             }
             if (target != null)
             {

@@ -4,7 +4,8 @@ using System.Collections.Generic;
 namespace Guidewire.Core
 {
     /// <summary>A smooth displacement of a vessel: along each axis a sum of three waves, one along each axis, as
-    /// long as the diagonal of its box. x_i -> x_i + (0.08/k) sum_j c_ij sin(k (x_j - m_j)), k = 2 pi/diagonal, m the middle of
+    /// long as the diagonal of its box. x_i -> x_i + (0.08/k) sum_j c_ij sin(k (x_j - m_j)), k = 2 pi/diagonal, m the
+    /// middle of
     /// the box.</summary>
     /// <remarks>With |c_ij| at most 1 its gradient differs from the identity by at most 0.24, in the norm of the
     /// largest row sum: it is one to one, and no walls meet.</remarks>

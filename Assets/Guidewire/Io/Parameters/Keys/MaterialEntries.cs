@@ -20,7 +20,8 @@ namespace Guidewire.Io
             new NumberEntry("innerRadius", "m", NumberRange.NotNegative,
                 "inner radius of a hollow wire, less than wireRadius; 0 for a solid wire"),
             new OptionalNumberEntry("coreDiameter", "m", NumberRange.Positive,
-                "diameter of the thickest solid part, the core or the wire of a coil, of which strains are taken; null: "
+                "diameter of the thickest solid part, the core or the wire of a coil, of which strains are taken; "
+                + "null: "
                 + "that of the wire"),
             new NumberEntry("shearFactor", "", NumberRange.Positive,
                 "shear correction factor of GA: 0.9 for a round wire, about 0.5 for a thin-walled tube"),

@@ -21,7 +21,8 @@ namespace Guidewire.Core.Tests
         public void WireThatLiesOnAPlane_IsPushedWithoutForce_AndBearsThatOfAnElastica(int elements)
         {
             SimulationSession run = Open("'solver': 'direct', 'guidewireLength': 110, 'numberRodElements': "
-                + elements + ", 'guidewireOffset': -90, 'wireRadius': 0.00025, 'youngsModulus': 2e9, 'shearModulus': 8e8,"
+                + elements + ", 'guidewireOffset': -90, 'wireRadius': 0.00025, 'youngsModulus': 2e9,"
+                + " 'shearModulus': 8e8,"
                 + " 'massDamping': 50, 'proximalEnd': 'clamped', 'drive': 'displace', 'insertionSpeed': 0.008,"
                 + " 'timeStep': 0.02, 'deltaThreshold': 0, 'maxSimulationSteps': 170, 'hubForceLimit': null,"
                 + " 'catheters': [{'start': 90, 'length': 20, 'elements': " + elements / 6 + ", 'wireRadius': 0.0008,"
@@ -72,8 +73,10 @@ namespace Guidewire.Core.Tests
                 + " 'knots': [[0, 0, -5], [0, 0, 300]]},"
                 + " 'catheters': [{'start': 215, 'length': 80, 'elements': 16, 'hubForceLimit': 0.02, 'wireRadius':"
                 + " 0.001, 'lumenRadius': 0.0009, 'youngsModulus': 2e9, 'shearModulus': 8e8, 'density': 1400,"
-                + " 'wireSections': [{'from': 60, 'to': 80, 'restCurvature': [60, 0, 0]}]}, {'start': 150, 'length': 155,"
-                + " 'elements': 31, 'hubForceLimit': 0.02, 'wireRadius': 0.0004, 'lumenRadius': 0.00027, 'youngsModulus':"
+                + " 'wireSections': [{'from': 60, 'to': 80, 'restCurvature': [60, 0, 0]}]}, {'start': 150,"
+                + " 'length': 155,"
+                + " 'elements': 31, 'hubForceLimit': 0.02, 'wireRadius': 0.0004, 'lumenRadius': 0.00027,"
+                + " 'youngsModulus':"
                 + " 3e9, 'shearModulus': 1e9, 'density': 1400, 'wireSections': [{'from': 135, 'to': 155,"
                 + " 'restCurvature': [0, 60, 0]}]}]");
             double[] before = new double[3];
@@ -84,7 +87,8 @@ namespace Guidewire.Core.Tests
                 double[] forces = { run.Simulation.Hub()!.Force, catheters[0].Force, catheters[1].Force };
                 double[] now = { run.Simulation.Hub()!.Insertion, catheters[0].Insertion, catheters[1].Insertion };
                 Assert.That(forces.Max(Math.Abs), Is.LessThanOrEqualTo(1.001 * Limit), "N");
-                Assert.That(now.Zip(before, (a, b) => Math.Abs(a - b)).Max(), Is.LessThanOrEqualTo(0.01 * Speed + 1e-12));
+                Assert.That(now.Zip(before, (a, b) => Math.Abs(a - b)).Max(),
+                    Is.LessThanOrEqualTo(0.01 * Speed + 1e-12));
                 before = now;
             }
             Assert.That(run.Simulation.Outcome, Is.EqualTo(Outcome.Finished), run.Simulation.Reason);

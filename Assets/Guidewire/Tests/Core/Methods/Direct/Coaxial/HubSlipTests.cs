@@ -40,7 +40,8 @@ namespace Guidewire.Core.Tests
 
         // Its force would take 3 mm to fall to the limit, and it goes no farther than it may.
         [Test]
-        public void HubGoesNoFartherThanItSlipsInAStep([Values(-3e-3, 3e-3)] double rest, [Values(1e-3, 1e-4)] double most)
+        public void HubGoesNoFartherThanItSlipsInAStep([Values(-3e-3, 3e-3)] double rest,
+            [Values(1e-3, 1e-4)] double most)
         {
             var slip = new HubSlip(HubLimit.OfForce(Limit), Shortest, most);
             double asked = Asked * Math.Sign(rest);
