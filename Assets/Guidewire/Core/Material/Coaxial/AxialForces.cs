@@ -32,6 +32,7 @@ namespace Guidewire.Core
         private readonly double[] _slide;       // of each instrument at the nodes, m
         private readonly double[] _compliance;  // of the chain, m/N
         private readonly double[] _leadForce;   // of each before the chain, N
+        private readonly double[] _next;        // Q of the next step
         private readonly double[] _mean;        // N of each in an element, N
         private readonly double[] _borne;       // Q by the first instrument that goes on, N
 
@@ -50,6 +51,7 @@ namespace Guidewire.Core
             _leadForce = new double[joints.Count];
             _mean = new double[joints.Count * capacity];
             _borne = new double[joints.Count];
+            _next = new double[joints.Count];
         }
 
         // Elements.
@@ -238,16 +240,23 @@ namespace Guidewire.Core
         }
 
         /// <summary>Takes Q of all tips from the same instruments in another chain.</summary>
-        public void TakeBorne(AxialForces other) => Array.Copy(other._borne, _borne, _borne.Length);
+        public void TakeBorne(AxialForces other)
+        {
+            Array.Copy(other._borne, _borne, _borne.Length);
+            Array.Copy(other._next, _next, _next.Length);
+        }
 
-        /// <summary>Sets Q of an element at a tip, N.</summary>
+        /// <summary>Q that was set last counts from now on.</summary>
+        public void BeginStep() => Array.Copy(_next, _borne, _borne.Length);
+
+        /// <summary>Sets Q of an element at a tip for the next step, N.</summary>
         /// <returns>By how much the element becomes longer, m.</returns>
         public double SetBorne(int j, double borne)
         {
-            ref double own = ref _borne[_joints.CarrierOf(j)];
-            double change = (_compliance[j] - _joints[j].Axial) * (borne - own);
-            own += Follow * (borne - own);
-            return change;
+            int carrier = _joints.CarrierOf(j);
+            double change = borne - _borne[carrier];
+            _next[carrier] = _borne[carrier] + Follow * change;
+            return (_compliance[j] - _joints[j].Axial) * change;
         }
 
         /// <summary>What the hub of an instrument has to push for the thrust of an element, N less: the loads on it
@@ -294,6 +303,7 @@ namespace Guidewire.Core
             snapshot.Serialize(_strain, N);
             snapshot.Serialize(_slide, _joints.Count * (N + 1));
             snapshot.Serialize(_borne);
+            snapshot.Serialize(_next);
             snapshot.Serialize(_mean, _joints.Count * N);
             snapshot.Serialize(_leadForce);
         }

@@ -127,14 +127,21 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>A step begins, at the end of the one before: takes what tips bear.</summary>
+        /// <summary>A step has ended: takes what tips bear, for the next one.</summary>
         public void TakeBorne()
         {
             if (Rod.Joints.InnerCount > 0)
             {
                 TakeTime();
-                CoaxialSetup.TakeBorne(_scene, Dynamics.Terms);
+                Dynamics.Terms.Release!.TakeBorne(Dynamics.Shape, Dynamics.Terms);
             }
+        }
+
+        /// <summary>A step begins: what tips bear counts.</summary>
+        public void BeginStep()
+        {
+            Rod.Axial.BeginStep();
+            Rod.SetLengths();
         }
 
         /// <summary>Begins a part of a step: nodes that come or go within it do so now.</summary>

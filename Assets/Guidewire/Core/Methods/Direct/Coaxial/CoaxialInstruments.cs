@@ -131,7 +131,7 @@ namespace Guidewire.Core
         protected override void BeginStep()
         {
             _order.Limit(Dynamics.Time);
-            Chain.TakeBorne();
+            Chain.BeginStep();
             Chain.MoveWindow();
             Chain.TakeLoads();
             foreach (MaterialDrive drive in Drives)
@@ -144,7 +144,11 @@ namespace Guidewire.Core
         protected override double BeginPart(double left) => Chain.BeginPart(left);
 
         /// <inheritdoc/>
-        protected override void Take() => TakeMoment();
+        protected override void Take()
+        {
+            TakeMoment();
+            Chain.TakeBorne();
+        }
 
         /// <summary>Takes where the instruments are and what touches them.</summary>
         protected virtual void TakeMoment()

@@ -234,7 +234,8 @@ namespace Guidewire.Core
         public static double TakeBorne(MaterialScene scene, RodTerms terms)
         {
             double change = terms.Release!.TakeBorne(scene.Shape, terms);
-            scene.Supports.Coaxial!.SetLengths();
+            scene.Supports.Coaxial!.Axial.BeginStep();
+            scene.Supports.Coaxial.SetLengths();
             return change;
         }
 
