@@ -15,15 +15,18 @@ A catheter follows the wire: its tip is pushed on whenever it is farther behind 
 from __future__ import annotations
 
 import argparse
+import itertools
 import json
 import os
 import time
 from collections.abc import Callable, Mapping
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from pathlib import Path
 from typing import Any
 
 import numpy as np
+from scipy.sparse import coo_matrix
+from scipy.sparse.csgraph import dijkstra
 
 from guidewire.prepare import DOOR, PreparationError
 from guidewire.runs import checking
@@ -39,9 +42,11 @@ _STALLED = (20.0, 80.0)  # mm pushed without progress, from which on an attempt 
 _BACK = (4.0, 250.0)  # mm behind the farthest place, where an attempt begins
 _ALIKE = 8.0  # mm of the path within which snapshots are as good a start
 _IN_VAIN = 120  # attempts without progress, after which the search gives up
+_ELEMENT = 5.0  # mm of a wire's body, by which it is made longer
 _SPIN = 0.15  # rad a mm at most, while the wire is pushed
 _SEED = 28
 _BEHIND = 30.0  # mm that a catheter's tip is behind the wire's
+_LAST, _SLIVER = 6.0, 0.4  # radii before the target in which its branch is looked at; of its radius: no end of it
 _SHOWN = 10.0  # s between two lines on what is tried
 
 
@@ -64,7 +69,8 @@ _TIPS = (None, Tip(45.0, 5.0), Tip(105.0, 30.0), Tip(70.0, 10.0), Tip(120.0, 10.
 class Found:
     """Whether the target was reached, the attempts at wrong branches, the tip's farthest place on the path to the
     target and that path's length, mm; the scene's parameters with the tip, calls of the session: hub, push (units) and
-    turn (rad) in each step, and their number; what each hub steered; lines on the catheters."""
+    turn (rad) in each step, and their number; what each hub steered; lines on the catheters; why the target is likely
+    not to be reached; parameters in place of the scene's."""
 
     is_reached: bool
     attempts: int
@@ -74,6 +80,8 @@ class Found:
     hubs: list[Steered]
     tip: Tip | None = None
     catheters: tuple[str, ...] = ()
+    reason: str = ""
+    changes: Mapping[str, Any] = field(default_factory=dict)
 
 
 class Route:
@@ -92,7 +100,7 @@ class Route:
         path = target["indices"]
         self._on_path = set(path)
         line = 1e3 * anatomy["metresPerUnit"] * np.array(anatomy["centreline"]["points"])
-        self._radii = line[:, 3]
+        self._radii, self._path = line[:, 3], line[path]
         self._beside = self._distances(line, anatomy["centreline"]["parents"], path)
 
     @staticmethod
@@ -112,6 +120,26 @@ class Route:
             if parent >= 0 and is_beside[k]:
                 away[k] = min(away[k], away[parent] + steps[k])
         return away
+
+    def reason(self, farthest: float, wire: float) -> str:
+        """Return what is likely at fault where a wire of a radius, mm, came so far along the path and no farther."""
+        arc = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(self._path[:, :3], axis=0), axis=1))]
+        radii = self._path[:, 3]
+        widest = radii[arc > arc[-1] - _LAST * radii.max()].max()
+        is_inner = (arc > widest) & (arc < arc[-1] - widest)    # at a closed end the sphere has no radius
+        if is_inner.any() and radii[is_inner].min() < wire:
+            at = int(np.flatnonzero(is_inner)[radii[is_inner].argmin()])
+            return (f"the lumen is too narrow: {arc[at]:.0f} mm from the inlet its radius is {radii[at]:.2g} mm, the "
+                    f"wire's {wire:.2g} mm")
+        last = radii[arc > arc[-1] - 0.5 * widest].max()
+        if last < _SLIVER * widest:
+            return (f"the target lies in a sliver of radius {last:.2g} mm of a branch of {widest:.2g} mm: another "
+                    "--target of 'anatomy'")
+        if farthest < min(0.1 * self.length, _LAST * radii.max()):
+            return "the wire did not come away from its inlet: another --inlet of 'anatomy', or --any-inlet"
+        if farthest > self.length - 2.0 * widest:
+            return "the tip came within two radii of the target: its end is where the lumen closes"
+        return "more --attempts, another --target of 'anatomy', --any-inlet, or a catheter may do"
 
     def locate(self, place: LumenPlace) -> tuple[float | None, bool]:
         """Distance of a place along the path, None beside it; and whether it is in a wrong branch."""
@@ -287,8 +315,7 @@ class _Search:
 
 
 def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = lambda line: None,
-          tip: Tip | None = None,
-          minutes: float = np.inf) -> Found:
+          tip: Tip | None = None, minutes: float = np.inf, changes: Mapping[str, Any] = {}) -> Found:
     """Find a drive from a scene's inlet to its target.
 
     Parameters
@@ -298,14 +325,15 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
     tell : hears one line for each attempt, and every ten seconds.
     tip : in place of the scene's own.
     minutes : of wall time, after which the search gives up at the next failed attempt.
+    changes : parameters in place of the scene's.
 
     Raises
     ------
     SessionError : the scene cannot be used, or has no hub to steer.
     """
-    asked = with_tip(json.loads(scene.read_text(encoding="utf-8")), tip)
+    asked = with_tip(json.loads(scene.read_text(encoding="utf-8")) | changes, tip)
     bent = {} if tip is None else {"wireSections": asked["wireSections"]}
-    with Session(scene, hand=True, **bent) as session:
+    with Session(scene, hand=True, **(changes | bent)) as session:
         asked = session.parameters | {"insertionSpeed": asked["insertionSpeed"]}
         search = _Search(session, asked, tell, time.monotonic() + 60.0 * minutes)
         found = search.find(most_attempts)
@@ -324,8 +352,37 @@ def steer(scene: Path, most_attempts: int = 200, tell: Callable[[str], None] = l
                      f"{search._unit * one.place.left:.0f} mm before the target"
                      + (", reached" if one.place.is_at_target else "")
                      for k, one in enumerate(session.state.catheters, 1) if one.place is not None]
+        wire = search._unit * asked["wireRadius"]
         return Found(found is not None, search.attempts, search.farthest, search.route.length, asked, hubs, tip,
-                     tuple(lines))
+                     tuple(lines), search.route.reason(search.farthest, wire), changes)
+
+
+def other_inlets(asked: Mapping[str, Any], anatomy: Mapping[str, Any]) -> list[dict[str, Any]]:
+    """Return the parameters of the same wire at each other end of a vessel, the widest first, longer where its way to
+    the target is.
+
+    anatomy : of the vessel, as anatomy.json has it.
+    """
+    line = 1e3 * anatomy["metresPerUnit"] * np.array(anatomy["centreline"]["points"])
+    pairs = np.array([*((k, p) for k, p in enumerate(anatomy["centreline"]["parents"]) if p >= 0),
+                      *anatomy["centreline"].get("links", [])])
+    steps = np.maximum(np.linalg.norm(line[pairs[:, 0], :3] - line[pairs[:, 1], :3], axis=1), 1e-9)
+    ends = {str(end["number"]): end for end in anatomy["ends"]} | {end["name"]: end for end in anatomy["ends"]}
+    inlet, target = (ends.get(str(asked[name])) for name in ("inlet", "target"))
+    if inlet is None or target is None:
+        return []
+    away = dijkstra(coo_matrix((steps, pairs.T), shape=(len(line), len(line))), directed=False, indices=target["point"])
+    found = []
+    for end in sorted(anatomy["ends"], key=lambda one: -one["radius"]):
+        if end in (inlet, target):
+            continue
+        count = max(0, int(np.ceil(1.15 * (away[end["point"]] - away[inlet["point"]]) / _ELEMENT)))
+        more = count * _ELEMENT
+        sections = [one | {"from": one["from"] + more, "to": one["to"] + more} for one in asked.get("wireSections", [])]
+        found.append({"inlet": end["number"], "guidewireLength": asked["guidewireLength"] + more,
+                      "numberRodElements": asked["numberRodElements"] + count,
+                      **({"wireSections": sections} if sections else {})})
+    return found
 
 
 def write(scene: Path, found: Found) -> Path:
@@ -333,7 +390,7 @@ def write(scene: Path, found: Found) -> Path:
     folder = scene.parent
     for name, steered in zip(DRIVES, found.hubs):
         write_whole(folder / name, steered.to_csv())
-    asked = with_tip(json.loads(scene.read_text(encoding="utf-8")), found.tip)
+    asked = with_tip(json.loads(scene.read_text(encoding="utf-8")) | found.changes, found.tip)
     asked.pop("insertionSpeed", None)
     catheters = [{key: value for key, value in one.items() if key not in ("insertionSpeed", "rotationSpeed")}
                  | {"driveFile": name} for one, name in zip(asked.get("catheters") or [], DRIVES[1:])]
@@ -368,23 +425,32 @@ def run(arguments: argparse.Namespace, build: Callable[[], list[str]], hand_to: 
         raise PreparationError(f"{scene}: has no {missing[0]}: needs the scene.json that '{DOOR} anatomy' wrote")
     try:
         found, until = None, time.monotonic() + 60.0 * arguments.minutes
-        for tip in _TIPS if asked.get("wireSections") else (None,):  # an instrument keeps its own tip
+        tips = _TIPS if asked.get("wireSections") else (None,)  # an instrument keeps its own tip
+        inlets: list[dict[str, Any]] = [{}]
+        if arguments.any_inlet:
+            if asked.get("catheters"):
+                raise PreparationError("--any-inlet is of a wire alone: the scene has a catheter")
+            anatomy = json.loads((scene.parent / asked["vessel"]["anatomy"]).read_text(encoding="utf-8"))
+            inlets += other_inlets(asked, anatomy)
+        for changes, tip in itertools.product(inlets, tips):
             if found is not None:
-                print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now with a tip bent by {tip}")
+                print(f"at {found.farthest:.0f} of {found.length:.0f} mm; now "
+                      + (f"from end {changes['inlet']} " if changes else "")
+                      + (f"with a tip bent by {tip}" if tip else "with the scene's tip"))
             left = (until - time.monotonic()) / 60.0
             if left <= 0.0 and found is not None:
                 break
-            more = steer(scene, arguments.attempts, lambda line: print(line, flush=True), tip, left)
-            found = max(filter(None, (found, more)), key=lambda one: (one.is_reached, one.farthest))
+            more = steer(scene, arguments.attempts, lambda line: print(line, flush=True), tip, left, changes)
+            found = max(filter(None, (found, more)), key=lambda one: (one.is_reached, one.farthest / one.length))
             if found.is_reached:
                 break
     except SessionError as error:
         raise PreparationError(str(error)) from error
-    place = (f"{found.attempts} attempts failed; tip bent {f'by {found.tip}' if found.tip else 'as in the scene'}, at "
+    place = (f"{found.attempts} attempts failed; " + (f"from end {found.changes['inlet']}; " if found.changes else "")
+             + f"tip bent {f'by {found.tip}' if found.tip else 'as in the scene'}, at "
              f"most at {found.farthest:.0f} of {found.length:.0f} mm")
     if not found.is_reached:
-        print(f"target not reached, no drive written: {place}; more --attempts, another --target of 'anatomy', or a "
-              "catheter may do")
+        print(f"target not reached, no drive written: {place}; {found.reason}")
         return 1
     steered = write(scene, found)
     for line in found.catheters:

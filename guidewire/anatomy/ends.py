@@ -17,15 +17,14 @@ from guidewire.anatomy.surfaces import nearest
 _BACK = 1.0  # radii inside of an end: behind any cap, round or not quite flat
 _FLAT = np.cos(np.radians(3.0))  # between normals of a flat cap
 _SHARP = np.cos(np.radians(40.0))  # between a cap and the wall around it
+_RAISED = 0.8  # of a face's area, that its projection has at least where it is a cap
 _SIZES = (0.5, 1.7)  # radius of a cap over that of the lumen
 
 
-def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces | None = None) -> Repaired:
+def open_ends(repaired: Repaired, numbers: list[int] | None = None) -> Repaired:
     """Return the vessel without its caps, and without the last radius of other branches that end closed.
 
     numbers : of the ends to open, as a report without opened ones has them; None: all but domes of sacs.
-    faces : of the wall, where its file numbers them: a face over an end is its cap; else a flat one with a sharp rim
-        is.
 
     Raises
     ------
@@ -41,8 +40,7 @@ def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces
     for end in line.ends:
         if end.is_open or (end.is_sac if numbers is None else end.number not in numbers):
             continue
-        cap = (_face_over(mesh, end, faces) if faces is not None else None)
-        cap = _flat_cap(mesh, end) if cap is None else cap
+        cap = _flat_cap(mesh, end)
         cut = cut_open(mesh, end.centre + _BACK * end.radius * end.direction, end.direction, 1.5 * end.radius) if (
             cap is None) else mesh.part(~cap)
         if cut is not mesh:
@@ -54,8 +52,8 @@ def open_ends(repaired: Repaired, numbers: list[int] | None = None, faces: Faces
 
 
 def without_caps(repaired: Repaired, faces: Faces) -> Repaired:
-    """Return the vessel without those of a file's faces that are flat and have a sharp rim: its caps, however small the
-    vessels are that end there."""
+    """Return the vessel without those of a file's faces that are flat, or nearly, and have a sharp rim: its caps,
+    however small the vessels are that end there."""
     mesh = repaired.mesh
     own, vectors = np.unique(faces.of(mesh), return_inverse=True)[1], mesh.area_vectors()
     areas = np.linalg.norm(vectors, axis=1)
@@ -67,20 +65,13 @@ def without_caps(repaired: Repaired, faces: Faces) -> Repaired:
     borders, sharp = (np.bincount(own[pairs].ravel(), np.repeat(weights, 2), count)
                       for weights in (np.ones(len(pairs)), is_sharp))
     sums = np.stack([np.bincount(own, vectors[:, k], count) for k in range(3)], axis=1)
-    is_flat = np.linalg.norm(sums, axis=1) > _FLAT * np.bincount(own, areas, count)
+    is_flat = np.linalg.norm(sums, axis=1) > _RAISED * np.bincount(own, areas, count)
     caps = np.flatnonzero(is_flat & (sharp > 0.9 * borders) & (borders > 0.0))
     if not len(caps):
         return repaired
     mesh, _ = with_rims_apart(mesh.part(~np.isin(own, caps)))
     return Repaired(mesh, sort_rims(mesh, find_rims(mesh, Edges.of(mesh))),
                     [*repaired.changes, Change("caps taken off, faces of the file", len(caps))])
-
-
-def _face_over(mesh: Mesh, end: End, faces: Faces) -> np.ndarray | None:
-    """Return (t,): the triangles of the face over an end; None where that is not of the size of a cap."""
-    own = faces.of(mesh)
-    cap = own == own[int(nearest(end.centre[None], mesh)[1][0])]
-    return cap if _is_as_wide(float(np.linalg.norm(mesh.area_vectors()[cap], axis=1).sum()), end) else None
 
 
 def _is_as_wide(area: float, end: End) -> bool:

@@ -32,6 +32,7 @@ _HUB_FORCE = 5.0  # N, at which a grip slides along the wire
 _CONTACT_DISTANCE = 2.5e-5  # m: with a quarter of it a tip 300 mm in moves by less than 0.2 mm
 _CLEARANCE = 3.0  # radius of a lumen over the wire's, from which on an end may be a target by default
 _ALIKE = 0.95  # of the longest path, from which on a path is as long: the widest of these leads to the default target
+_SLIVER = 0.5  # of the median radius of its branch: a narrower end is no target by default
 _PLACES = 10  # of a kind that a report lists
 _COMPARED = 0.01  # of a volume: a smaller one before is that of a surface that did not enclose the lumen
 _BENT = 0.25  # of a rim's radius, by which it is out of a plane
@@ -102,13 +103,16 @@ def find_end(line: Centreline, asked: str) -> End:
 def default_target(line: Centreline, inlet: End, unit: Unit, diameter: float) -> End:
     """Return the end with the longest path from an inlet, of those that a wire of a diameter in mm comes to; of all
     ends where it comes to none. Of paths within a twentieth of the longest that whose narrowest place is the widest:
-    where two branches leave side by side, a wire goes into the wider one."""
+    where two branches leave side by side, a wire goes into the wider one. A sliver, much narrower than the branch that
+    ends there, is no target."""
     inner, least = line.inner(), _CLEARANCE * 0.5e-3 * diameter / unit.metres
     others = ([end for end in line.ends if end is not inlet and not end.is_sac]
               or [end for end in line.ends if end is not inlet] or line.ends)
     paths = {end.number: line.path(inlet.point, end.point) for end in others}
     lengths = {number: line.length(path) for number, path in paths.items()}
     narrowest = {number: float(line.radii[path][inner[path]].min(initial=np.inf)) for number, path in paths.items()}
+    own = {end.number: float(np.median(line.radii[line.branches == line.branches[end.point]])) for end in others}
+    others = [end for end in others if end.radius > _SLIVER * own[end.number]] or others
     wide = [end for end in others if end.radius > least and narrowest[end.number] > least] or others
     longest = max(lengths[end.number] for end in wide)
     return max((end for end in wide if lengths[end.number] >= _ALIKE * longest),

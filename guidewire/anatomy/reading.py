@@ -42,7 +42,7 @@ class Source:
     """mesh : in LPS where the axes are known, else in the file's own; unit : where it is known; unit_said_by : who says
     the unit; axes : of the file; notes : what was done; name : of the file, or what was made; sha256 : of the file's
     bytes; faces : of the wall, where the file numbers them; begin : (3,), where all lines of a file begin, or None;
-    left_out : of the file, a line each; voxels : what a picture of what is taken shows, None where none is needed."""
+    left_out : of the file, a line each; voxel : its largest side, mm, 0 of other files; voxels : what a picture of what is taken shows, None where none is needed."""
 
     mesh: Mesh
     unit: str | None
@@ -55,6 +55,7 @@ class Source:
     begin: np.ndarray | None = None
     left_out: list[str] = field(default_factory=list)
     voxels: tuple[Image, Taken] | None = None
+    voxel: float = 0.0
 
     @property
     def stem(self) -> str:
@@ -121,7 +122,8 @@ def read(file: Path, unit: str | None = None, axes: Axes | None = None, taking: 
         said = "mm" if image.unit else unit
         return Source(taken.mesh, said, "as the file says" if image.unit else "as given", image.axes, taken.notes,
                       name_of(file), image.sha256 or hashlib.sha256(file.read_bytes()).hexdigest(),
-                      left_out=taken.left_out, voxels=(image, taken) if taking.needs_picture else None)
+                      left_out=taken.left_out, voxels=(image, taken) if taking.needs_picture else None,
+                      voxel=float(image.spacing.max()))
     own = {"--series": series, "--label-names": names, "--segment": taking.segments, "--box": taking.box,
            "--seed": taking.seed}
     for option, value in own.items():

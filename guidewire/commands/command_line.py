@@ -155,9 +155,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     steer.add_argument("--out", type=path, metavar="DIR", help="folder of the run (results/<folder of SCENE>-steered)")
     steer.add_argument("--attempts", type=positive, default=200, metavar="N",
                        help="largest number of failed attempts with each tip (200)")
+    steer.add_argument("--any-inlet", action="store_true",
+                       help="try the other ends of the vessel as inlets as well, the widest first")
     steer.add_argument("--minutes", type=above_zero, default=30.0, metavar="M",
                        help="time after which it gives up at the next failed attempt (30)")
-    steer.set_defaults(packages=("numpy",))
+    steer.set_defaults(packages=("numpy", "scipy"))
 
     view = commands.add_parser("view", help="in the browser: open a scene interactively, replay one or two runs, or "
                                               "look at a vessel")

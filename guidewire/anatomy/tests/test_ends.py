@@ -70,9 +70,7 @@ def test_caps_are_the_faces_that_a_file_numbers_flat_or_not(tmp_path: Path, rise
     writer.Write()
     source = read(tmp_path / "a.vtp")
     opened = without_caps(repair(source.mesh), source.faces)
-    assert len(opened.rims) == (2 if rise == 0.0 else 0)
-    opened = open_ends(repair(source.mesh), None, source.faces)
-    assert ("caps taken off", 2) in [(change.name, change.count) for change in opened.changes]
+    assert ("caps taken off, faces of the file", 2) in [(change.name, change.count) for change in opened.changes]
     assert np.ptp(opened.mesh.vertices @ SLANT) == pytest.approx(40.0, abs=1e-5)
     # Without the numbers a raised cap is cut off with a piece of the vessel.
     plain = open_ends(repair(source.mesh))

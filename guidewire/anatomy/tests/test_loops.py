@@ -10,7 +10,7 @@ pytest.importorskip("vtkmodules", reason="VTK is not installed: apt-get install 
 from guidewire.anatomy.centreline import find_centreline  # noqa: E402
 from guidewire.anatomy.ends import open_ends  # noqa: E402
 from guidewire.anatomy.images import Image  # noqa: E402
-from guidewire.anatomy.loops import count_loops  # noqa: E402
+from guidewire.anatomy.loops import count_loops, find_necks  # noqa: E402
 from guidewire.anatomy.masks import mesh_of_image  # noqa: E402
 from guidewire.anatomy.repair import repair  # noqa: E402
 
@@ -42,6 +42,8 @@ def test_a_ring_between_two_trunks_is_a_loop_and_no_end() -> None:
     assert count_loops(repaired.mesh) == 1
     line = find_centreline(repaired.mesh, repaired.rims)
     assert len(line.ends) == 2 and len(line.loops) == 1
+    # On the axis, also where the ways meet; voxels of a third of the radius make the lumen some 15 % narrower.
+    assert line.radii[line.narrowest] > 0.8 * 1.8
     assert sorted(round(float(end.centre[2]), -1) for end in line.ends) == [0.0, 50.0]
     # Both sides of the ring are in the graph: points of the line within a radius of the middles of both.
     for side in (9.0, -9.0):
@@ -50,6 +52,43 @@ def test_a_ring_between_two_trunks_is_a_loop_and_no_end() -> None:
     way = 2 * 10.0 + 2 * np.hypot(9.0, 9.0) + 10.0 + 5.0
     assert line.length(line.path(line.ends[0].point, line.ends[1].point)) == pytest.approx(way, rel=0.1)
     assert len(open_ends(repaired).rims) == 2
+
+
+@pytest.mark.parametrize("shape, expected", [("X", 1), ("neck", 1), ("stenosis", 0), ("fork", 0)])
+def test_a_neck_lies_between_two_vessels_that_pass(shape: str, expected: int) -> None:
+    """Trees of points: two vessels of radius 2.5 that touch, with a neck of radius 1 or all in one place; one vessel with
+    a stenosis; a fork."""
+    arms = {"X": [(-1, 0, 0), (1, 0, 0), (0, -1, 0), (0, 1, 0)], "neck": [(-1, 0, 0), (1, 0, 0)],
+            "stenosis": [(0, 0, -1)], "fork": [(0, 0, -1), (-1, 0, 1), (1, 0, 1)]}[shape]
+    others = {"X": [], "neck": [(0, -1, 0), (0, 1, 0)], "stenosis": [(0, 0, 1)], "fork": []}[shape]
+    points, radii, parents = [np.zeros(3)], [1.7 if shape == "X" else 3.0 if shape == "fork" else 2.5], [-1]
+
+    def lay(parent: int, way: tuple, steps: int, radius: float) -> int:
+        for _ in range(steps):
+            points.append(points[parent] + 0.6 * np.array(way) / np.linalg.norm(way))
+            radii.append(radius)
+            parents.append(parent)
+            parent = len(points) - 1
+        return parent
+
+    for way in arms:
+        lay(0, way, 40, 2.5)
+    if others:
+        last = lay(lay(0, (0, 0, 1), 7, 1.0), (0, 0, 1), 1, 2.5)
+        for way in others:
+            lay(last, way, 40, 2.5)
+    found = find_necks(np.array(points), np.array(radii), np.array(parents), [])
+    assert len(found) == expected
+    if shape == "neck":
+        assert found[0].radius == 1.0 and 0.0 < found[0].place[2] < 4.8
+
+
+@pytest.mark.long("necks, and ends of a fork, of which a crescent has two too")
+def test_edges_of_a_crescent_are_no_ends() -> None:
+    i, j, k = np.indices((50, 50, 70)) - np.array([24.5, 24.5, 34.5])[:, None, None, None]
+    inside = (np.hypot(i, j) < 18.0) & (np.hypot(i - 7.0, j) > 16.0) & (np.abs(k) < 30.0)
+    repaired = repair(mesh_of_image(Image(inside.astype(np.uint8), np.eye(4))).mesh)
+    assert len(find_centreline(repaired.mesh, repaired.rims).ends) == 2
 
 
 def test_the_dome_of_an_aneurysm_is_no_inlet_and_stays_closed() -> None:
