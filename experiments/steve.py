@@ -90,7 +90,8 @@ def task_of(folder: Path, branches: Mapping[str, np.ndarray], name: str = "steve
     targets = targets_of(anatomy, branches)
     if not targets:
         raise Error(f"{folder}: none of the branches {', '.join(branches)} lies in the vessel")
-    catheter = {"instrument": _CATHETER, "start": 60.0, "length": length - 90.0, "elements": round((length - 90.0) / 30)}
+    over = length - 90.0
+    catheter = {"instrument": _CATHETER, "start": 60.0, "length": over, "elements": round(over / 30.0)}
     return Task(name, "two devices in a vessel of stEVE", overrides={
         "timeStep": STEP_TIME, "contactDistance": 0.0002, "guidewireLength": length,
         "numberRodElements": round(length / 20.0), "wireSections": [], "catheters": [catheter]},
@@ -117,7 +118,8 @@ class SteveEnvironment(Env):
     def __init__(self, task: Task, normalised: bool = False, **options: Any) -> None:
         self._scale = np.ones(2) if normalised else np.array(VELOCITY)
         seen = Observation(parts=("screen", "target", "tip", "action"), points=_POINTS, spacing=1)
-        self._own = Environment(task, drive={"step_time": STEP_TIME, "stops_at_ends": True}, observation=seen, **options)
+        drive = {"step_time": STEP_TIME, "stops_at_ends": True}
+        self._own = Environment(task, drive=drive, observation=seen, **options)
         high = np.broadcast_to(self._scale, (2, 2)).astype(np.float32)
         self.action_space = Box(-high, high, dtype=np.float32)
         self.observation_space = Dict({"position": Box(-np.inf, np.inf, (_POINTS, 2), np.float32),

@@ -180,7 +180,8 @@ class Judge:
         end, terminal = report["end"], report["end"] in ("target", "force", "left the vessel")
         if terminated == truncated or terminated != terminal or report["success"] != (end == "target"):
             self._fault(f"end {end}, success {report['success']}, terminated {terminated}, truncated {truncated}")
-        if (end == "simulation") != (state.outcome is not None or self._is_broken) or (end == "simulation") != bool(report["reason"]):
+        is_ended, is_simulation = state.outcome is not None or self._is_broken, end == "simulation"
+        if is_simulation != is_ended or is_simulation != bool(report["reason"]):
             self._fault(f"end {end}, outcome {state.outcome}, reason {report['reason']!r}")
         if (end == "time") != (end != "simulation" and not terminal and report["time"] > task.time - 1e-6):
             self._fault(f"end {end} after {report['time']:g} s of {task.time:g}")

@@ -20,6 +20,7 @@ from guidewire.env.task import Task
 from guidewire.sessions.session import Session, SessionError, State
 
 _STARTS = 128  # snapshots kept of starts, of some 30 kB each
+_ROUTES = 12  # kept, of 1,000 points each
 # Of a step before an episode. After one step at rest the instruments are within 0.08 mm of where they come to by a
 # tenth of both, in all tasks that ship.
 _LARGEST_TURN = np.pi
@@ -56,7 +57,7 @@ class LoadedScene:
         self._key = ""    # of the draw that is loaded
         self._folder: tempfile.TemporaryDirectory[str] | None = None    # of a vessel that was drawn
         self._starts: OrderedDict[tuple[Any, ...], bytes] = OrderedDict()
-        self._routes: dict[str, Route] = {}
+        self._routes: OrderedDict[tuple[Any, ...], tuple[Any, Route]] = OrderedDict()    # of vessels where they are
 
     def load(self, draw: Draw) -> bool:
         """Bring the scene of an episode, and return whether it was there.
@@ -71,7 +72,7 @@ class LoadedScene:
         scene, anatomy = self._task.scene_of(draw)
         shape = self._task.shape_of(draw)
         folder = None
-        self._key, self._routes = "", {}
+        self._key = ""
         try:
             if any(any(np.ravel(one)) for one in shape.values()):
                 folder = tempfile.TemporaryDirectory(prefix="guidewire-")
@@ -148,8 +149,9 @@ class LoadedScene:
 
     def route(self, target: Any) -> Route:
         """Find the way to a target of its vessel."""
-        key = json.dumps(target)
+        key = (id(self.anatomy), self.unit, json.dumps(target))    # an anatomy that is kept has its number alone
         if key not in self._routes:
-            self._routes[key] = Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit,
-                                      Placement.of(self.session.parameters))
-        return self._routes[key]
+            self._routes[key] = self.anatomy, Route(self.anatomy, target, self.anatomy["metresPerUnit"] / self.unit)
+            if len(self._routes) > _ROUTES:
+                self._routes.popitem(last=False)
+        return self._routes[key][1].placed(Placement.of(self.session.parameters))

@@ -24,8 +24,8 @@ BACKGROUND, VESSEL, TARGET, WIRE = 0, 1, 2, 3
 
 @dataclass(frozen=True)
 class Picture:
-    """What a C-arm of one plane or several sees; (planes * frames, pixels, pixels) of uint8, the newest frame last. With
-    labels each frame has those of its planes behind them, twice as many in all.
+    """What a C-arm of one plane or several sees; (planes * frames, pixels, pixels) of uint8, the newest frame last.
+    With labels each frame has those of its planes behind them, twice as many in all.
 
     Attributes
     ----------

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import math
 from collections.abc import Mapping, Sequence
 from typing import Any, NamedTuple
@@ -88,8 +89,6 @@ class Route:
             self.target = int(parents[self.target])
         if before > 0.0:
             raise Error(f"target = {target!r} is not allowed: the way to this end is {before:.4g} units shorter")
-        if placement is not None and not placement.is_none:
-            numbers = np.c_[placement.points(numbers[:, :3]), placement.scale * numbers[:, 3]]
         self.points, self._radii = np.ascontiguousarray(numbers[:, :3]), numbers[:, 3]
         self.widest = float(self._radii.max())
         has_child = np.zeros(len(parents), dtype=bool)
@@ -126,6 +125,26 @@ class Route:
             self.left[k] = self.left[self.next[k]] + self._lengths[k]
         for k in np.flatnonzero(~on_chain):    # parents come before their children
             self.left[k] = self.left[self.next[k]] + self._lengths[k]
+
+        if placement is not None and not placement.is_none:
+            self._move(placement)
+
+    def placed(self, placement: Placement) -> Route:
+        """Return the way where a scene places the vessel; this one is of the vessel as it is."""
+        if placement.is_none:
+            return self
+        moved = copy.copy(self)
+        moved._move(placement)
+        return moved
+
+    def _move(self, placement: Placement) -> None:
+        scale, turn = placement.scale, placement.rotation.T
+        self.points = np.ascontiguousarray(placement.points(self.points))
+        self._radii, self._lengths = scale * self._radii, scale * self._lengths
+        self.left, self.until_end, self.widest = scale * self.left, scale * self.until_end, scale * self.widest
+        self._steps, self._downstream = self._steps @ turn, self._downstream @ turn
+        self._outlets = {k: scale * one @ turn for k, one in self._outlets.items()}
+        self._power = np.einsum("ij,ij->i", self.points, self.points) - self._radii**2
 
     def place(self, point: np.ndarray) -> tuple[int, float]:
         """Return the centreline's point that a point (3,) belongs to, and the distance that is left from there,

@@ -1,4 +1,4 @@
-"""Episodes that cannot be fooled: ends within a step, limits of hubs, snapshots that hold all, and what does not pay."""
+"""Episodes that cannot be fooled: ends within a step, limits of hubs, whole snapshots, and what does not pay."""
 
 import json
 from dataclasses import replace
