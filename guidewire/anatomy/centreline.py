@@ -32,6 +32,7 @@ _ROUNDS = 3
 _AT_CUT = 3.0
 _CORNER = 1.0  # of the widest radius: along so much of a way that runs into the wall its width is compared
 _SAC = 4.0  # widest radii from the tip of a sac, within which its neck is
+_WIDER = 1.2  # of a neck: so much wider is the vessel behind it; a branch of a trunk goes on as it is
 _NECK = 0.75  # of a sac's widest radius, that its neck has at most
 
 
@@ -454,9 +455,9 @@ class _Builder:
             arc.append(arc[-1] + float(np.linalg.norm(self._points[after] - self._points[path[-1]])))
             path.append(after)
             # The parent vessel may be wider than the sac: it begins behind the neck.
-            radii = [self._radii[k] for k in path]
-            dome = max(radii[:-1])
-            if len(path) > 2 and radii[-2] < _NECK * dome and radii[-1] > radii[-2]:
+            radii = np.array([self._radii[k] for k in path])
+            neck = radii[radii[:-1].argmax():].min()
+            if len(path) > 2 and neck < _NECK * radii[:-1].max() and radii[-1] > _WIDER * neck:
                 return True
             widest = max(widest, self._radii[after])
         return False

@@ -42,7 +42,8 @@ class Source:
     """mesh : in LPS where the axes are known, else in the file's own; unit : where it is known; unit_said_by : who says
     the unit; axes : of the file; notes : what was done; name : of the file, or what was made; sha256 : of the file's
     bytes; faces : of the wall, where the file numbers them; begin : (3,), where all lines of a file begin, or None;
-    left_out : of the file, a line each; voxel : its largest side, mm, 0 of other files; voxels : what a picture of what is taken shows, None where none is needed."""
+    left_out : of the file, a line each; voxels : what a picture of what is taken shows, None where none is needed;
+    voxel : largest side of a voxel, 0 of other files."""
 
     mesh: Mesh
     unit: str | None

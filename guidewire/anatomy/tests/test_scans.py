@@ -341,7 +341,7 @@ def test_values_of_cells_of_a_vti_lie_in_the_middle_of_the_cells(tmp_path: Path)
 
 
 @pytest.mark.parametrize("name, way", [
-    ("a.mhd", "saves it as .mha"), ("a.vtk", "3D Slicer opens it"), ("a.vtu", "3D Slicer or ParaView"),
+    ("a.mhd", "saves it as .mha"), ("a.mdl", "the .vtp of the same name"), ("a.glb", "3D Slicer or ParaView"),
     ("a.mrb", ".seg.nrrd"),
     ("a.zip", "unpack it"), ("a.step", "CAD"), ("a.xyz", "the name has to end in one of .stl"),
 ])
