@@ -36,6 +36,7 @@ _MEASURED = {
     "length": r"the wire is [\d.]+ % (?:shorter|longer)", "strain": "the outermost fibre was strained by",
     "shortfall": "the drive fell short: |the (?:wire's |catheter's )?hub fell short by",
 }
+_HAND = 10.0  # N, at most, of "hand": what two fingers hold
 
 
 @dataclass(frozen=True)
@@ -113,7 +114,8 @@ def measured(scene: Mapping[str, Any], summary: Mapping[str, Any], log: Mapping[
         beside = np.concatenate([stretch[:, :1], np.maximum(stretch[:, 1:], stretch[:, :-1]), stretch[:, -1:]], axis=1)
         found["strain"] = Found(float((scene["wireRadius"] * bend + beside).max()), 0.2)
     if solver == "direct" and scene.get("hubForceLimit") and "hubForce" in log:
-        found["hub's force"] = Found(float(np.abs(log["hubForce"][1:]).max(initial=0.0)), 1.02 * scene["hubForceLimit"])
+        limit = _HAND if scene["hubForceLimit"] == "hand" else scene["hubForceLimit"]
+        found["hub's force"] = Found(float(np.abs(log["hubForce"][1:]).max(initial=0.0)), 1.02 * limit)
     is_whole = not scene.get("catheters") and not scene.get("sheath") and scene.get("distalEnd") == "free"
     if solver == "direct" and "reaction" in log and is_whole:
         found["balance"] = _balance(scene, summary, log)

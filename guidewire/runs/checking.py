@@ -115,7 +115,8 @@ def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str
         hint = f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?"
         raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")
     is_null = value is None or shown == "null"
-    if name != whole or key.kind not in ("number", "whole") or (is_null and key.may_be_null):
+    if (name != whole or key.kind not in ("number", "whole") or (is_null and key.may_be_null) or value in key.words
+            or shown in key.words):
         return
     is_number = isinstance(value, (int, float)) and not isinstance(value, bool) and abs(value) < _BEYOND_DOUBLE
     if not is_number or not key.holds(value) or (key.kind == "whole" and value != int(value)):

@@ -18,7 +18,7 @@ _KINDS = {
     "null or a list": "list", "null, a name": "end", '"" or three letters': "text",
 }
 _WHOLE = re.compile(r"from (\d+) to (\d+)")
-_LOW = re.compile(r"(>=?) (\S+)")
+_LOW = re.compile(r"(>=?) ([^\s,]+)")
 _HIGH = re.compile(r"<= (\S+)")
 
 
@@ -31,7 +31,7 @@ class Key:
     name : as it stands in files.
     kind : "switch", "word", "number", "whole", "vector", "text", "list", "object" or "end" (of a vessel).
     solvers : words of the methods that take it.
-    words : what a key of kind "word" allows.
+    words : what a key of kind "word" allows, and one of kind "number" beside numbers.
     low, high : the range of a number; infinite where there is no border.
     low_is_allowed : whether `low` itself is.
     needs_length : whether a vector must differ from 0.
@@ -96,7 +96,7 @@ def _key(row: re.Match[str], methods: tuple[str, ...]) -> Key:
         if found := _HIGH.search(allowed):
             high = float(found[1])
     return Key(
-        row["name"], kind, taken, words=_words(allowed) if kind == "word" else (), low=low, high=high,
+        row["name"], kind, taken, words=_words(allowed) if kind in ("word", "number") else (), low=low, high=high,
         low_is_allowed=low_is_allowed, needs_length="not all 0" in allowed, may_be_null=allowed.startswith("null"),
         allowed=allowed, default=row["default"], meaning=row["meaning"],
     )

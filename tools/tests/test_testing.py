@@ -79,7 +79,7 @@ def all_tests(monkeypatch, file, build, dotnet):
     monkeypatch.setattr(testing.building, "build_tested", build)
     monkeypatch.setattr(testing.building, "build_native", lambda tell: None)
     monkeypatch.setattr(testing.building, "dotnet", lambda: (dotnet, ""))
-    return testing.test(argparse.Namespace(all=False))
+    return testing.test(argparse.Namespace(all=False, what=[]))
 
 
 @pytest.mark.parametrize("passed, last, code", [(True, "4 passed, 0 failed", 0), (False, "3 passed, 1 failed", 1)])

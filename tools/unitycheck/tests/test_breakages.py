@@ -154,7 +154,8 @@ def test_a_renamed_asset_keeps_its_guid_when_listed(repository: Project) -> None
     changes = {VECTOR: None, f"{VECTOR}.meta": None, moved: repository.data(VECTOR),
                f"{moved}.meta": repository.data(f"{VECTOR}.meta")}
     assert_named(repository, changes, f"{moved}.meta", "guid-changed")
-    listed = repository.with_changes({**changes, metas.KNOWN_GUIDS: f"{moved} {GUID(VECTOR)}\n".encode()})
+    listed = repository.with_changes({**changes, metas.KNOWN_GUIDS: repository.data(metas.KNOWN_GUIDS)
+                                      + f"{moved} {GUID(VECTOR)}\n".encode()})
     assert checks.run(listed) == []
 
 

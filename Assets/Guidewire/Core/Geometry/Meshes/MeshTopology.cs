@@ -203,8 +203,8 @@ namespace Guidewire.Core
                 throw new MeshException(
                     clashes > 0 ? "the surface is not orientable (" + clashes + " edges cannot be oriented "
                         + "consistently)"
-                    : FindTJunction(others)
-                        ?? "the mesh has " + surfaces + " separate surfaces; a vessel must be one");
+                    : (FindTJunction(others) is string torn ? torn + "; " : "")
+                        + "the mesh has " + surfaces + " separate surfaces; a vessel must be one");
             }
             Report.TurnedTriangles = Math.Min(turnedCount, count - turnedCount);
             for (int t = 0; t < count; t++)
