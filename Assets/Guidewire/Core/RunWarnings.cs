@@ -13,6 +13,7 @@ namespace Guidewire.Core
 
         private const double NearLimit = 0.9;       // of a soft wall's limit
 
+        private readonly bool _isMaterial;
         private readonly double _length;            // at rest, units
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
@@ -27,6 +28,7 @@ namespace Guidewire.Core
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
                 wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), isCovered);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
+            _isMaterial = method.TakesMaterial;
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
@@ -87,7 +89,10 @@ namespace Guidewire.Core
         public void Begin(RodState state, CoaxialRecord? coaxial)
         {
             _rims.Begin(state);
-            TakeOverlap(state, coaxial, 0.0);
+            if (_isMaterial)    // with gains the first sphere has moved ahead of the wire
+            {
+                TakeOverlap(state, coaxial, 0.0);
+            }
         }
 
         /// <summary>Takes the state at the end of a step.</summary>
