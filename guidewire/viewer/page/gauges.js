@@ -20,7 +20,7 @@ export class Gauge {
       this._word, make("div", { className: limits ? "bar bands" : "bar" }, this._bar, this._peak));
     this.element.setAttribute("role", "meter");
     this.element.setAttribute("aria-label", label);
-    this.element.setAttribute("aria-valuemin", "0");
+    for (const [name, value] of [["min", 0], ["max", 1], ["now", 0]]) this.element.setAttribute(`aria-value${name}`, String(value));
     if (limits) {
       this.element.style.setProperty("--caution-at", `${(100 * limits[0]) / this._most}%`);
       this.element.style.setProperty("--stop-at", `${(100 * limits[1]) / this._most}%`);

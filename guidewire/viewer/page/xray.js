@@ -13,7 +13,7 @@ const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
 /** The same of a patient whose axes are unknown. */
 const PLAIN_VIEWS = VIEWS.map(([, lao, cranial]) => /** @type {[string, number, number]} */ (
-  [cranial ? `tilted ${cranial}°` : `turned ${lao}°`, lao, cranial]));
+  [cranial ? `from ${cranial}° above` : lao === 0 ? "front" : `${Math.abs(lao)}° ${lao > 0 ? "left" : "right"}`, lao, cranial]));
 const DEGREES_A_POINT = 0.4; // of dragging
 const WIDEST = 180; // mm, of the picture at first: where the vessel is larger the picture goes with the tip
 const FIELDS = [480, 320, 220, 150]; // mm, of a detector's magnifications
@@ -228,7 +228,7 @@ export class Xray {
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
     byId("arm").textContent = `${this.fluoroscopy.angles.join("  ")}\n${Math.round(field ?? 0)} mm${
-      this._patient ? "" : ", axes unknown"}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
+      this._patient ? "" : "\nas if facing you"}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
       this.beam.seconds.toFixed(1)} s`;
     this._measure(field ?? 1);
     const [left, up] = [byId("lao"), byId("cranial")];

@@ -216,6 +216,35 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
     assert follow(EVENTS, frames=with_catheter)["wallForce"] == pytest.approx(0.5)
 
 
+def test_by_keyboard_alone_and_without_barriers(browse, runner_command, tmp_path):
+    """Enter and the space bar press what a keyboard has reached; time stands until the first push."""
+    def focus(one):
+        return ["see", f"document.querySelector('{one}').focus()"]
+
+    waits = f"{STATUS}.isWaiting"
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["until", waits], ["see", text("#coach")], ["see", "document.title"],
+            ["axe", None], focus("#fine"), ["press", "Enter"], ["see", "viewer.shown.steering.isFine"],
+            focus("#fine"), ["press", " "], ["see", f"[viewer.shown.steering.isFine, {waits}]"],
+            ["see", "document.getElementById('bar').getBoundingClientRect().height"],
+            focus("footer .drive"), ["down", "Enter"], ["until", f"{HUB} > 0.02"], ["up", "Enter"],
+            ["until", "viewer.shown.steering.push === 0"], ["see", text("#coach")],
+            focus("#pause"), ["press", " "], PAUSED, ["see", "document.activeElement.id"],
+            ["see", "document.getElementById('bar').getBoundingClientRect().height"],
+            ["press", "Enter"], ["until", f"!{STATUS}.isPaused"],
+            ["click", "fine G"], ["see", "document.activeElement.tagName"], ["press", " "], PAUSED,
+            ["see", "viewer.shown.steering.isFine"], ["press", "h"], ["axe", None], ["press", "Escape"],
+            ["see", "document.querySelectorAll('details').forEach((one) => { one.open = true; })"], ["axe", None],
+            ["see", "document.getElementById('theme').click()"], ["axe", None], size=(1280, 720))["seen"]
+    first, title, findings, *seen = seen
+    assert "push" in first and title == "Forked artery · Guidewire" and findings == []
+    assert seen[1] and seen[3] == [False, True] and "turn" in seen[6]
+    assert seen[8] == "pause" and seen[9] == seen[4]
+    assert seen[10:12] == ["BODY", True]
+    assert seen[12] == seen[14] == seen[16] == []
+
+
 BOXES = """(() => { const box = (one) => {
   const { left, top, right, bottom } = document.querySelector(one).getBoundingClientRect();
   return [left, top, right, bottom]; };

@@ -51,7 +51,7 @@ def test_who_reads_the_page_alone_brings_the_wire_into_the_branch(browse, runner
     rows = "[...document.querySelectorAll('#keys tr')].map((one) => one.innerText.split(/\\s*\\t\\s*/))"
     with serving(tmp_path, str(ROOT / "params/branch.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", rows], ["click", "got it"], ["press", "g"],
+            ["open", address], DRAWN, ["press", "h"], ["see", rows], ["click", "got it"], ["press", "g"],
             ["down", "d"], ["until", f"{dial('turn')} > 90"], ["up", "d"], ["press", "g"],
             ["choose", ['[aria-label="speed"]', "10 x real time"]],
             ["down", "w"], ["until", f"{dial('insertion')} > 240"],
