@@ -5,9 +5,10 @@ import { byId, make } from "./panel.js";
 const DONE = "guidewire-coached=1"; // a cookie, since each run of the server has an address of its own
 const HELD = 0.3; // s of the run for which a hand has to do what is asked
 
-/** @type {["push" | "turn", string[], string][]} */
-const STEPS = [["push", ["W"], "Hold %, or the round pad's upper edge, to push the wire."],
-  ["turn", ["A", "D"], "Hold %, or the pad's side, to turn the bent tip."]];
+/** What is asked, by which keys, with which part of the round pad, and what for.
+ * @type {["push" | "turn", string[], string, string][]} */
+const STEPS = [["push", ["W"], "the upper edge of the round pad", "to push the wire."],
+  ["turn", ["A", "D"], "a side of the round pad", "to turn its tip."]];
 
 export class Coach {
   /** @param {import("./xray.js").Xray} xray */
@@ -26,10 +27,10 @@ export class Coach {
     this._bubble.hidden = !step;
     if (!step || this._bubble.dataset.step === String(this._step)) return;
     this._bubble.dataset.step = String(this._step);
-    const [before, after] = step[2].split("%");
-    this._bubble.replaceChildren(make("strong", {}, `${this._step + 1} of ${STEPS.length}`), ` ${before}`,
-      ...step[1].flatMap((key, k) => [k ? " or " : "", make("kbd", {}, key)]), `${after} `,
-      make("button", { onclick: () => this._end() }, "skip"));
+    const [, keys, pad, aim] = step;
+    this._bubble.replaceChildren(make("strong", {}, `${this._step + 1} of ${STEPS.length}`), " Hold ",
+      make("span", { className: "byKey" }, ...keys.flatMap((key, k) => [k ? " or " : "", make("kbd", {}, key)])),
+      make("span", { className: "byPad" }, pad), ` ${aim} `, make("button", { onclick: () => this._end() }, "skip"));
   }
 
   /** The run went on while a hand steered. @param {{push: number, turn: number}} steering @param {number} seconds */

@@ -41,8 +41,8 @@ export class Gauge {
     this.element.dataset.band = BANDS[band];
     this._bar.style.width = `${Math.min(100, (100 * size) / most)}%`;
     this._peak.style.left = `${Math.min(100, (100 * peak) / most)}%`;
-    this.element.setAttribute("aria-valuemax", String(most));
-    this.element.setAttribute("aria-valuenow", String(Math.min(size, most)));
+    this.element.setAttribute("aria-valuemax", most.toFixed(9)); // no reader takes an exponent
+    this.element.setAttribute("aria-valuenow", Math.min(size, most).toFixed(9));
     this.element.setAttribute("aria-valuetext", `${this._value.textContent}, ${this._word.textContent}`);
   }
 }

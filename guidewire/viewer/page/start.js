@@ -34,11 +34,21 @@ export function offer(site, live, connection) {
     loading.end();
     if (live.status && !live.status.isPaused) live.pause(true);
     said.textContent = problem;
-    box.replaceChildren(make("h1", {}, "Guidewire"), make("p", {}, "Steer a guidewire through a vessel: choose a mission."), said,
-      make("div", { className: "scenes" }, ...site.scenes.map((scene, k) => card(scene, k, open))),
-      make("label", {}, "Your own: drop a parameter file with its meshes, or the folder of a vessel, or ", input,
-        " Of a mesh alone (.obj, .stl, mm) the widest open end is the inlet. Files stay in this browser."));
+    const missions = site.scenes.filter(({ mission }) => mission);
+    const next = missions.find(({ file }) => !bestOf(file));
+    const stars = missions.reduce((sum, { file }) => sum + (bestOf(file)?.stars ?? 0), 0);
+    const practice = site.scenes.filter(({ mission }) => !mission);
+    const cards = (/** @type {Scene[]} */ scenes) => make("div", { className: "scenes" },
+      ...scenes.map((scene) => card(scene, scene === next, open)));
+    box.replaceChildren(make("h1", {}, "Guidewire"), make("p", {}, "Steer a wire through a vessel, by X-ray."),
+      ...(missions.length ? [make("p", { className: "stars" }, `${stars} of ${3 * missions.length} ★`)] : []), said,
+      ...(missions.length ? [cards(missions)] : []),
+      ...(practice.length ? [make("h2", {}, "Free practice"), cards(practice)] : []),
+      make("h2", {}, "Your own vessel or scene"), make("label", { className: "own" },
+        "Drop a mesh (.obj, .stl, mm), a parameter file with its meshes, or the folder of a vessel, or ", input,
+        " Of a mesh alone the widest open end is the inlet. Files stay in this browser."));
     cover(true);
+    /** @type {HTMLElement | null} */ (box.querySelector(".next, .scenes button"))?.focus({ preventScroll: true });
     document.title = "Guidewire";
   };
 
@@ -107,15 +117,16 @@ export function offer(site, live, connection) {
   route();
 }
 
-/** A mission as a picture that opens it. @param {Scene} scene @param {number} index @param {(file: string) => void} open */
-function card({ file, title, sentence, picture, mission }, index, open) {
+/** A mission as a picture that opens it. @param {Scene} scene @param {boolean} isNext @param {(file: string) => void} open */
+function card({ file, title, sentence, picture, mission }, isNext, open) {
   const best = mission && bestOf(file);
   const made = make("button", { onclick: () => open(file) }, make("img", { src: picture, alt: "" }),
-    make("strong", {}, mission ? `${index + 1}. ${title}` : title),
+    make("strong", {}, title),
     make("span", {}, mission ? mission.goal : sentence),
-    ...(mission ? [make("span", { className: "par" }, `par ${mission.par} s`, make("b", {},
-      best ? `best ${best.time.toFixed(1)} s ${starsOf(best.stars)}` : "not won yet"))] : []));
-  if (mission) made.classList.add("mission");
+    ...(mission ? [make("span", { className: "par" }, `par ${mission.par} s${best ? `, best ${best.time.toFixed(1)} s` : ""}`,
+      make("b", { title: best ? "your best" : "not won yet" }, starsOf(best?.stars ?? 0)))] : []),
+    ...(isNext ? [make("em", {}, "next for you")] : []));
+  if (isNext) made.className = "next";
   return made;
 }
 
