@@ -39,14 +39,14 @@ export function offer(site, live, connection) {
     const stars = missions.reduce((sum, { file }) => sum + (bestOf(file)?.stars ?? 0), 0);
     const practice = site.scenes.filter(({ mission }) => !mission);
     const cards = (/** @type {Scene[]} */ scenes) => make("div", { className: "scenes" },
-      ...scenes.map((scene) => card(scene, scene === next, open)));
+      ...scenes.map((scene) => card(scene, scene === next, open)), ...(scenes.includes(site.scenes[0]) ? [own] : []));
+    const own = make("label", { className: "own" }, make("strong", {}, "Your own vessel or scene"), make("br", {}),
+      "Drop a mesh (.obj, .stl, mm), a parameter file with its meshes, or the folder of a vessel, or ", input,
+      " Of a mesh alone the widest open end is the inlet. Files stay in this browser.");
     box.replaceChildren(make("h1", {}, "Guidewire"), make("p", {}, "Steer a wire through a vessel, by X-ray."),
       ...(missions.length ? [make("p", { className: "stars" }, `${stars} of ${3 * missions.length} ★`)] : []), said,
       ...(missions.length ? [cards(missions)] : []),
-      ...(practice.length ? [make("h2", {}, "Free practice"), cards(practice)] : []),
-      make("h2", {}, "Your own vessel or scene"), make("label", { className: "own" },
-        "Drop a mesh (.obj, .stl, mm), a parameter file with its meshes, or the folder of a vessel, or ", input,
-        " Of a mesh alone the widest open end is the inlet. Files stay in this browser."));
+      ...(practice.length ? [make("h2", {}, "Free practice"), cards(practice)] : []));
     cover(true);
     /** @type {HTMLElement | null} */ (box.querySelector(".next, .scenes button"))?.focus({ preventScroll: true });
     document.title = "Guidewire";
@@ -83,7 +83,7 @@ export function offer(site, live, connection) {
     if (dataTransfer?.items.length) take(readDropped(dataTransfer));
   });
 
-  connection.onloading = (what, part) => loading.show(what, part);
+  connection.onloading = (what, part) => !byId("loading").hidden && loading.show(what, part); // later ones are of no use
   live.onOpened = (scene) => {
     loading.end();
     cover(false);

@@ -46,7 +46,10 @@ const start = async () => {
   for (const [name, text] of Object.entries(texts)) Exports.Write(`/${name}`, encoder.encode(text));
   return Exports;
 };
-const starting = start();
+const starting = start().catch((error) => {
+  throw new Error("the simulator cannot be loaded: copy the whole folder of the site onto this server again, or take a newer "
+    + `browser (${error.message})`);
+});
 
 /** @param {any} exports @returns {import("./run.js").Program} */
 function programOf(exports) {

@@ -247,7 +247,8 @@ export class Xray {
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
     byId("arm").textContent = `${this.fluoroscopy.angles.join("  ")}\n${Math.round(field ?? 0)} mm${
-      this._patient ? "" : "\nas if facing you"}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
+      this._patient ? "" : "\nseen as if facing you"}${
+      this.fluoroscopy.look.vessel === "map" && !this.fluoroscopy.hasMap ? "\nno injection seen from here" : ""}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
       this.beam.seconds.toFixed(1)} s`;
     this._measure(field ?? 1);
     const [left, up] = [byId("lao"), byId("cranial")];

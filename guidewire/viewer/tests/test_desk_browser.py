@@ -120,7 +120,8 @@ def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner
     slow = "viewer.shown._note(0.4)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", f"{slow}; {text('#note')}"], ["press", " "], PAUSED, ["down", "w"],
+            ["open", address], DRAWN, ["down", "w"], ["until", f"{HUB} > 0.01"], ["up", "w"],
+            ["see", f"{slow}; {text('#note')}"], ["press", " "], PAUSED, ["down", "w"],
             ["see", f"[{text('#note')}, document.getElementById('note').className]"], ["up", "w"],
             ["until", "!document.getElementById('note').className"], ["see", text("#note")],
             ["see", f"{text('.basis')}"],
