@@ -10,6 +10,8 @@ import os
 import shutil
 import subprocess
 import sys
+import tempfile
+import traceback
 from pathlib import Path
 
 _PACKAGE = Path(__file__).resolve().parent
@@ -172,3 +174,17 @@ def _hand_over(python):
     if os.name == "nt":  # there execv returns to the shell before the new process has ended
         sys.exit(subprocess.run(command).returncode)
     os.execv(str(python), command)
+
+
+def report(error, secret=""):
+    """Put the trace of the error that is handled now into a file, and say where in one line.
+
+    Parameters
+    ----------
+    secret : what neither is to show.
+    """
+    trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
+    line = f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}"
+    hidden = [text.replace(secret, "...") if secret else text for text in (traceback.format_exc(), line)]
+    trace.write_text(hidden[0], encoding="utf-8")
+    print(hidden[1], file=sys.stderr, flush=True)

@@ -6,12 +6,9 @@ import argparse
 import os
 import select
 import sys
-import tempfile
-import traceback
 from collections.abc import Callable
-from pathlib import Path
 
-from guidewire.prepare import PreparationError
+from guidewire.prepare import PreparationError, report
 from guidewire.runs.runner import FAILED, INTERNAL_ERROR, INTERRUPTED
 from guidewire.runs.whole_files import FULL
 
@@ -47,9 +44,7 @@ def code_of(action: Callable[[argparse.Namespace], int], arguments: argparse.Nam
             return FAILED
         if isinstance(error, OSError) and error.filename is not None:
             raise PreparationError(f"{error.filename}: {error.strerror}") from error
-        trace = Path(tempfile.mkdtemp(prefix="guidewire-")) / "error.txt"
-        trace.write_text(traceback.format_exc(), encoding="utf-8")
-        print(f"guidewire: internal error ({type(error).__name__}: {error}): please report {trace}", file=sys.stderr)
+        report(error)
         return INTERNAL_ERROR
 
 

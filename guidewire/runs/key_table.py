@@ -92,7 +92,7 @@ def _key(row: re.Match[str], methods: tuple[str, ...]) -> Key:
         low, high = map(float, _WHOLE.search(allowed).groups())
     elif kind == "number":
         if found := _LOW.search(allowed):
-            low, low_is_allowed = float(found[2]), found[1] == ">="
+            low, low_is_allowed = float(found[2].rstrip(",")), found[1] == ">="
         if found := _HIGH.search(allowed):
             high = float(found[1])
     return Key(

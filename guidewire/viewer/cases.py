@@ -2,7 +2,33 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass
 from pathlib import Path
+
+
+@dataclass(frozen=True)
+class Mission:
+    """A scene of params/missions with something to achieve. Its own drive reaches the target, as a test says.
+
+    Attributes
+    ----------
+    title, goal : in words.
+    par : a good time, s of the run.
+    """
+
+    title: str
+    goal: str
+    par: int
+
+
+MISSIONS = {    # in the order of their difficulty
+    "first-branch": Mission("Into the artery", "Push the wire past the fork and into the ring.", 12),
+    "other-branch": Mission("The other branch", "Turn the bent tip before the fork, then push.", 15),
+    "left-arm": Mission("To the left arm", "Bring an angled catheter up the aorta into the left subclavian artery.", 12),
+    "siphon-wire": Mission("Through the siphon", "Lead a thin wire through the bends of a carotid siphon.", 20),
+    "siphon-catheter": Mission("With a microcatheter", "Wire first, microcatheter after it: the key I changes hands.", 20),
+    "carotid": Mission("Catheter, then wire", "Point the catheter at the left carotid, and send the wire into it.", 45),
+}
 
 SCENES = {    # of params: title and sentence
     "insertion": ("Arch", "A simple wire, pushed into a branch of an aortic arch."),
@@ -18,6 +44,8 @@ SCENES = {    # of params: title and sentence
 
 def title_of(file: Path) -> str:
     """Return a parameter file as a case is called: by its place where its own name says nothing."""
+    if file.stem in MISSIONS:
+        return MISSIONS[file.stem].title
     if file.stem in SCENES:
         return SCENES[file.stem][0]
     name = file.resolve().parent.name if file.stem == "scene" else file.stem

@@ -86,6 +86,7 @@ class LiveRun:
         self._exchanges_asked = 0
         self._opened = 0
         self._is_paused = True
+        self._is_waiting = False    # paused until somebody steers
         self._steps_asked = 0
         self._hands = [REST, REST]    # push and turn from -1 to 1: of the held instrument, and of the next one
         self._mark = 0
@@ -204,10 +205,13 @@ class LiveRun:
         self._asking.shutdown()
 
     async def _do(self, page: Page, text: str) -> bool:
-        """Do what a page asks; False for what no page of ours asks."""
+        """Do what a page asks, or say that it is refused; False for what is no message at all."""
         try:
             message = json.loads(text)
             what = message["do"]
+        except (ValueError, KeyError, TypeError, RecursionError):
+            return False
+        try:
             if what == "shown":
                 await page.has_shown()
                 return True
@@ -217,8 +221,8 @@ class LiveRun:
                 await _DO[what](self, message)
         except SessionError as error:
             await self._fail(error)
-        except (ValueError, KeyError, TypeError, RecursionError):
-            return False
+        except (ValueError, KeyError, TypeError, OverflowError):
+            self._problem = f"refused: {json.dumps(what)[:40]} does not go with what stands beside it"
         if self._wake is not None:
             self._wake.set()
         await self._tell()
@@ -229,7 +233,10 @@ class LiveRun:
                  (float(message.get("otherPush", 0.0)), float(message.get("otherTurn", 0.0)))]
         if not all(abs(one) <= 1.0 for hand in hands for one in hand):
             raise ValueError("steering takes push and turn from -1 to 1")
-        self._hands, self._mark = hands, int(message["mark"])
+        self._mark = int(message["mark"])
+        self._hands = hands
+        if any(map(any, hands)):
+            self._begin_at_last()
         if hands[0][1]:
             self._instruments.aim = None
 
@@ -238,6 +245,12 @@ class LiveRun:
         if not math.isfinite(turn):
             raise ValueError("a hub turns to a number")
         self._instruments.aim = turn
+        self._begin_at_last()
+
+    def _begin_at_last(self) -> None:
+        """The first push: time runs from here on, unless somebody has paused."""
+        if self._is_waiting:
+            self._is_waiting = self._is_paused = False
 
     async def _do_hold(self, message: Mapping[str, Any]) -> None:
         self._instruments.hold(message["instrument"])
@@ -250,10 +263,12 @@ class LiveRun:
         session = self._session
         if session is None:
             return    # a key of a page that has not heard yet that the runner is gone
+        self._begin_at_last()
         await self._tell_agent(await self._in_thread(lambda: session.inject(amount, rate, hub)))
 
     async def _do_name(self, message: Mapping[str, Any]) -> None:
         number, name = message["instrument"], message["name"]
+        self._require_session()
         key = self._instruments.key_of(number, name)
         await self._stop_step()
         self._problem = ""
@@ -263,7 +278,7 @@ class LiveRun:
     async def _do_exchange(self, message: Mapping[str, Any]) -> None:
         number, name = message["instrument"], message["name"]
         key = self._instruments.key_of(number, name)
-        session, former = self._session, self._instruments.status()["instruments"][number]
+        session, former = self._require_session(), self._instruments.status()["instruments"][number]
         self._problem, self._exchanges_asked = "", self._exchanges_asked + 1
         try:
             state = await self._in_thread(lambda: session.exchange(number, name))
@@ -280,10 +295,10 @@ class LiveRun:
         self._cost = 0.0
 
     async def _do_pause(self, message: Mapping[str, Any]) -> None:
-        self._is_paused = bool(message["value"])
+        self._is_paused, self._is_waiting = bool(message["value"]), False
 
     async def _do_step(self, _: Mapping[str, Any]) -> None:
-        self._is_paused = True
+        self._is_paused, self._is_waiting = True, False
         self._steps_asked = 1
 
     async def _do_reset(self, _: Mapping[str, Any]) -> None:
@@ -314,13 +329,14 @@ class LiveRun:
         key, value = message["key"], message["value"]
         if key not in _CHANGED or not isinstance(value, (int, float, str)):
             raise ValueError("no parameter that may be changed")
+        session = self._require_session()
         self._problem = ""
         if isinstance(value, float) and value.is_integer():
             value = int(value)
         try:
-            await self._in_thread(lambda: self._session.change(**{key: value}))
+            await self._in_thread(lambda: session.change(**{key: value}))
         except SessionError as error:
-            if not self._session.is_open:
+            if not session.is_open:
                 raise
             self._problem = refusal(key, value, str(error))  # nothing has changed, and the wire goes on
             return
@@ -340,11 +356,16 @@ class LiveRun:
 
     def _begin(self, session: Session, held: int) -> None:
         """The run is at its start, with this hub in the hand."""
-        self._is_paused = not session.hand  # a wire that waits for a hand is at rest
+        self._is_paused, self._is_waiting = True, session.hand  # nothing is lost while somebody reads
         self._agent = None
         self._exchanges = []
         self._opened += 1
         self._instruments.begin(session, self._frames.described, held)
+
+    def _require_session(self) -> Session:
+        if self._session is None:
+            raise SessionError("nothing is simulated any more: start anew")
+        return self._session
 
     def _close_session(self) -> None:
         session, self._session = self._session, None
@@ -388,6 +409,7 @@ class LiveRun:
         state = None if session is None else session.state
         return {
             "hand": self._hand is page, "isFree": self._hand is None, "isPaused": self._is_paused,
+            "isWaiting": self._is_waiting,
             "isSteered": session is not None and session.hand, "opened": self._opened, "scene": self._scene,
             "scenes": list(self._scenes), "titles": [title_of(path) for path in self._scenes.values()],
             "file": os.path.relpath(self._scenes[self._scene]), "problem": self._problem, "values": values,

@@ -22,6 +22,7 @@ from typing import TYPE_CHECKING
 
 from aiohttp import web
 
+from guidewire.prepare import report
 from guidewire.viewer.parts import PAGE
 
 if TYPE_CHECKING:
@@ -127,6 +128,11 @@ class Server:
         except web.HTTPException as refused:
             refused.headers.update(self._headers)
             raise
+        except ConnectionError:    # the page is gone
+            raise
+        except Exception as error:
+            report(error, self._token)
+            raise web.HTTPInternalServerError(text="this server has failed", headers=self._headers) from None
         if not response.prepared:
             response.headers.update(self._headers)
         return response

@@ -13,21 +13,23 @@ Packed files are unpacked by the page, so no server has to compress.
 from __future__ import annotations
 
 import json
+import math
 import os
 import shutil
 import sys
 from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import Any
 
-from PIL import Image
+import numpy as np
+from PIL import Image, ImageDraw, ImageFilter
 
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building, checking
 from guidewire.runs.key_table import read_key_table
-from guidewire.sessions.session import SessionError, session_of
-from guidewire.viewer.cases import SCENES, title_of
+from guidewire.sessions.session import Session, SessionError, session_of
+from guidewire.viewer.cases import MISSIONS, SCENES, Mission, title_of
 from guidewire.viewer.export import modules_of, pack, page_of_packed
 from guidewire.viewer.live import rules
 from guidewire.viewer.parts import PAGE, three
@@ -40,6 +42,8 @@ _NOTICES = ("LICENSE", "THIRD-PARTY-NOTICES.md")
 _TEXTS = (".json", ".csv")
 _PIXELS = 320
 _PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what belongs to the vessel of a scene
+_GROUND, _TISSUE, _METAL, _GOAL = (10, 14, 19), (196, 62, 52), (255, 226, 160), (62, 230, 160)
+_BACKGROUND = 0.75    # of a picture, as of Session.picture
 _SEEN = 0.8    # part of its file's drive after which a scene is pictured
 _POLICY = ("default-src 'self'; script-src 'self' blob: 'wasm-unsafe-eval'; img-src 'self' data:; object-src 'none'; "
            "base-uri 'none'")
@@ -55,7 +59,8 @@ class _Scene:
     ----------
     file : its name there.
     files : what it needs, by their names there, itself among them.
-    picture : grey levels.
+    picture : of the vessel and the instruments.
+    mission : what there is to achieve; None: nothing.
     """
 
     file: str
@@ -63,6 +68,7 @@ class _Scene:
     sentence: str
     files: dict[str, Path]
     picture: Image.Image
+    mission: Mission | None
 
 
 def write_site(out: Path, scenes: Sequence[Path], is_compiled_ahead: bool, build_runner: Callable[[], list[str]]
@@ -77,7 +83,8 @@ def write_site(out: Path, scenes: Sequence[Path], is_compiled_ahead: bool, build
         raise PreparationError(f"{out}: is there already and no site: give another folder")
     checking.check_out(out.parent)
     keys = read_key_table(build_runner())
-    found = [_read(file) for file in scenes or [ROOT / "params" / f"{name}.json" for name in SCENES]]
+    shipped = [ROOT / "params" / f"{name}.json" for name in (*(f"missions/{name}" for name in MISSIONS), *SCENES)]
+    found = [_read(file) for file in scenes or shipped]
     framework = building.build_browser(is_compiled_ahead, _say)
     partial = out.with_name(out.name + ".partial")
     shutil.rmtree(partial, ignore_errors=True)
@@ -114,7 +121,7 @@ def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]]
         scene.picture.save(folder / picture)
         meshes = [name for name in scene.files if not name.endswith(_TEXTS)]
         listed.append({"file": scene.file, "title": scene.title, "sentence": scene.sentence, "picture": picture,
-                       "meshes": meshes})
+                       "meshes": meshes, **({"mission": asdict(scene.mission)} if scene.mission else {})})
         texts |= {name: file for name, file in scene.files.items() if name.endswith(_TEXTS)}
         for name in meshes:
             (folder / "files" / name).parent.mkdir(parents=True, exist_ok=True)
@@ -143,19 +150,50 @@ def _read(file: Path) -> _Scene:
         with session_of(file, native=False) as session:
             steps = int(_SEEN * session.parameters["maxSimulationSteps"])
             session.step(steps=max(1, steps))
-            picture = Image.fromarray(session.picture(pixels=_PIXELS))
+            picture = _picture(session)
             named = [file, *_named(session.parameters)]
     except SessionError as error:
         raise PreparationError(str(error)) from error
     files = {}
+    is_shipped = (ROOT / "params") in file.resolve().parents
+    base, above = (ROOT, "") if is_shipped else (file.resolve().parent, "params/")
     own = (file.parent / "instruments").glob("*.json")
     for one in (*named, *own):
-        name = os.path.relpath(one, file.parent)
+        name = os.path.relpath(one, base)
         if name.startswith(".."):
             raise PreparationError(f"{file}: names {name}: a site takes files of the scene's own folder and below")
-        files["params/" + Path(name).as_posix()] = Path(one)
+        files[above + Path(name).as_posix()] = Path(one)
     _, sentence = SCENES.get(file.stem, ("", ""))
-    return _Scene(f"params/{file.name}", title_of(file), sentence, files, picture)
+    return _Scene(next(iter(files)), title_of(file), sentence, files, picture, MISSIONS.get(file.stem))
+
+
+def _picture(session: Session) -> Image.Image:
+    """The vessel as tissue, the instruments as metal, wider than they are, and the target as a ring."""
+    described = session.describe()
+    target = described.get("target")
+    view: dict[str, Any] = {"pixels": 2 * _PIXELS}
+    if target:    # the second half of the way to it, from where that is seen at its widest
+        places = np.array(target["points"])
+        places = places[len(places) // 2:]
+        low, high = places.min(axis=0), places.max(axis=0)
+        unit = 1e3 * session.parameters.get("metresPerUnit", 1e-3)
+        axes = described.get("patient") or {"left": [0.0, 1.0, 0.0], "chest": [1.0, 0.0, 0.0], "head": [0.0, 0.0, 1.0]}
+        turns = {lao: math.cos(math.radians(lao)) * np.array(axes["left"])
+                 - math.sin(math.radians(lao)) * np.array(axes["chest"]) for lao in (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)}
+        lao, right = max(turns.items(), key=lambda turn: np.ptp(places @ turn[1]))
+        view |= {"centre": (0.5 * (low + high)).tolist(), "field_of_view": float(1.7 * unit * np.max(high - low)), "lao": lao}
+    shade = session.picture(**view, vessel="contrast", attenuation=0.0) / (255.0 * _BACKGROUND)
+    metal = Image.fromarray(session.picture(**view, vessel="none", attenuation=20.0)).filter(ImageFilter.MinFilter(5))
+    tissue, wire = 1.0 - np.clip(shade, 0.0, 1.0) ** 1.5, 1.0 - np.clip(np.asarray(metal) / (255.0 * _BACKGROUND), 0.0, 1.0)
+    rgb = np.full((*tissue.shape, 3), _GROUND, dtype=float)
+    for part, colour in ((tissue, _TISSUE), (wire, _METAL)):
+        rgb += part[..., None] * (np.array(colour) - rgb)
+    picture = Image.fromarray(rgb.round().astype(np.uint8))
+    if target:
+        away = (places[-1] - view["centre"]) * unit * 2 * _PIXELS / view["field_of_view"]
+        x, y = _PIXELS + np.dot(away, right), _PIXELS - np.dot(away, axes["head"])
+        ImageDraw.Draw(picture).ellipse((x - 20, y - 20, x + 20, y + 20), outline=_GOAL, width=6)
+    return picture.resize((_PIXELS, _PIXELS), Image.Resampling.LANCZOS)
 
 
 def _named(value: Any) -> Iterator[Path]:

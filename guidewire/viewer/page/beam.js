@@ -5,6 +5,8 @@ const MOST = 150; // pictures of a cine loop
 const RATES = /** @type {[string, number][]} */ ([["continuous", Infinity], ["30 a second", 30], ["15 a second", 15],
   ["7.5 a second", 7.5]]);
 
+const CONTINUOUS = 30; // pictures a second that a continuous beam is counted as
+
 /** The pedal: whether there is a beam, how often a second, and what has come of it. */
 export class Beam {
   /** @param {() => void} changed called where a picture may be due */
@@ -13,7 +15,7 @@ export class Beam {
     this.isOn = true;
     /** s of the run with the beam on. */
     this.seconds = 0;
-    /** Pictures taken. */
+    /** Pictures of the run that the beam's pulses made, however many of them this computer has drawn. */
     this.pictures = 0;
     this._rate = Infinity;
     this._last = -Infinity; // ms
@@ -47,14 +49,15 @@ export class Beam {
   /** A picture is taken. @param {number} time s of the run */
   take(time) {
     this._last = performance.now();
-    this.pictures++;
     this.pass(time);
   }
 
   /** The run goes on. @param {number} time s */
   pass(time) {
     if (time <= this._time) return; // one looks back
-    if (this.isOn) this.seconds += time - this._time || 0;
+    const seconds = this.isOn ? time - this._time || 0 : 0;
+    this.seconds += seconds;
+    this.pictures += seconds * Math.min(this._rate, CONTINUOUS);
     this._time = time;
   }
 }

@@ -25,6 +25,6 @@ const start = async () => {
   await import(link("main.js"));
 };
 start().catch((error) => {
-  const said = /** @type {HTMLElement} */ (document.getElementById("said"));
-  said.textContent = `this browser cannot show the run (${error.message})`;
+  const said = /** @type {HTMLElement} */ (document.getElementById("unstarted"));
+  if (typeof error !== "string") said.textContent = `This browser cannot show the page: take a newer one (${error.message}).`;
 });

@@ -52,6 +52,8 @@ export class WorkerConnection {
     this.onmessage = () => {};
     /** @type {Connection["onclose"]} */
     this.onclose = () => {};
+    /** Told what is being loaded, and the part of it that is there. @type {(what: string, part?: number) => void} */
+    this.onloading = () => {};
     this._site = site;
     this._opened = this._number = this._awaited = 0;
     /** Whether the worker steps: it is not loading, nor opening a scene. */
@@ -74,6 +76,14 @@ export class WorkerConnection {
     this._worker.onerror = (error) => this.onclose(`this browser cannot simulate: ${error.message || "its worker ended"}`);
     this._worker.postMessage({ begin: { rules, scenes: scenes.map(({ file }) => file), opened: this._opened,
       meshes: Object.fromEntries(scenes.map(({ file, meshes }) => [file, meshes])) } });
+  }
+
+  /** Gives up what is being loaded: another worker begins with nothing open. */
+  cancel() {
+    clearTimeout(this._timer);
+    this._worker?.terminate();
+    [this._story, this._recording] = [[], null];
+    this._begin();
   }
 
   /** @type {Connection["send"]} */
@@ -100,6 +110,7 @@ export class WorkerConnection {
 
   /** @param {any} data */
   _hear(data) {
+    if (data.loading) this.onloading(data.loading, data.part);
     if (data.heard >= this._awaited) clearTimeout(this._timer);
     if (data.recording) [this._recording, this._opened] = [data.recording, data.opened];
     if (data.frame) this.onmessage(data.frame);

@@ -1,5 +1,6 @@
 // @ts-check
 import { byId, make } from "./panel.js";
+import { whileHeld } from "./steering.js";
 
 /** @typedef {import("./live.js").Status} Status */
 
@@ -10,17 +11,29 @@ export class Controls {
     this._live = live;
     /** Whether a value was sent that has no answer yet. */
     this._isSent = false;
+    /** What the buttons were made of. */
+    this._shown = "";
   }
 
   /** @param {Status} status */
   make(status) {
-    byId("bar").replaceChildren(...(status.hand ? this._bar(status)
-      : status.isFree ? [this._button("take control", { do: "take" })]
-      : [make("span", {}, "another page is steering; when it is closed you can take over")]));
+    const { isFine } = this._live.steering;
+    const shown = JSON.stringify([status, isFine, this._live.injector.isUseful]);
+    if (shown !== this._shown) this._fill(status);
+    this._shown = shown;
     const typed = byId("controls").contains(document.activeElement) ? document.activeElement : null;
     if (typed && !this._isSent) return; // a value that is being typed
     this._isSent = false;
     byId("controls").replaceChildren(...(status.hand ? [...this._names(status), ...this._values(status)] : []));
+  }
+
+  /** The buttons anew; the one that a keyboard has reached stays reached. @param {Status} status */
+  _fill(status) {
+    const reached = [...byId("bar").querySelectorAll("button, select, input")].indexOf(document.activeElement);
+    byId("bar").replaceChildren(...(status.hand ? this._bar(status)
+      : status.isFree ? [this._button("take control", { do: "take" })]
+      : [make("span", {}, "another page is steering; when it is closed you can take over")]));
+    if (reached >= 0) byId("bar").querySelectorAll("button, select, input")[reached]?.focus();
   }
 
   /** @param {string} text @param {object} message */
@@ -32,7 +45,7 @@ export class Controls {
   _bar(status) {
     const live = this._live;
     const isOver = status.outcome !== "" || live.isGone(status);
-    const drive = status.isSteered ? "file's drive" : "interactive";
+    const drive = status.isSteered ? "watch the recorded drive" : "steer by hand";
     const more = make("button", { id: "more", onclick: () => byId("bar").classList.toggle("open") }, "more");
     more.setAttribute("aria-label", "more buttons");
     const saving = make("button", { id: "save", className: "second", onclick: () => live.saveSteering(), title: status.steered
@@ -46,14 +59,15 @@ export class Controls {
       ...(status.isSteered ? [this._pad(), ...this._drives(),
         ...(status.instruments.length > 1 ? [this._hold(status)] : []),] : []),
       make("span", { className: "buttons" },
-        ...(status.isSteered && !isOver ? [live.injector.button, this._fine()] : []),
-        ...(live.canExchange && !isOver ? [this._exchange()] : []), ...(isOver ? [] : [this._button(status.isPaused ? "go on" : "pause", { do: "pause", value: !status.isPaused }),
+        ...(status.isSteered && !isOver ? [live.injector.button,
+          ...(live.injector.isUseful ? [] : [make("span", { className: "why" }, "no centreline, no blood flow")]), this._fine()] : []),
+        ...(live.canExchange && !isOver ? [this._exchange()] : []), ...(isOver ? [] : [this._pause(status),
           second(this._button("step", { do: "step" }))]),
-        this._button("start anew", { do: "reset" }),
+        make("button", { onclick: () => live.restart() }, "start anew"),
         make("button", { id: "reporting", onclick: () => live.report() }, "report"),
-        ...(status.isPaused && live.frames.newest > 0 ? [this._slider()] : []), saving,
-        make("button", { className: "second", onclick: () =>
-          live.leave(drive, { do: "open", scene: status.scene, hand: !status.isSteered }) }, drive),
+        this._slider(status.isPaused && live.frames.newest > 0), saving,
+        make("button", { className: "second", onclick: () => live.leave(drive, () =>
+          live.send({ do: "open", scene: status.scene, hand: !status.isSteered })) }, drive),
         this._paces(status), this._cases(status), more),
     ];
   }
@@ -71,9 +85,7 @@ export class Controls {
   _drives() {
     const { steering } = this._live;
     const held = (/** @type {string} */ text, /** @type {string} */ key, /** @type {string} */ cap) =>
-      make("button", { className: "drive", onpointerdown: () => steering.hold(key),
-        onpointerup: () => steering.release(), onpointerleave: () => steering.release() },
-      text, " ", make("kbd", {}, cap));
+      make("button", { className: "drive", ...whileHeld(() => steering.hold(key), () => steering.release()) }, text, " ", make("kbd", {}, cap));
     return [held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"), held("turn right", "d", "D")];
   }
 
@@ -95,11 +107,21 @@ export class Controls {
       title: "another instrument over the wire" }, "exchange ", make("kbd", {}, "Q"));
   }
 
-  _slider() {
+  /** @param {Status} status */
+  _pause(status) {
+    const text = status.isWaiting ? "begin" : status.isPaused ? "go on" : "pause";
+    const made = this._button(text, { do: "pause", value: !status.isPaused });
+    made.id = "pause";
+    return made;
+  }
+
+  /** It keeps its place while it can do nothing. @param {boolean} isUseful */
+  _slider(isUseful) {
     const { newest, shown } = this._live.frames;
     const back = make("input", { type: "range", id: "back", min: 0, step: 1, max: newest, value: shown,
       oninput: () => this._live.lookBack(Number(back.value)) });
     back.setAttribute("aria-label", "look back");
+    back.style.visibility = isUseful ? "visible" : "hidden";
     return back;
   }
 
@@ -116,7 +138,7 @@ export class Controls {
   /** @param {Status} status */
   _cases(status) {
     const cases = make("select", { id: "scenes", className: "second", onchange: () => this._live.leave(
-      `open ${cases.selectedOptions[0].textContent}`, { do: "open", scene: cases.value },
+      `open ${cases.selectedOptions[0].textContent}`, () => this._live.send({ do: "open", scene: cases.value }),
       () => { cases.value = status.scene; }) },
     ...status.scenes.map((scene, k) =>
       make("option", { value: scene, selected: scene === status.scene }, status.titles[k])));
@@ -128,7 +150,7 @@ export class Controls {
   _names(status) {
     return status.named.map((names, k) => {
       const select = make("select", { onchange: () => this._live.leave(`begin anew with ${select.value}`,
-        { do: "name", instrument: k, name: select.value }, () => { select.value = status.chosen[k]; }) },
+        () => this._live.send({ do: "name", instrument: k, name: select.value }), () => { select.value = status.chosen[k]; }) },
       ...[...(status.chosen[k] ? [] : [""]), ...names].map((name) =>
         make("option", { value: name, selected: name === status.chosen[k], disabled: name === "" }, name)));
       return make("label", {}, k === 0 ? "instrument" : `catheter${status.named.length > 2 ? ` ${k}` : ""}`, select);

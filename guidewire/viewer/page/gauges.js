@@ -20,7 +20,7 @@ export class Gauge {
       this._word, make("div", { className: limits ? "bar bands" : "bar" }, this._bar, this._peak));
     this.element.setAttribute("role", "meter");
     this.element.setAttribute("aria-label", label);
-    this.element.setAttribute("aria-valuemin", "0");
+    for (const [name, value] of [["min", 0], ["max", 1], ["now", 0]]) this.element.setAttribute(`aria-value${name}`, String(value));
     if (limits) {
       this.element.style.setProperty("--caution-at", `${(100 * limits[0]) / this._most}%`);
       this.element.style.setProperty("--stop-at", `${(100 * limits[1]) / this._most}%`);
@@ -41,8 +41,8 @@ export class Gauge {
     this.element.dataset.band = BANDS[band];
     this._bar.style.width = `${Math.min(100, (100 * size) / most)}%`;
     this._peak.style.left = `${Math.min(100, (100 * peak) / most)}%`;
-    this.element.setAttribute("aria-valuemax", String(most));
-    this.element.setAttribute("aria-valuenow", String(Math.min(size, most)));
+    this.element.setAttribute("aria-valuemax", most.toFixed(9)); // no reader takes an exponent
+    this.element.setAttribute("aria-valuenow", Math.min(size, most).toFixed(9));
     this.element.setAttribute("aria-valuetext", `${this._value.textContent}, ${this._word.textContent}`);
   }
 }

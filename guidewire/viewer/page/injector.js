@@ -1,5 +1,6 @@
 // @ts-check
 import { byId, make } from "./panel.js";
+import { whileHeld } from "./steering.js";
 
 /**
  * @typedef {{agent: {parts: string, injected: number, held: number, isActive: boolean, isInjecting: boolean}}} Told what
@@ -44,11 +45,14 @@ export class Injector {
     this._element.hidden = !this._hasVessel;
   }
 
+  /** Whether blood is known to flow, into which to inject. */
+  get isUseful() {
+    return Boolean(this._hasVessel);
+  }
+
   /** The button, for those who have no key. */
   get button() {
-    const button = make("button", { id: "inject", onpointerdown: () => this.press(), onpointerup: () => this.release(),
-      onpointerleave: () => this.release(), onkeydown: (/** @type {KeyboardEvent} */ event) =>
-        event.key === "Enter" && this.press() }, "inject ", make("kbd", {}, "E"));
+    const button = make("button", { id: "inject", ...whileHeld(() => this.press(), () => this.release()) }, "inject ", make("kbd", {}, "E"));
     button.disabled = !this._hasVessel;
     button.title = this._hasVessel ? "contrast into the blood" : "this vessel has no centreline along which blood could flow";
     return button;

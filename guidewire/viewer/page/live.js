@@ -1,8 +1,10 @@
 // @ts-check
+import { Coach } from "./coach.js";
 import { brief } from "./colours.js";
 import { Controls } from "./controls.js";
 import { ask } from "./dialog.js";
 import { Injector } from "./injector.js";
+import { judge, keepBest } from "./missions.js";
 import { Model } from "./model.js";
 import { byId, make } from "./panel.js";
 import { Recording } from "./recording.js";
@@ -17,6 +19,7 @@ import { placeName } from "./target.js";
  * @property {boolean} isFree whether no page has
  * @property {boolean} isSteered whether push and turn do something
  * @property {boolean} isPaused
+ * @property {boolean} isWaiting paused until somebody steers
  * @property {number} opened how often a run was opened: another number, another recording
  * @property {number} pace of in-game time against the clock
  * @property {number[]} paces
@@ -39,6 +42,7 @@ import { placeName } from "./target.js";
 
 const REMINDED = 2500; // ms
 const SLOW = 0.9; // of the chosen speed
+const LOSS = 10; // s of a run that are not lost without a question
 
 /** A run that goes on in the runner. Here are only keys and pictures. */
 export class Live {
@@ -71,6 +75,13 @@ export class Live {
     this._back = null;
     this.injector = new Injector((message) => this.send(message));
     this._controls = new Controls(this);
+    this._coach = new Coach(xray);
+    /** What is to be achieved. @type {(import("./missions.js").Mission & {file: string}) | null} */
+    this.mission = null;
+    /** Told where a scene is shown. @type {(scene: string) => void} */
+    this.onOpened = () => {};
+    /** Told what could not be done. @type {(problem: string) => void} */
+    this.onProblem = () => {};
     this._steeredAt = -REMINDED; // ms: when a hand last moved a paused wire
     this._isReported = false;
     this._exchanged = 0; // how many of the run are shown
@@ -82,8 +93,11 @@ export class Live {
     this._connection = connection;
     connection.onmessage = (message) => (message instanceof ArrayBuffer ? this._take(message)
       : "agent" in message ? xray.fill(this.injector.take(message.agent)) : this._hear(message));
-    connection.onclose = (reason) => panel.say([reason]);
-    document.addEventListener("visibilitychange", () => document.hidden && this.pause(true));
+    connection.onclose = (reason) => {
+      panel.say([reason]);
+      this.onProblem(reason);
+    };
+    document.addEventListener("visibilitychange", () => document.hidden && !this.status?.isPaused && this.pause(true));
     addEventListener("keyup", ({ key }) => ["e", "enter"].includes(key.toLowerCase()) && this.injector.release());
     addEventListener("blur", () => this.injector.release());
     addEventListener("pagehide", () => this._keep());
@@ -100,7 +114,7 @@ export class Live {
     if (card.open) pressCard(card, button);
     else if (button === "exchange") this.exchange();
     else if (button === "pause") this.pause(!this.status?.isPaused);
-    else if (button === "reset") this.send({ do: "reset" });
+    else if (button === "reset") this.restart();
     else if (button === "hold") this.holdNext();
     else if (button === "fine") this.refine();
     else if (button === "beam") this._xray.beam.set(!this._xray.beam.isOn);
@@ -118,14 +132,14 @@ export class Live {
 
   /** @param {KeyboardEvent} event @returns {boolean} whether the key means something here */
   key(event) {
-    if (this.steering.key(event)) byId("keys").hidden = true;
-    else if (event.key === " ") this.pause(!this.status?.isPaused);
+    if (this.steering.key(event)) return true;
+    if (event.key === " ") this.pause(!this.status?.isPaused);
     else if (event.key === "g") this.refine();
     else if (event.key === "e") this.injector.press();
     else if (event.key === "n") this.send({ do: "step" });
     else if (event.key === "i") this.holdNext();
     else if (event.key === "q") this.exchange();
-    else if (event.key === "r") this.send({ do: "reset" });
+    else if (event.key === "r") this.restart();
     else return false;
     return true;
   }
@@ -135,15 +149,38 @@ export class Live {
     this.send({ do: "pause", value: isPaused });
   }
 
-  /** Asks before a run that has begun is lost. @param {string} what takes its place @param {Record<string, any>} message
-   * that opens it @param {() => void} stay called where it does not */
-  async leave(what, message, stay = () => {}) {
-    this.steering.release();
-    const time = this.model?.recording.at("time", this.model.recording.count - 1)[0] ?? 0;
-    const answer = time === 0 ? "leave" : await ask(`${what}?`, [make("p", {},
-      `The run of ${brief(time, 3)} s ends with it. Steering and report can be saved before.`)], ["leave", "stay"]);
-    if (answer === "leave") this.send(message);
+  /** s of the run so far. */
+  get _time() {
+    return this.model?.recording.at("time", this.model.recording.count - 1)[0] ?? 0;
+  }
+
+  /** Asks before a run that has begun is lost. @param {string} what takes its place @param {() => void} go opens it
+   * @param {() => void} stay called where it does not */
+  async leave(what, go, stay = () => {}) {
+    if (this._time === 0 || await this._mayLose(what, "leave", "stay")) go();
     else stay();
+  }
+
+  /** Begins the run anew; asks where much of it would be lost. */
+  async restart() {
+    const isGone = !this.status || this.status.outcome || this.isGone(this.status);
+    if (isGone || this._time <= LOSS || await this._mayLose("start anew", "start anew", "go on")) this.send({ do: "reset" });
+  }
+
+  /** Whether the run may end; it stands while one reads. @param {string} what @param {string} yes @param {string} no */
+  async _mayLose(what, yes, no) {
+    this.steering.release();
+    const isGoing = this.status && !this.status.isPaused;
+    if (isGoing) this.pause(true);
+    const answer = await ask(`${what}?`, [make("p", {},
+      `The run of ${brief(this._time, 3)} s ends with it. Steering and report can be saved before.`)], [yes, no]);
+    if (answer !== yes && isGoing) this.pause(false);
+    return answer === yes;
+  }
+
+  /** Nothing is simulated any more. */
+  forget() {
+    [this.model, this.status, this._shownScene] = [null, null, undefined];
   }
 
   /** What the score knows, for a page that is loaded anew. */
@@ -211,10 +248,10 @@ export class Live {
 
   /** Says that nothing moves while the run is paused. */
   _remind() {
-    if (!this.status?.isPaused || this.status.outcome) return;
+    if (!this.status?.isPaused || this.status.isWaiting || this.status.outcome) return;
     this._steeredAt = performance.now();
-    setTimeout(() => this._label(), REMINDED + 50);
-    this._label();
+    setTimeout(() => this.label(), REMINDED + 50);
+    this.label();
   }
 
   /** @param {Status} status */
@@ -222,18 +259,26 @@ export class Live {
     const isNew = this.status?.opened !== status.opened;
     const before = this.status;
     this.status = status;
-    if (isNew) {
+    if (isNew && status.opened) {
+      byId("note").textContent = "loading the vessel";
       const recorded = await this._connection.recording(status.opened);
       if (recorded) this._open(new Recording(recorded), status.opened);
     }
     if (isNew || before?.hand !== status.hand || before?.isFree !== status.isFree || status.hand) {
       this._controls.make(status);
-      this._label();
+      this.label();
     }
+    this._coach.offer(status.hand && status.isSteered && !status.outcome);
+    this._placeCoach();
     this._desk.hold(status.isSteered ? status.held : -1);
     this._watch(status.isSteered ? status.held : 0);
     this._panel.say([status.problem, status.outcome, ...(this.model?.recording.warnings ?? [])].filter(Boolean));
     this._answerExchange(status);
+    if (status.problem) this.onProblem(status.problem);
+  }
+
+  _placeCoach() {
+    if (this.model) this._coach.place(this.model.watchedTip);
   }
 
   /** Keeps the tip of an instrument in view. @param {number} instrument */
@@ -271,7 +316,8 @@ export class Live {
     if (isOther) this._xray.set([this.model]);
     else this._xray.keep([this.model], Boolean(kept));
     if (isOther) this._stage.frameAll(true);
-    this._label();
+    this.label();
+    this.onOpened(this.status?.scene ?? "");
   }
 
   /** @param {ArrayBuffer} data */
@@ -288,9 +334,13 @@ export class Live {
     if (recording.forgotten > before) this._desk.score?.forget(recording.forgotten - before);
     this._back = null;
     this.model.frame = recording.count - 1;
-    this._xray.beam.pass(recording.at("time", this.model.frame)[0]);
+    const time = recording.at("time", this.model.frame)[0];
+    this._coach.pass(this.steering, time - (this._before ?? time));
+    this._before = time;
+    this._xray.beam.pass(time);
     this.show();
-    this._label();
+    this.label();
+    this._placeCoach();
     if (!this._isReported && Number.isFinite(this._desk.score?.reachedAt)) this._succeed();
   }
 
@@ -311,7 +361,10 @@ export class Live {
     const { recording } = this.model;
     const isDone = Number.isFinite(score.reachedAt);
     const name = placeName(recording.described?.target?.name ?? "");
-    return showReport(rowsOf(recording, score, { case: this.title, beam: this._xray.beam.seconds, pictures: this._xray.beam.pictures,
+    const { seconds, pictures } = this._xray.beam;
+    const judged = this.mission && isDone ? judge(this.mission, score, seconds, this.injector.injected) : null;
+    if (this.mission && judged) keepBest(this.mission.file, judged.result);
+    return showReport(rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,
       contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }), isDone ? `${name} reached` : "report", isDone ? ["start anew", "go on"] : ["close"]);
   }
 
@@ -347,7 +400,7 @@ export class Live {
     if (!this.model) return;
     this._back = frame < this.model.recording.count - 1 ? frame : null;
     this.show();
-    this._label();
+    this.label();
   }
 
   _shown() {
@@ -358,7 +411,7 @@ export class Live {
     }
   }
 
-  _label() {
+  label() {
     if (!this.model) return;
     const { recording, frame } = this.model;
     const [time, step, stepTime] = ["time", "step", "stepTime"].map((name) => recording.at(name, frame)[0]);
@@ -367,20 +420,21 @@ export class Live {
       Number.isFinite(rate) ? `\n${brief(stepTime, 3)} ms a step: ${brief(rate, 3)} times real time` : ""}`);
     const target = recording.described?.target;
     byId("title").textContent = target ? `${this.title}, to ${placeName(target.name)}` : this.title;
+    if (!byId("start") || byId("start").hidden) document.title = `${this.title} · Guidewire`;
     byId("mood").textContent = this._mood();
     this._note(rate);
   }
 
   /** Says beside the pictures what an operator may not see elsewhere. @param {number} rate times faster than real time */
   _note(rate) {
-    const { isPaused, pace = 1, hand, outcome, isSteered } = this.status ?? {};
+    const { isPaused, isWaiting, pace = 1, hand, outcome, isSteered } = this.status ?? {};
     const isReminded = isPaused && performance.now() - this._steeredAt < REMINDED;
     const isSlow = !isPaused && rate < SLOW * Math.min(pace, 1);
     const note = byId("note");
     note.classList.toggle("loud", Boolean(isReminded));
     note.textContent = this._back !== null ? "looking back" : outcome ? "ended"
-      : !hand ? "" : isReminded ? "paused: nothing moves until \"go on\" (space)" : isPaused ? "paused"
-      : isSlow ? `slower than real time: ${brief(rate, 2)} x` : isSteered ? "" : "moved by its file's drive";
+      : !hand ? "" : isWaiting ? "ready: time runs from the first push" : isReminded ? "paused: nothing moves until \"go on\" (space)" : isPaused ? "paused"
+      : isSlow ? `slower than real time: ${brief(rate, 2)} x` : isSteered ? "" : "moved by the recorded drive";
   }
 
   /** Whether there is no runner any more. @param {Status} status */
@@ -403,12 +457,18 @@ export class Live {
     }
     const keys = files.map((file, k) => {
       const own = k === 0 ? "" : `catheters[${k - 1}].`;
-      return `--set ${own}insertionSpeed=0 --set ${own}driveFile=${file} `
-        + (named.length && chosen[k] ? `--set ${own}instrument=${chosen[k]} ` : "");
-    }).join("");
+      return `--set "${own}insertionSpeed=0" --set "${own}driveFile=${file}" `
+        + (named.length && chosen[k] ? `--set "${own}instrument=${chosen[k]}" ` : "");
+    }).join(""); // quotes that sh, zsh, PowerShell and cmd take alike
     const steps = this.model ? this.model.recording.at("step", this.model.recording.count - 1)[0] : 0;
+    const command = `python3 guidewire.py run "${this.status.file}" ${keys}--set maxSimulationSteps=${steps} --set deltaThreshold=0`;
     this._panel.tell([`${files.join(", ")}: put ${files.length > 1 ? "them" : "it"} where you start guidewire.py, and repeat the run there with`,
-      `python3 guidewire.py run ${this.status.file} ${keys}--set maxSimulationSteps=${steps} --set deltaThreshold=0`]);
+      command]);
+    const copy = make("button", { onclick: async () => {
+      await navigator.clipboard.writeText(command);
+      copy.textContent = "copied";
+    } }, "copy the command");
+    byId("said").append("\n", copy);
   }
 
   _mood() {
@@ -417,8 +477,8 @@ export class Live {
     if (this.status.outcome) return "ended";
     if (this.isGone(this.status)) return "the simulation has ended unexpectedly: start anew";
     if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
-    if (this.status.isPaused) return "paused";
-    return this.status.isSteered ? "" : "moved by its file's drive";
+    if (this.status.isPaused) return this.status.isWaiting ? "ready" : "paused";
+    return this.status.isSteered ? "" : "moved by the recorded drive";
   }
 }
 
@@ -437,7 +497,6 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
+  ["round pad", "up pushes, down pulls, sideways turns"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
   ["R", "start anew"], ["I", "select the next instrument"], ["Q", "exchange it for another one"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam; up: exchange"],
-  ["round pad", "up pushes, down pulls, sideways turns"],
 ]);

@@ -113,7 +113,7 @@ export class View {
   /** The C-arm's angles, as texts. */
   get angles() {
     const { lao, cranial } = this.look;
-    const [turned, tilted] = this.patient === UNKNOWN ? [["turned", "turned −"], ["tilted", "tilted −"]]
+    const [turned, tilted] = this.patient === UNKNOWN ? [["left", "right"], ["above", "below"]]
       : [["LAO", "RAO"], ["CRAN", "CAUD"]];
     const text = (/** @type {number} */ value, /** @type {string[]} */ names) =>
       `${names[value < 0 ? 1 : 0]} ${Math.abs(Math.round(value))}°`;

@@ -14,7 +14,8 @@ const desk = new Desk();
 const xray = new Xray();
 if (!stage.isDrawn) {
   document.body.dataset.views = "xray";
-  byId("notice").textContent = "No WebGL 2 in this browser: the X-ray picture is drawn plainly, and there is no 3D picture.";
+  byId("notice").textContent = "No WebGL 2 in this browser: the X-ray picture is drawn plainly and there is no 3D picture, until you switch "
+    + "on hardware acceleration or take another browser.";
   byId("notice").hidden = false;
 }
 byId("together").onclick = () => {
@@ -31,21 +32,32 @@ const panel = new Panel(stage, () => shown?.show());
 
 /** Runs that stand in this file, where it works without a server. @type {ArrayBuffer[] | undefined} */
 const packed = /** @type {any} */ (globalThis).guidewireRecordings;
-const what = packed ? { isLive: false, recordings: packed.length } : await (await fetch("show.json")).json();
+const load = async (/** @type {string} */ name) => {
+  const answer = await fetch(name);
+  if (answer.ok) return answer;
+  throw byId("unstarted").textContent = `${name} is missing on this server (${answer.status}): copy the whole folder there again.`;
+};
+const what = packed ? { isLive: false, recordings: packed.length } : await (await load("show.json")).json();
 if (what.isLive) {
   const connection = what.site ? new WorkerConnection(what.site) : new SocketConnection();
-  shown = new Live(stage, panel, desk, xray, connection);
-  if (what.site) offer(what.site, connection);
+  const live = shown = new Live(stage, panel, desk, xray, connection);
+  if (connection instanceof WorkerConnection) offer(what.site, live, connection);
 } else {
-  const load = async (/** @type {number} */ k) => (await fetch(`recording/${k}`)).arrayBuffer();
-  const bytes = packed ?? await Promise.all([...Array(what.recordings).keys()].map(load));
+  const bytes = packed ?? await Promise.all([...Array(what.recordings).keys()].map(async (k) =>
+    (await load(`recording/${k}`)).arrayBuffer()));
   shown = new Replay(stage, panel, desk, xray, bytes.map((one) => new Recording(unpackRecording(one))));
 }
+byId("unstarted").remove();
 
 const NO_KEYS = ["round pad", "gamepad", "X-ray", "3D"];
 const keys = byId("keys");
+let hasPaused = false; // for as long as one reads
 const showHelp = (/** @type {boolean} */ isShown) => {
   keys.hidden = !isShown;
+  if (shown instanceof Live) {
+    if (isShown ? shown.status && !shown.status.isPaused : hasPaused) shown.pause(isShown);
+    hasPaused = isShown && !shown.status?.isPaused;
+  }
   byId("help").setAttribute("aria-expanded", String(isShown));
 };
 keys.replaceChildren(
@@ -57,7 +69,6 @@ keys.replaceChildren(
       make("td", {}, ...key.split(", ").flatMap((part, k) => [k ? ", " : "", make("kbd", {}, part)])),
       make("td", {}, text)))),
   make("button", { onclick: () => showHelp(false) }, "got it"));
-showHelp(what.isLive);
 byId("hint").textContent = what.isLive ? "W push, S pull, A and D turn, space pause, H help" : "space play, H help";
 byId("help").onclick = () => showHelp(keys.hidden);
 
@@ -87,15 +98,20 @@ const TABLE = 0.01; // of the picture's side for 5 degrees of the other keys
 const toggles = /** @type {Record<string, string>} */ ({ f: "arrows", t: "follow" });
 /** What takes keys itself: fields, and an open card. @param {EventTarget | null} target */
 const takesKeys = (target) => (target instanceof HTMLInputElement && !["range", "checkbox", "file"].includes(target.type))
-  || byId("card").open;
+  || byId("card").open || !byId("start").hidden;
+/** Keys that belong to what a keyboard has reached. @param {EventTarget | null} target @param {string} key */
+const isOwn = (target, key) => target instanceof HTMLElement && (key === "Enter" || key === " "
+  ? target.matches("button, summary, a, select, input") : target.matches("input, select") && key.startsWith("Arrow"));
+// Where a pointer has pressed, the keys go on steering.
+addEventListener("click", ({ target, detail }) => detail > 0 && target instanceof Element
+  && /** @type {HTMLElement | null} */ (target.closest("button, summary, input:not([type=number])"))?.blur());
 // A list gives the focus back; while it has it, keys steer, but those that open it.
 addEventListener("change", ({ target }) => target instanceof HTMLSelectElement && target.blur());
 addEventListener("keydown", (event) => {
   if (takesKeys(event.target) || event.ctrlKey || event.metaKey) return;
-  if (event.target instanceof HTMLSelectElement && ["Enter", " ", "F4", "Tab"].includes(event.key)) return;
+  if (event.key === "Tab" || event.key === "F4" || isOwn(event.target, event.key)) return;
   if (event.target instanceof HTMLSelectElement && event.altKey) return;
   if (event.target instanceof HTMLSelectElement && event.key.length === 1) event.preventDefault();
-  if (event.target instanceof HTMLButtonElement) event.target.blur(); // or the space bar would press it again
   const key = event.key.length === 1 ? event.key.toLowerCase() : event.key;
   const pressed = key === event.key ? event : new KeyboardEvent("keydown", { key, repeat: event.repeat });
   if (event.shiftKey && key.startsWith("Arrow")) {
@@ -106,8 +122,10 @@ addEventListener("keydown", (event) => {
     const [lao, cranial] = ARM[key] ?? [0, 0];
     xray.turnArm(lao, cranial);
     event.preventDefault();
-  } else if (shown?.key(pressed)) event.preventDefault();
-  else if (key === "x") xray.beam.set(!xray.beam.isOn);
+  } else if (shown?.key(pressed)) {
+    event.preventDefault();
+    if (!keys.hidden) showHelp(false);
+  } else if (key === "x") xray.beam.set(!xray.beam.isOn);
   else if (key === "c") panel.nextColour();
   else if (key === "h" || (key === "Escape" && !keys.hidden)) showHelp(keys.hidden);
   else if (key === "v") showViews(VIEWS[(VIEWS.indexOf(document.body.dataset.views ?? "both") + 1) % VIEWS.length]);

@@ -109,6 +109,7 @@ export class Replay {
     this._desk.show(frames[0]);
     this._xray.ask();
     byId("title").textContent = this.models.map(({ recording }) => recording.title).join(" and ");
+    document.title = `${byId("title").textContent} · Guidewire`;
     byId("mood").textContent = this.isPlaying ? "replay" : "replay, paused";
     const texts = this.models.map(({ recording }, k) =>
       `${recording.title}\nt = ${brief(this._times(k)[frames[k]])} s   step ${recording.at("step", frames[k])[0]}`);

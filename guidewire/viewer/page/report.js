@@ -9,8 +9,8 @@ import { placeName } from "./target.js";
 /**
  * What a case came to, row by row.
  * @param {import("./recording.js").Recording} recording @param {Score} score
- * @param {{case: string, beam: number, pictures: number, contrast: number, exchanges: string[]}} more
- *     s with the beam on, ml, and instruments that were exchanged
+ * @param {{case: string, beam: number, pictures: number, contrast: number, exchanges: string[],
+ *     stars?: string}} more s with the beam on, ml, and instruments that were exchanged
  * @returns {[string, string][]}
  */
 export function rowsOf(recording, score, more) {
@@ -23,8 +23,9 @@ export function rowsOf(recording, score, more) {
     ...(target ? /** @type {[string, string][]} */ ([["target", `${placeName(target.name)}, ${
       isReached ? `reached at ${score.reachedAt.toFixed(1)} s` : `${(millimetres * score.left).toFixed(0)} mm away`}`],
     ["score", `${score.points} of 100`]]) : []),
+    ...(more.stars ? /** @type {[string, string][]} */ ([["stars", more.stars]]) : []),
     ["time", `${score.time.toFixed(1)} s`],
-    ["radiation", `${more.beam.toFixed(1)} s with the beam on, ${more.pictures} pictures`],
+    ["radiation", `${more.beam.toFixed(1)} s with the beam on, ${Math.round(more.pictures)} pictures`],
     ["contrast", `${more.contrast.toFixed(1)} ml`],
     ...(forces ? /** @type {[string, string][]} */ ([["largest force at the hub", newtons(score.hubForce)],
       ["largest wall force", newtons(score.wallForce)],

@@ -46,6 +46,8 @@ export class Run {
     this._state = {};
     this._scene = "";
     this._isPaused = true;
+    /** Whether it is paused until somebody steers. */
+    this._isWaiting = false;
     this._isSteered = false;
     this._stepsAsked = 0;
     /** Push and turn from -1 to 1, of the held instrument, and of the next one. */
@@ -94,23 +96,26 @@ export class Run {
       case "hand":
         this._hands = [[message.push, message.turn], [message.otherPush ?? 0, message.otherTurn ?? 0]];
         this._mark = message.mark;
+        if (this._hands.flat().some(Boolean)) this._beginAtLast();
         if (this._held && message.turn) this._held.aim = null;
         break;
       case "aim":
         if (this._held) this._held.aim = message.turn;
+        this._beginAtLast();
         break;
       case "hold":
         this._held?.hold(message.instrument);
         break;
       case "inject":
+        this._beginAtLast();
         this._tellAgent(this._program.ask({ session: "agent", amount: message.amount, rate: message.rate,
           ...(message.instrument === null ? { inlet: true } : { hub: message.instrument }) }));
         break;
       case "pause":
-        this._isPaused = message.value;
+        [this._isPaused, this._isWaiting] = [message.value, false];
         break;
       case "step":
-        this._isPaused = true;
+        [this._isPaused, this._isWaiting] = [true, false];
         this._stepsAsked = 1;
         break;
       case "pace":
@@ -132,6 +137,11 @@ export class Run {
       case "set":
         this._set(message.key, message.value);
     }
+  }
+
+  /** The first push: time runs from here on, unless somebody has paused. */
+  _beginAtLast() {
+    if (this._isWaiting) this._isWaiting = this._isPaused = false;
   }
 
   /** @param {string} scene @param {boolean} byHand @param {Message} named */
@@ -160,7 +170,7 @@ export class Run {
   _begin(answer, held) {
     this._problem = "";
     this._isAgent = false;
-    this._isPaused = !this._isSteered; // a wire that waits for a hand is at rest
+    [this._isPaused, this._isWaiting] = [true, this._isSteered]; // nothing is lost while somebody reads
     this._held = new HeldInstruments(this._rules.steered, this._parameters ?? {}, this._described.instruments,
       this._isSteered, held);
     this._exchanges = [];
@@ -345,7 +355,7 @@ export class Run {
     const values = Object.fromEntries(changed.filter((/** @type {string} */ key) => key in parameters)
       .map((/** @type {string} */ key) => [key, parameters[key]]));
     this._tell({ status: {
-      hand: true, isFree: false, isPaused: this._isPaused, isSteered: this._isSteered, opened: this._opened,
+      hand: true, isFree: false, isPaused: this._isPaused, isWaiting: this._isWaiting, isSteered: this._isSteered, opened: this._opened,
       scene: this._scene, scenes: this._scenes, titles: this._scenes.map((scene) => this._titleOf(scene)),
       file: this._scene, problem: this._problem, values,
       choices: Object.fromEntries(Object.entries(choices).filter(([key]) => key in values)),

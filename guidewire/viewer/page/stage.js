@@ -24,6 +24,7 @@ const AT_REST = 200; // ms after which it does not
 const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
 const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
 const STEEPEST = Math.PI / 6; // of the view from the head's side: as far as a C-arm tilts
+const SPREAD = 0.8; // of the half of a picture: so far from its middle the tips of two runs are shown
 const EASE = 0.2; // of the distance that the camera follows in a picture
 
 /**
@@ -198,14 +199,22 @@ export class Stage {
     this._camera.far = size * 50;
     const upward = Math.tan((0.5 * this._camera.fov * Math.PI) / 180);
     const aspect = this._canvas.clientWidth / Math.max(this._panes.length, 1) / Math.max(this._canvas.clientHeight, 1);
-    const half = 0.5 * size * (this.followsTip ? CLOSE_UP : 1);
+    const { middle, spread } = this._tips;
+    const half = this.followsTip ? Math.max(0.5 * size * CLOSE_UP, spread / SPREAD) : 0.5 * size;
     const distance = half / Math.sin(Math.atan(upward * Math.min(aspect || 1, 1)));
-    if (this.followsTip) this._controls.target.fromArray(this._models[0].watchedTip);
+    if (this.followsTip) this._controls.target.copy(middle);
     this._camera.position.copy(this._controls.target).addScaledVector(this._towards, distance);
     this._isTurning = true;
     this._controls.update();
     this._isTurning = false;
     this.ask();
+  }
+
+  /** The middle of the tips of all runs, which every pane shows, and how far they are from it, units. */
+  get _tips() {
+    const tips = this._models.map(({ watchedTip }) => new Vector3().fromArray(watchedTip)).filter(({ x }) => Number.isFinite(x));
+    const middle = tips.reduce((sum, tip) => sum.addScaledVector(tip, 1 / tips.length), new Vector3());
+    return { middle: tips.length ? middle : new Vector3(NaN, NaN, NaN), spread: Math.max(0, ...tips.map((tip) => tip.distanceTo(middle))) };
   }
 
   /** Asks for a picture when the screen takes the next one. */
@@ -293,9 +302,13 @@ export class Stage {
 
   /** Moves the camera where the tip is about to leave the picture: not in each, as walls are drawn anew then. */
   _follow() {
-    const shift = new Vector3().fromArray(this._models[0].watchedTip).sub(this._controls.target);
+    const { middle, spread } = this._tips;
+    const shift = middle.clone().sub(this._controls.target);
     if (!Number.isFinite(shift.x)) return;
-    const away = this._camera.position.distanceTo(this._controls.target);
+    const upward = Math.tan((0.5 * this._camera.fov * Math.PI) / 180) * Math.min(this._camera.aspect, 1);
+    const near = this._camera.position.distanceTo(this._controls.target);
+    const away = Math.max(near, spread / (SPREAD * upward));
+    if (away > near) this._camera.position.sub(this._controls.target).setLength(away).add(this._controls.target);
     const shown = 2 * away * Math.tan((0.5 * this._camera.fov * Math.PI) / 180);
     if (!this._isFollowing && shift.length() < LEAVING * shown) return;
     this._isFollowing = shift.length() > 0.02 * shown && !this._isSlow;

@@ -1,56 +1,157 @@
 // @ts-check
-/** Where a page without a server begins: its scenes as pictures, the scene of the address, and files of one's own. */
+/** Where a page without a server begins: its missions as pictures, the scene of the address, and files of one's own. */
+import { bestOf, missionOf, starsOf } from "./missions.js";
 import { byId, make } from "./panel.js";
 import { sceneOf } from "./rims.js";
 
 /**
- * @typedef {{file: string, title: string, sentence: string, picture: string, meshes: string[]}} Scene
+ * @typedef {{file: string, title: string, sentence: string, picture: string, meshes: string[],
+ *     mission?: import("./missions.js").Mission}} Scene
  * @typedef {{path: string, bytes: Uint8Array}} OwnFile
  */
 
+const BEHIND = ["header", "main", "aside", "footer"]; // what the gallery covers
+const SLOW = 2_000_000; // bytes of a mesh from which on one waits for it
+
 /**
- * @param {{scenes: Scene[], wire: Record<string, any>}} site @param {import("./connection.js").Connection} connection
+ * @param {{scenes: Scene[], wire: Record<string, any>}} site @param {import("./live.js").Live} live
+ * @param {import("./connection.js").WorkerConnection} connection
  */
-export function offer(site, connection) {
+export function offer(site, live, connection) {
   const box = byId("start");
   const said = make("p", { role: "alert" });
-  const open = (/** @type {string} */ scene, /** @type {OwnFile[]} */ files = []) => {
-    box.hidden = true;
-    if (!files.length) history.replaceState(null, "", `?scene=${nameOf(scene)}`);
-    connection.send({ do: "open", scene, files });
+  const loading = new Loading(() => {
+    connection.cancel();
+    live.forget();
+    showGallery();
+  });
+
+  const cover = (/** @type {boolean} */ isCovered) => {
+    box.hidden = !isCovered;
+    for (const one of BEHIND) /** @type {any} */ (document.querySelector(one)).inert = isCovered;
   };
-  const take = async (/** @type {Promise<OwnFile[]>} */ reading) => {
+  const showGallery = (problem = "") => {
+    loading.end();
+    if (live.status && !live.status.isPaused) live.pause(true);
+    said.textContent = problem;
+    const missions = site.scenes.filter(({ mission }) => mission);
+    const next = missions.find(({ file }) => !bestOf(file));
+    const stars = missions.reduce((sum, { file }) => sum + (bestOf(file)?.stars ?? 0), 0);
+    const practice = site.scenes.filter(({ mission }) => !mission);
+    const cards = (/** @type {Scene[]} */ scenes) => make("div", { className: "scenes" },
+      ...scenes.map((scene) => card(scene, scene === next, open)), ...(scenes.includes(site.scenes[0]) ? [own] : []));
+    const own = make("label", { className: "own" }, make("strong", {}, "Your own vessel or scene"), make("br", {}),
+      "Drop a mesh (.obj, .stl, mm), a parameter file with its meshes, or the folder of a vessel, or ", input,
+      " Of a mesh alone the widest open end is the inlet. Files stay in this browser.");
+    box.replaceChildren(make("h1", {}, "Guidewire"), make("p", {}, "Steer a wire through a vessel, by X-ray."),
+      ...(missions.length ? [make("p", { className: "stars" }, `${stars} of ${3 * missions.length} ★`)] : []), said,
+      ...(missions.length ? [cards(missions)] : []),
+      ...(practice.length ? [make("h2", {}, "Free practice"), cards(practice)] : []));
+    cover(true);
+    /** @type {HTMLElement | null} */ (box.querySelector(".next, .scenes button"))?.focus({ preventScroll: true });
+    document.title = "Guidewire";
+  };
+
+  const open = (/** @type {string} */ scene, /** @type {OwnFile[]} */ files = []) =>
+    live.leave(`open ${site.scenes.find(({ file }) => file === scene)?.title ?? scene}`, () => {
+      loading.show("loading the simulator");
+      connection.send({ do: "open", scene, files });
+    });
+  const take = async (/** @type {() => Promise<OwnFile[]>} */ read) => {
     try {
-      const files = await reading;
+      loading.show("reading your files");
+      const files = await read();
+      const mesh = files.find(({ bytes }) => bytes.length > SLOW);
+      if (mesh) await loading.show(`looking for the open ends of ${mesh.path} (${(mesh.bytes.length / 1e6).toFixed(0)} MB)`);
       open(sceneAmong(files, site.wire), files);
     } catch (error) {
-      show();
-      said.textContent = /** @type {Error} */ (error).message;
-      box.hidden = false;
+      refuse(/** @type {Error} */ (error).message);
     }
   };
+  const refuse = (/** @type {string} */ why) => {
+    loading.end();
+    if (!live.model) showGallery(why);
+    else if (box.hidden) byId("said").textContent = why;
+    else said.textContent = why;
+  };
   const input = make("input", { type: "file", multiple: true, onchange: () =>
-    take(Promise.all([...input.files].map((file) => readFile(file, file.name)))) });
-  const show = () => box.replaceChildren(make("h1", {}, "Guidewire"), make("p", {}, "Steer a guidewire through a vessel: choose a scene."),
-    said, make("div", { className: "scenes" }, ...site.scenes.map((scene) =>
-      make("button", { onclick: () => open(scene.file) }, make("img", { src: scene.picture, alt: "" }),
-        make("strong", {}, scene.title), make("span", {}, scene.sentence)))),
-    make("label", {}, "Your own: drop a parameter file with its meshes, or the folder of a vessel, or ", input,
-      " Of a mesh alone (.obj, .stl, mm) the widest open end is the inlet. Files stay in this browser."));
+    take(() => Promise.all([...input.files].map((file) => readFile(file, file.name)))) });
   addEventListener("dragover", (event) => event.preventDefault());
   addEventListener("drop", (event) => {
     event.preventDefault();
-    if (event.dataTransfer?.items.length) take(readDropped(event.dataTransfer));
+    const { dataTransfer } = event;
+    if (dataTransfer?.items.length) take(readDropped(dataTransfer));
   });
-  const asked = new URLSearchParams(location.search).get("scene");
-  const found = site.scenes.find(({ file }) => nameOf(file) === asked);
-  if (found) {
-    open(found.file);
-    return;
+
+  connection.onloading = (what, part) => !byId("loading").hidden && loading.show(what, part); // later ones are of no use
+  live.onOpened = (scene) => {
+    loading.end();
+    cover(false);
+    live.mission = missionOf(site.scenes, scene);
+    const address = site.scenes.some(({ file }) => file === scene) ? `?scene=${nameOf(scene)}` : `?own=${nameOf(scene)}`;
+    if (address !== location.search) history.pushState(null, "", address);
+  };
+  live.onProblem = refuse;
+  const gallery = byId("gallery");
+  gallery.hidden = false;
+  gallery.onclick = () => {
+    history.pushState(null, "", location.pathname);
+    route();
+  };
+  const route = () => {
+    const asked = new URLSearchParams(location.search);
+    const name = asked.get("scene") ?? asked.get("own");
+    const found = site.scenes.find(({ file }) => nameOf(file) === asked.get("scene"));
+    const isShown = live.model && name !== null && nameOf(live.status?.scene ?? "") === name;
+    if (isShown) {
+      cover(false);
+      live.show();
+      live.label();
+    } else if (found) open(found.file);
+    else {
+      showGallery(asked.has("own") ? "Files of your own are not kept: drop them again."
+        : name === null ? "" : `there is no scene "${name}" here: choose one of these`);
+    }
+  };
+  addEventListener("popstate", route);
+  route();
+}
+
+/** A mission as a picture that opens it. @param {Scene} scene @param {boolean} isNext @param {(file: string) => void} open */
+function card({ file, title, sentence, picture, mission }, isNext, open) {
+  const best = mission && bestOf(file);
+  const made = make("button", { onclick: () => open(file) }, make("img", { src: picture, alt: "" }),
+    make("strong", {}, title),
+    make("span", {}, mission ? mission.goal : sentence),
+    ...(mission ? [make("span", { className: "par" }, `par ${mission.par} s${best ? `, best ${best.time.toFixed(1)} s` : ""}`,
+      make("b", { title: best ? "your best" : "not won yet" }, starsOf(best?.stars ?? 0)))] : []),
+    ...(isNext ? [make("em", {}, "next for you")] : []));
+  if (isNext) made.className = "next";
+  return made;
+}
+
+/** Says what is loaded, and how far, over the page. */
+class Loading {
+  /** @param {() => void} cancel */
+  constructor(cancel) {
+    this._said = make("p", { role: "status" });
+    this._bar = make("progress", { max: 1 });
+    this._bar.setAttribute("aria-label", "loading");
+    byId("loading").replaceChildren(this._said, this._bar, make("button", { onclick: cancel }, "cancel"));
   }
-  show();
-  box.hidden = false;
-  if (asked) said.textContent = `there is no scene "${asked}" here: choose one of these`;
+
+  /** @param {string} what @param {number} [part] from 0 to 1; none: not known @returns {Promise<void>} when it is seen */
+  show(what, part) {
+    byId("loading").hidden = false;
+    this._said.textContent = `${what[0].toUpperCase()}${what.slice(1)}.`;
+    if (part === undefined) this._bar.removeAttribute("value");
+    else this._bar.value = part;
+    return new Promise((done) => setTimeout(done, 50));
+  }
+
+  end() {
+    byId("loading").hidden = true;
+  }
 }
 
 /** @param {string} file */
@@ -82,8 +183,9 @@ async function readFile(file, path) {
   return { path, bytes: new Uint8Array(await file.arrayBuffer()) };
 }
 
-/** All files, those in folders too. @param {DataTransfer} dropped */
-async function readDropped(dropped) {
+/** All files, those in folders too. @param {DataTransfer} dropped @returns {() => Promise<OwnFile[]>} */
+function readDropped(dropped) {
+  const entries = [...dropped.items].map((item) => item.webkitGetAsEntry()).filter(Boolean); // gone after the event
   /** @type {OwnFile[]} */
   const files = [];
   const read = async (/** @type {any} */ entry) => {
@@ -97,6 +199,8 @@ async function readDropped(dropped) {
       await Promise.all(some.map(read));
     }
   };
-  await Promise.all([...dropped.items].map((item) => item.webkitGetAsEntry()).filter(Boolean).map(read));
-  return files;
+  return async () => {
+    await Promise.all(entries.map(read));
+    return files;
+  };
 }

@@ -11,6 +11,15 @@ const DEAD_ZONE = 0.15; // of a stick's travel
 const STEPS = 50; // of a stick from 0 to 1: a message is sent where it is at another
 const PAD_BUTTONS = { 0: "pause", 1: "inject", 2: "fine", 3: "reset", 4: "hold", 5: "beam", 12: "exchange" };
 
+/** What a button hears that acts for as long as it is pressed, by a pointer, Enter or the space bar.
+ * @param {() => void} press @param {() => void} release */
+export function whileHeld(press, release) {
+  const isKey = (/** @type {KeyboardEvent} */ { key }) => key === "Enter" || key === " ";
+  return { onpointerdown: press, onpointerup: release, onpointerleave: release,
+    onkeydown: (/** @type {KeyboardEvent} */ event) => isKey(event) && !event.repeat && press(),
+    onkeyup: (/** @type {KeyboardEvent} */ event) => isKey(event) && release() };
+}
+
 /** What keys, held buttons, a touch pad and a gamepad ask for: push and turn of both hands from -1 to 1. */
 export class Steering {
   /**

@@ -5,9 +5,23 @@ import { Refusal, Run } from "./run.js";
 /** @param {string} name of a file that is stored packed @param {string} [type] */
 const unpack = async (name, type = "application/octet-stream") => {
   const answer = await fetch(new URL(`${name}.gz`, location.href));
-  if (!answer.ok || !answer.body) throw new Error(`${name} cannot be had from this site (${answer.status})`);
-  return new Response(answer.body.pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": type } });
+  if (!answer.ok || !answer.body) {
+    throw new Error(`${name} is missing on this server (${answer.status}): copy the whole folder of the site there again`);
+  }
+  loading.size += Number(answer.headers.get("Content-Length"));
+  return new Response(answer.body.pipeThrough(counted()).pipeThrough(new DecompressionStream("gzip")), { headers: { "Content-Type": type } });
 };
+
+/** Bytes that were asked for, and those that came. */
+const loading = { what: "the simulator", size: 0, come: 0, told: 0 };
+const counted = () => new TransformStream({ transform: (chunk, out) => {
+  loading.come += chunk.length;
+  out.enqueue(chunk);
+  if (performance.now() < loading.told + 100) return;
+  loading.told = performance.now();
+  postMessage({ loading: `loading ${loading.what}, ${(loading.come / 1e6).toFixed(1)} MB`,
+    part: Math.min(1, loading.come / Math.max(loading.size, loading.come)) });
+} });
 
 /** The interpreter compiles a trace that has run 500 times; without this it waits for 5,000. */
 const OPTIONS = ["--jiterpreter-minimum-trace-hit-count=500"];
@@ -32,7 +46,10 @@ const start = async () => {
   for (const [name, text] of Object.entries(texts)) Exports.Write(`/${name}`, encoder.encode(text));
   return Exports;
 };
-const starting = start();
+const starting = start().catch((error) => {
+  throw new Error("the simulator cannot be loaded: copy the whole folder of the site onto this server again, or take a newer "
+    + `browser (${error.message})`);
+});
 
 /** @param {any} exports @returns {import("./run.js").Program} */
 function programOf(exports) {
@@ -77,9 +94,11 @@ async function hear(data) {
   if (data.message.do === "open") {
     for (const { path, bytes } of data.message.files ?? []) exports.Write(`/${path}`, bytes);
     const names = missing[data.message.scene] ?? [];
+    Object.assign(loading, { what: "the vessel", size: 0, come: 0 });
     const files = await Promise.all(names.map(async (name) => (await unpack(`files/${name}`)).arrayBuffer()));
     files.forEach((bytes, k) => exports.Write(`/${names[k]}`, new Uint8Array(bytes)));
     delete missing[data.message.scene];
+    postMessage({ loading: "putting the wire into the vessel" });
   }
   if (data.message.do !== "steered") run.hear(data.message);
   else {

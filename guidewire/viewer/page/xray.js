@@ -13,7 +13,7 @@ const VIEWS = /** @type {[string, number, number][]} */ ([["AP", 0, 0], ["LAO 30
   ["lateral", 90, 0], ["cranial 25", 0, 25]]);
 /** The same of a patient whose axes are unknown. */
 const PLAIN_VIEWS = VIEWS.map(([, lao, cranial]) => /** @type {[string, number, number]} */ (
-  [cranial ? `tilted ${cranial}°` : `turned ${lao}°`, lao, cranial]));
+  [cranial ? `from ${cranial}° above` : lao === 0 ? "front" : `${Math.abs(lao)}° ${lao > 0 ? "left" : "right"}`, lao, cranial]));
 const DEGREES_A_POINT = 0.4; // of dragging
 const WIDEST = 180; // mm, of the picture at first: where the vessel is larger the picture goes with the tip
 const FIELDS = [480, 320, 220, 150]; // mm, of a detector's magnifications
@@ -21,6 +21,8 @@ const BARS = [1, 2, 5, 10, 20, 50, 100]; // mm, of the scale
 const CLOSE_UP = 80; // mm
 const WORN = { noise: 0.022 }; // how a picture looks on the screen
 const MOST_CRANIAL = 60;
+const CLEAR = 1.7; // pixels: half of the width that an instrument has at least in a picture
+const [WIRE_DEPTH, CATHETER_DEPTH] = [1.5, 0.4]; // half of what rays through the middle are weakened by, at least
 
 /** The X-ray view: the C-arm, its buttons and mouse, and the target's mark. */
 export class Xray {
@@ -53,6 +55,7 @@ export class Xray {
     /** @type {Point | undefined} */
     this._middle = undefined;
     document.body.dataset.xray = "none";
+    byId("armTools").classList.toggle("folded", matchMedia("(max-width: 700px), (max-height: 500px)").matches);
     this._makeTools();
     this._makeArm();
     new ResizeObserver(() => this._fill()).observe(byId("xray"));
@@ -85,6 +88,9 @@ export class Xray {
     this._makeTools();
     this._zoom = 1;
     this._fill();
+    byId("measured").onchange = () => this.ask();
+    const route = recording.described?.target?.points;
+    if (route && !this._patient) this._turn(widest(route, this.fluoroscopy.patient), 0);
     this.onTurned();
     this.ask();
   }
@@ -187,6 +193,19 @@ export class Xray {
     }));
   }
 
+  /** The same as one sees them at a glance, wider and darker than they absorb; or as they do where that is asked for. */
+  get _clearInstruments() {
+    if (byId("measured").checked) return this._instruments;
+    const { scale } = this.fluoroscopy.arm;
+    return this._instruments.map(([instrument, points]) => {
+      const depth = instrument.name === this._models[0].recording.instruments[0].name ? WIRE_DEPTH : CATHETER_DEPTH;
+      const radii = instrument.radii.map((radius) => Math.max(radius, CLEAR / scale));
+      const attenuations = instrument.attenuations.map((value, k) => (value > 0 ? Math.max(value, depth / radii[k]) : 0));
+      return /** @type {[import("./pieces.js").Instrument, Float64Array]} */ (
+        [{ ...instrument, radii, attenuations, innerRadii: radii.map(() => 0) }, points]);
+    });
+  }
+
   _draw() {
     if (!this._models.length) return;
     const { look } = this.fluoroscopy;
@@ -203,7 +222,7 @@ export class Xray {
     }
     look.centre = /** @type {Point} */ (look.centre.map((value, k) => value + this._table[k]));
     look.seed = this._frames++;
-    const instruments = this._instruments;
+    const instruments = this._clearInstruments;
     this.fluoroscopy.moves = recording.moves;
     this.fluoroscopy.draw(instruments);
     this.cine.take(this.fluoroscopy.canvas);
@@ -228,7 +247,8 @@ export class Xray {
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
     byId("arm").textContent = `${this.fluoroscopy.angles.join("  ")}\n${Math.round(field ?? 0)} mm${
-      this._patient ? "" : ", axes unknown"}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
+      this._patient ? "" : "\nseen as if facing you"}${
+      this.fluoroscopy.look.vessel === "map" && !this.fluoroscopy.hasMap ? "\nno injection seen from here" : ""}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
       this.beam.seconds.toFixed(1)} s`;
     this._measure(field ?? 1);
     const [left, up] = [byId("lao"), byId("cranial")];
@@ -300,7 +320,7 @@ export class Xray {
     const subtract = make("button", { id: "subtract", onclick: () => {
       fluoroscopy.look.isSubtracted = !fluoroscopy.look.isSubtracted;
       fluoroscopy.look.shift = [0, 0];
-      if (fluoroscopy.look.isSubtracted) fluoroscopy.takeMask(this._instruments);
+      if (fluoroscopy.look.isSubtracted) fluoroscopy.takeMask(this._clearInstruments);
       subtract.setAttribute("aria-pressed", String(fluoroscopy.look.isSubtracted));
       for (const field of shifts) [field.hidden, field.value] = [!fluoroscopy.look.isSubtracted, "0"];
       this.ask();
@@ -335,12 +355,33 @@ export class Xray {
     } }, make("option", { value: 0 }, "fit"), ...FIELDS.map((field) => make("option", { value: field }, `${field} mm`)));
     fields.setAttribute("aria-label", "field of view");
     fields.value = String(this._field);
-    byId("armTools").replaceChildren(this.beam.button, this.beam.rates, ...this._subtraction(), this.cine.element,...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
+    const tools = byId("armTools");
+    const fold = make("button", { id: "fold", onclick: () => this._fold(!tools.classList.contains("folded")) });
+    tools.replaceChildren(fold, this.beam.button, this.beam.rates, ...this._subtraction(), this.cine.element,...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
       const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
       Object.assign(button.dataset, { lao, cranial });
       return button;
-    }), vessel, fields, close, near, far);
+    }), vessel, fields, close, make("span", { className: "tools" }, near, far));
+    this._fold(tools.classList.contains("folded"));
   }
+
+  /** Folds the tools to the side, but for the pedal. @param {boolean} isFolded */
+  _fold(isFolded) {
+    byId("armTools").classList.toggle("folded", isFolded);
+    byId("fold").textContent = isFolded ? "X-ray tools ▸" : "fold ◂";
+    byId("fold").setAttribute("aria-expanded", String(!isFolded));
+  }
+}
+
+/** The turn of the C-arm from which a way is seen at its widest, degrees. @param {Point[]} route
+ * @param {import("./carm.js").Patient} patient */
+function widest(route, { left, chest }) {
+  const spread = (/** @type {number} */ lao) => {
+    const [cos, sin] = [Math.cos(lao * (Math.PI / 180)), Math.sin(lao * (Math.PI / 180))];
+    const across = route.map((point) => point.reduce((sum, value, k) => sum + value * (cos * left[k] - sin * chest[k]), 0));
+    return Math.max(...across) - Math.min(...across);
+  };
+  return [0, 30, -30, 60, -60, 90].reduce((best, lao) => (spread(lao) > 1.1 * spread(best) ? lao : best), 0);
 }
 
 /** @param {HTMLCanvasElement} canvas @returns {Fluoroscopy | PlainFluoroscopy} */

@@ -4,7 +4,8 @@ import { createRequire } from "node:module";
 import { createInterface } from "node:readline";
 
 const [modules, executablePath] = process.argv.slice(2);
-const { chromium } = createRequire(`${modules}/`)("playwright-core");
+const require = createRequire(`${modules}/`);
+const { chromium } = require("playwright-core");
 const browser = await chromium.launch({ executablePath, args: ["--no-sandbox", "--enable-unsafe-swiftshader"] });
 
 const until = async (page, expression) => {
@@ -47,6 +48,14 @@ const orders = {
     }
   },
   see: (page, expression) => page.evaluate(expression),
+  back: (page) => page.goBack(),
+  // What axe finds that keeps people out: rule, and the elements.
+  axe: async (page) => {
+    await page.evaluate(require("axe-core").source);
+    const { violations } = await page.evaluate("axe.run()");
+    return violations.filter(({ impact }) => ["critical", "serious"].includes(impact))
+      .map(({ id, nodes }) => `${id}: ${nodes.map(({ html }) => html.slice(0, 90)).join(" ")}`);
+  },
   picture: async (page, path) => void await page.screenshot({ path }),
 };
 
@@ -69,7 +78,7 @@ for await (const line of createInterface({ input: process.stdin })) {
   try {
     for (const [order, value] of steps) {
       const answer = await orders[order](page, value);
-      if (order === "see") seen.push(answer);
+      if (order === "see" || order === "axe") seen.push(answer);
     }
   } catch (error) {
     troubles.push(error.message);

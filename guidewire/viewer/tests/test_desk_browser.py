@@ -120,7 +120,8 @@ def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner
     slow = "viewer.shown._note(0.4)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", f"{slow}; {text('#note')}"], ["press", " "], PAUSED, ["down", "w"],
+            ["open", address], DRAWN, ["down", "w"], ["until", f"{HUB} > 0.01"], ["up", "w"],
+            ["see", f"{slow}; {text('#note')}"], ["press", " "], PAUSED, ["down", "w"],
             ["see", f"[{text('#note')}, document.getElementById('note').className]"], ["up", "w"],
             ["until", "!document.getElementById('note').className"], ["see", text("#note")],
             ["see", f"{text('.basis')}"],
@@ -214,6 +215,35 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
     with_catheter = [{**one, "contactForces1": [0, 0, 0, 0.3, 0.4, 0] if k == 3 else [0] * 6}
                      for k, one in enumerate(frames)]
     assert follow(EVENTS, frames=with_catheter)["wallForce"] == pytest.approx(0.5)
+
+
+def test_by_keyboard_alone_and_without_barriers(browse, runner_command, tmp_path):
+    """Enter and the space bar press what a keyboard has reached; time stands until the first push."""
+    def focus(one):
+        return ["see", f"document.querySelector('{one}').focus()"]
+
+    waits = f"{STATUS}.isWaiting"
+    with serving(tmp_path, SHEATH, with_three=True) as (address, _):
+        seen = browse(
+            ["open", address], DRAWN, ["until", waits], ["see", text("#coach")], ["see", "document.title"],
+            ["axe", None], focus("#fine"), ["press", "Enter"], ["see", "viewer.shown.steering.isFine"],
+            focus("#fine"), ["press", " "], ["see", f"[viewer.shown.steering.isFine, {waits}]"],
+            ["see", "document.getElementById('bar').getBoundingClientRect().height"],
+            focus("footer .drive"), ["down", "Enter"], ["until", f"{HUB} > 0.02"], ["up", "Enter"],
+            ["until", "viewer.shown.steering.push === 0"], ["see", text("#coach")],
+            focus("#pause"), ["press", " "], PAUSED, ["see", "document.activeElement.id"],
+            ["see", "document.getElementById('bar').getBoundingClientRect().height"],
+            ["press", "Enter"], ["until", f"!{STATUS}.isPaused"],
+            ["click", "fine G"], ["see", "document.activeElement.tagName"], ["press", " "], PAUSED,
+            ["see", "viewer.shown.steering.isFine"], ["press", "h"], ["axe", None], ["press", "Escape"],
+            ["see", "document.querySelectorAll('details').forEach((one) => { one.open = true; })"], ["axe", None],
+            ["see", "document.getElementById('theme').click()"], ["axe", None], size=(1280, 720))["seen"]
+    first, title, findings, *seen = seen
+    assert "push" in first and title == "Forked artery · Guidewire" and findings == []
+    assert seen[1] and seen[3] == [False, True] and "turn" in seen[6]
+    assert seen[8] == "pause" and seen[9] == seen[4]
+    assert seen[10:12] == ["BODY", True]
+    assert seen[12] == seen[14] == seen[16] == []
 
 
 BOXES = """(() => { const box = (one) => {

@@ -16,6 +16,7 @@ from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
 from guidewire.sessions.session import Session
 from guidewire.viewer import live
+from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.tests.browsing import from_npm
 from guidewire.viewer.tests.test_view_browser import GAMEPAD
@@ -89,7 +90,7 @@ def address(runner_command, tmp_path_factory):
     """Of a plain server of files; with the site of three scenes."""
     from_npm("dependencies")
     folder = tmp_path_factory.mktemp("served") / "site"
-    assert site(folder, *(ROOT / "params" / f"{name}.json" for name in SCENES)) == 0
+    assert site(folder, *(ROOT / "params" / f"{name}.json" for name in ("missions/first-branch", *SCENES))) == 0
     class Quiet(http.server.SimpleHTTPRequestHandler):
         def log_message(self, *_):
             pass
@@ -188,6 +189,53 @@ def test_a_finger_and_a_gamepad_steer_without_a_server(browse, address):
     assert seen[-1][0] == "WorkerConnection" and seen[-1][1] > 0
 
 
+CARDS = "document.querySelectorAll('#start .scenes button').length"
+GALLERY = "!document.getElementById('start').hidden"
+
+
+@LONG
+def test_a_first_visitor_wins_a_mission_by_keys_and_finds_the_stars_in_the_gallery(browse, address):
+    """Each step takes what the page says and what has the focus."""
+    report = "document.getElementById('report')"
+    seen = browse(
+        ["open", address], ["until", f"{CARDS} === 4"], ["axe", None], ["see", "document.activeElement.innerText"],
+        ["press", "Enter"], OPEN, ["see", "[location.search, document.title, viewer.shown.status.isWaiting]"],
+        ["axe", None], ["see", "document.getElementById('coach').innerText"], FASTEST,
+        ["down", "w"], ["until", "document.getElementById('card').open"], ["up", "w"], ["see", f"{report}.innerText"],
+        ["axe", None], ["press", "Enter"], ["until", "!document.getElementById('card').open"],
+        ["see", "document.getElementById('gallery').focus()"], ["press", "Enter"], ["until", GALLERY],
+        ["see", "[location.search, document.title, document.querySelector('#start .scenes button').innerText]"],
+        ["back", None], ["until", f"!({GALLERY})"], ["see", "[location.search, document.title]"],
+        ["see", "new Promise((done) => { addEventListener('popstate', done); history.back(); })"], ["until", GALLERY],
+        size=(1280, 720))["seen"]
+    assert "next for you" in seen[1] and seen[2] == ["?scene=first-branch", "Into the artery · Guidewire", True]
+    assert "push" in seen[4] and "★★★" in seen[5] and "reached at" in seen[5]
+    assert seen[8][:2] == ["", "Guidewire"] and "★★★" in seen[8][2]
+    assert seen[9] == seen[2][:2]
+    assert seen[0] == seen[3] == seen[6] == []
+
+
+@LONG
+def test_what_an_address_names_and_is_not_there_is_said_in_the_gallery_and_loading_can_be_cancelled(browse, address):
+    said = "document.querySelector('#start [role=alert]')?.textContent"
+    seen = browse(
+        ["open", f"{address}?scene=none"], ["until", f"{CARDS} === 4"], ["see", said],
+        ["see", "document.querySelector('#start .scenes button').click()"], ["click", "cancel"],
+        ["until", f"{GALLERY} && document.getElementById('loading').hidden"], ["see", "viewer.shown.model"],
+        ["open", f"{address}?own=mine.json"], ["until", f"{CARDS} === 4"], ["see", said])["seen"]
+    assert seen[0].startswith('there is no scene "none"') and seen[2] is None and "drop them again" in seen[3]
+
+
+@pytest.mark.parametrize("name", MISSIONS)
+def test_each_mission_is_won_by_its_own_drive_within_its_par_time(runner_command, tmp_path, name):
+    file = ROOT / "params" / "missions" / f"{name}.json"
+    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run")], check=True,
+                   capture_output=True)
+    summary = json.loads((tmp_path / "run" / "summary.json").read_text())
+    assert summary["outcome"] == "finished" and summary["reliable"]
+    assert summary["centreline"]["reached"] and summary["centreline"]["reachedAt"] <= MISSIONS[name].par
+
+
 @LONG
 def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ended(browse, address, runner_command,
                                                                                   tmp_path):
@@ -199,13 +247,14 @@ def test_files_of_ones_own_open_errors_are_the_programs_and_a_stuck_step_is_ende
              ".encode(text)}]}))(%s, %s)")
     status = "viewer.shown.status"
     seen = browse(
-        ["open", address], ["until", "globalThis.viewer && document.querySelectorAll('#start button').length === 3"],
+        ["open", address], ["until", f"globalThis.viewer && {CARDS} === 4"],
         ["drop", [str(tmp_path / "wrong.json")]], ["until", f"{status}?.problem"],
-        ["see", f"{status}.problem"],
+        ["see", f"{status}.problem"], ["until", f"{GALLERY} && document.getElementById('loading').hidden"],
+        ["see", "document.querySelector('#start [role=alert]').textContent"],
         ["see", opens % ("'slow.json'", json.dumps(json.dumps(slow)))], ["until", f"{status}.opened === 1"],
         ["see", "viewer.shown.send({do: 'reset'})"], ["until", f"{status}.opened === 2"], ["see", f"{status}.scene"],
     )["seen"]
     done = subprocess.run([*runner_command, "-parameters", "wrong.json", "-out", "run"], cwd=tmp_path, text=True,
                           capture_output=True, check=False)
-    assert f"guidewire: {seen[0]}\n" == done.stderr
+    assert f"guidewire: {seen[0]}\n" == done.stderr and seen[1] == seen[0]
     assert seen[-1] == "slow.json"

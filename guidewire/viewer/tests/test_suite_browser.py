@@ -61,7 +61,7 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
     darkest = f"{VIEW}._brightness.reduce((least, value) => Math.min(least, value))"
     with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["choose", ["#vessel", "none"]],
+            ["open", address], DRAWN, ["choose", ["#vessel", "none"]],
             # ml: so much flows for longer than it takes the page to pause
             ["see", f"{VIEW}.look.noise = 0; document.querySelector('#contrast input').value = 30"],
             ["see", darkest], ["down", "w"], ["until", f"{HUB} > 0.02"], ["up", "w"],
@@ -98,7 +98,7 @@ def test_a_case_is_done_by_fingers_and_by_a_gamepad(browse, runner_command, tmp_
     rest = [["touch", ["#pad"]]] if means == "finger" else [["see", "pad.axes[1] = 0"]]
     with serving(tmp_path, near_target(tmp_path), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["see", GAMEPAD] if means == "gamepad" else ["see", "0"],
+            ["open", address], DRAWN, ["see", GAMEPAD] if means == "gamepad" else ["see", "0"],
             ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"{VIEW}.hasMask"],
             *(tap if means == "finger" else button), ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
             ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"!{VIEW}.look.isSubtracted"],
@@ -117,7 +117,7 @@ def test_pedal_pulses_cine_table_and_planes(browse, runner_command, tmp_path):
     arm = f"[...{VIEW}.arm.centre]"
     with serving(tmp_path, near_target(tmp_path, target="branch 2"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["down", "w"], ["until", f"{drawn} > 5"],
+            ["open", address], DRAWN, ["down", "w"], ["until", f"{drawn} > 5"],
             ["click", "record cine"], ["until", "viewer.xray.cine.count > 3"], ["up", "w"],
             ["press", "x"], ["see", "!viewer.xray.beam.isOn"], ["see", f"window.before = {drawn}"],
             ["down", "w"], ["until", f"{HUB} > 0.03"], ["up", "w"], ["see", f"{drawn} - before"],
@@ -157,8 +157,8 @@ def test_both_pictures_turn_together_with_the_head_above_both_hands_steer_and_th
     steered = "['steered.csv', 'steered-1.csv'].map((file) => fetch(file).then((answer) => answer.text()))"
     with serving(tmp_path, str(ROOT / "params/catheter-branch.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"], ["see", look], ["click", "LAO 30"], ["see", look],
-            ["see", orbit], ["see", look], ["click", "together"], ["click", "AP"], ["see", look],
+            ["open", address], DRAWN, ["see", look], ["click", "LAO 30"], ["see", look],
+            ["see", orbit], ["see", look], ["click", "turn as one"], ["click", "AP"], ["see", look],
             ["press", "i"], ["until", f"{STATUS}.held === 1"],
             ["see", "[[...viewer.shown.model.watchedTip], [...viewer.shown.model.centreline(1).slice(-3)]]"],
             ["press", "i"], ["until", f"{STATUS}.held === 0"], ["down", "w"], ["down", "u"],

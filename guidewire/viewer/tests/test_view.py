@@ -11,13 +11,14 @@ import subprocess
 import sys
 import time
 from contextlib import contextmanager
+from pathlib import Path
 from urllib.parse import urlsplit
 
 import aiohttp
 import numpy as np
 import pytest
 
-from guidewire.prepare import ROOT
+from guidewire.prepare import ROOT, report
 from guidewire.viewer import parts
 from guidewire.viewer.live import LiveRun
 from guidewire.viewer.server import LONGEST_MESSAGE, MOST_PAGES
@@ -267,7 +268,7 @@ def test_a_hand_pauses_steps_changes_and_opens_scenes(live):
             'explicit')
         await page.send_json({"do": "open", "scene": "cantilever.json"})
         status = await hear(page, lambda status: status["scene"] == "cantilever.json")
-        assert status["isSteered"] and not status["isPaused"] and status["values"]["solver"] == "direct"
+        assert status["isSteered"] and status["isWaiting"] and status["values"]["solver"] == "direct"
         await page.send_json({"do": "open", "scene": "scene.json", "hand": False})
         status = await hear(page, lambda status: status["scene"] == "scene.json")
         assert not status["isSteered"] and status["isPaused"]
@@ -287,6 +288,7 @@ def test_a_refused_value_and_a_long_time_step_leave_the_wire_going(live):
     async def talk(page):
         await take_hand(page)
         await page.send_json({"do": "open", "scene": "scene.json"})
+        await page.send_json({"do": "pause", "value": False})
         await hear(page, lambda status: not status["isPaused"])
         await page.send_json({"do": "set", "key": "timeStep", "value": -1})
         assert not (await hear(page, lambda status: status["problem"]))["isPaused"]
@@ -298,7 +300,8 @@ def test_a_refused_value_and_a_long_time_step_leave_the_wire_going(live):
         began = time.monotonic()
         await page.send_json({"do": "reset"})
         await page.send_json({"do": "set", "key": "timeStep", "value": 0.01})
-        await hear(page, lambda status: status["values"]["timeStep"] == 0.01)
+        assert (await hear(page, lambda status: status["values"]["timeStep"] == 0.01))["isWaiting"]
+        await page.send_json({"do": "hand", "push": 0, "turn": 0.5, "mark": 1})    # the first push
         assert len(await see(page, 5)) == 5 and time.monotonic() - began < 60.0
 
     with_pages(live[0], talk)
@@ -359,10 +362,8 @@ def test_a_dial_is_followed_to_its_turn_however_late_its_page_sees_it(runner_com
 
 
 @pytest.mark.parametrize("said", [
-    "x" * 100_000_000, "no JSON", "[]", '{"do": "nothing"}', '{"do": "open", "scene": "../secret.json"}',
-    '{"do": "set", "key": "logFilePath", "value": "/tmp"}', '{"do": "hand", "push": 2, "turn": 0, "mark": 1}',
-    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', '{"do": "aim", "turn": NaN}', "[" * (LONGEST_MESSAGE - 1),
-    b"bytes",
+    "x" * 100_000_000, "no JSON", "[]",
+    "[" * (LONGEST_MESSAGE - 1), b"bytes",
 ], ids=lambda said: str(said[:30]))
 def test_a_page_that_says_what_no_page_says_is_closed_and_the_run_goes_on(live, said):
     async def talk(page):
@@ -380,6 +381,36 @@ def test_a_page_that_says_what_no_page_says_is_closed_and_the_run_goes_on(live, 
 
     with_pages(live[0], talk)
     with_pages(live[0], talk_after)
+
+
+@pytest.mark.parametrize("said", [
+    '{"do": "nothing"}', '{"do": ["hand"]}', '{"do": "open", "scene": "../secret.json"}',
+    '{"do": "set", "key": "logFilePath", "value": "/tmp"}', '{"do": "hand", "push": 2, "turn": 0, "mark": 1}',
+    '{"do": "hand", "push": NaN, "turn": 0, "mark": 1}', '{"do": "hand", "push": 0, "turn": 0, "mark": 1e999}',
+    '{"do": "aim", "turn": NaN}', '{"do": "aim", "turn": 1e999}', '{"do": "aim", "turn": "' + "9" * 500 + '"}',
+    '{"do": "hold", "instrument": 1e999}', '{"do": "name", "instrument": 0, "name": 7}',
+    '{"do": "inject", "amount": 1, "rate": 1, "instrument": 1e999}', '{"do": "pace", "value": [1]}',
+], ids=lambda said: said[7:60])
+def test_what_cannot_be_done_is_refused_and_the_page_goes_on(live, said):
+    async def talk(page):
+        await take_hand(page)
+        await page.send_str(said)
+        assert (await hear(page, lambda status: status["problem"]))["problem"].startswith("refused: ")
+        await page.send_json({"do": "reset"})
+        assert (await hear(page, lambda status: not status["problem"]))["hand"]
+
+    with_pages(live[0], talk)
+
+
+def test_an_error_of_the_server_is_a_file_without_its_token(live, capsys):
+    token = urlsplit(live[0]).path.strip("/")
+    try:
+        raise ValueError(f"of {token}")
+    except ValueError as error:
+        report(error, token)
+    (line,) = capsys.readouterr().err.splitlines()
+    trace = Path(line.rpartition(" ")[2])
+    assert token not in line + trace.read_text() and "ValueError" in trace.read_text()
 
 
 def test_so_many_pages_and_no_more(live):

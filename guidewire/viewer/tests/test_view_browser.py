@@ -51,7 +51,7 @@ def test_who_reads_the_page_alone_brings_the_wire_into_the_branch(browse, runner
     rows = "[...document.querySelectorAll('#keys tr')].map((one) => one.innerText.split(/\\s*\\t\\s*/))"
     with serving(tmp_path, str(ROOT / "params/branch.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", rows], ["click", "got it"], ["press", "g"],
+            ["open", address], DRAWN, ["press", "h"], ["see", rows], ["click", "got it"], ["press", "g"],
             ["down", "d"], ["until", f"{dial('turn')} > 90"], ["up", "d"], ["press", "g"],
             ["choose", ['[aria-label="speed"]', "10 x real time"]],
             ["down", "w"], ["until", f"{dial('insertion')} > 240"],
@@ -98,7 +98,8 @@ def test_a_run_that_diverged_says_so_in_the_alert_live_and_replayed_alone_or_bes
     for names in (("lost",), ("good", "lost"), ("good",), ("scene.json",)):
         wait = ["until", f"/{'finished' if names == ('good',) else 'diverged'}/.test({ALERT}[0])"]
         with serving(tmp_path, *(str(tmp_path / name) for name in names), with_three=True) as (address, _):
-            said[names] = browse(["open", address], DRAWN, wait, ["see", ALERT])["seen"][0]
+            begin = [["press", " "]] if names == ("scene.json",) else []
+            said[names] = browse(["open", address], DRAWN, *begin, wait, ["see", ALERT])["seen"][0]
     line = "diverged, not reliable: "
     assert said["lost",][0].startswith(line) and said["lost",][1] == ""
     assert said["good", "lost"][0].startswith("good: finished, reliable: ") and said["good", "lost"][1] == ""
