@@ -57,10 +57,12 @@ namespace Guidewire.Core
         // Elements.
         private int N => _joints.ElementCount;
 
-        /// <summary>The chain has other elements, without loads.</summary>
+        /// <summary>The chain has other elements, without loads, and no tip bears anything until the next
+        /// <see cref="BeginStep"/>: masses and what else is taken of their lengths does not depend on the past.</summary>
         public void Remesh()
         {
             ClearLoads();
+            Array.Clear(_borne, 0, _borne.Length);
             Array.Clear(_shift, 0, N);
             Array.Clear(_force, 0, N);
             Array.Clear(_strain, 0, N);
@@ -239,12 +241,8 @@ namespace Guidewire.Core
             return j == tip ? share : 1.0 - share;
         }
 
-        /// <summary>Takes Q of all tips from the same instruments in another chain.</summary>
-        public void TakeBorne(AxialForces other)
-        {
-            Array.Copy(other._borne, _borne, _borne.Length);
-            Array.Copy(other._next, _next, _next.Length);
-        }
+        /// <summary>Takes Q of all tips for the next step from the same instruments in another chain.</summary>
+        public void TakeBorne(AxialForces other) => Array.Copy(other._next, _next, _next.Length);
 
         /// <summary>Q that was set last counts from now on.</summary>
         public void BeginStep() => Array.Copy(_next, _borne, _borne.Length);

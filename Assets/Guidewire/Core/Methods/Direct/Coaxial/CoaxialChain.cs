@@ -222,8 +222,8 @@ namespace Guidewire.Core
                 _sheathed = _hubs.SheathedAt(time);
                 Lay(first, time);
             }
-            Whole.Serialize(snapshot);
             SerializeAxial(snapshot);
+            Whole.Serialize(snapshot);
             if (!snapshot.IsWritten)
             {
                 TakeTime();
@@ -364,6 +364,7 @@ namespace Guidewire.Core
                 Whole.Contacts!.DriveShortfall -= _drives[0].AxialProgress(held,
                     Dynamics.Terms.Walls()!.Spring.HeldPosition(Dynamics.Shape)) / _setup.Wire.Metres;
             }
+            Rod.Axial.BeginStep();
             TakeLoads();
             if (movesWindow)
             {

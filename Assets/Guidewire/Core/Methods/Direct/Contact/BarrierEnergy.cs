@@ -22,7 +22,7 @@ namespace Guidewire.Core
         private const double SkinInMesh = 0.5;   // of the wire's radius, the least skin
         private const int MaxCuts = 40;             // of a motion out of a sheath
         private const int MaxOpenings = 40;
-        private const double OverOpening = 0.1;    // of what is lacking
+        private const double OverOpening = 0.1;    // of the gap: towards just that one it may come ever more slowly
 
         private readonly ContactShape[] _walls;
         private readonly WallLaw[] _laws;         // by wall
@@ -332,8 +332,11 @@ namespace Guidewire.Core
         }
 
         // Of a distance in units, m.
-        private double Lacking(double gap, double distance, double radius) =>
-            (1.0 + OverOpening) * Math.Max(0.0, gap - (distance / _units - radius));
+        private double Lacking(double gap, double distance, double radius)
+        {
+            double own = distance / _units - radius;
+            return own < gap ? (1.0 + OverOpening) * gap - own : 0.0;
+        }
 
         // m.
         private void Move(RodShape shape, int node, in Vector3d move)
