@@ -35,8 +35,8 @@ RUN_LIMIT = 600.0  # s of wall time of one run
 MOST_BEYOND = 0.02  # of its hubForceLimit, by which the force of a hub may be above it where nothing says so
 TOUCH = 1e-3  # N of a wall, from which on it is touched
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
-OF_ENDS = ("points of the wire passed a wall", " goes through itself", "the wire penetrated a wall", "the wire is ", material_claims.KINKED,
-           "the drive fell short: ", "over which the wire spreads a load on the wall",
+OF_ENDS = ("points of the wire passed a wall", " goes through itself", "the wire penetrated a wall", "the wire is ",
+           material_claims.KINKED, "the drive fell short: ", "over which the wire spreads a load on the wall",
            "of its softLimit: there it was almost rigid", "which is not simulated: at the tip their axes may differ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
