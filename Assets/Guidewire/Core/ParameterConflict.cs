@@ -85,6 +85,20 @@ namespace Guidewire.Core
                 "at most twice wireRadius: it is what is solid in the wire"),
             new Rule("wireSections", p => p.IsMaterial && HasCoreTooWide(p.Material),
                 "a coreDiameter of at most twice the wireRadius there"),
+            new Rule("yieldStress", p => p.Material.YieldStress.HasValue && p.Material.Plateau != null,
+                "null with a plateau: a core has one law"),
+            new Rule("material", p => p.Material.Material != CoreMaterial.None
+                && (p.Material.YieldStress.HasValue || p.Material.Plateau != null),
+                "\"none\" with a plateau or a yieldStress: the material has a law of its own"),
+            new Rule("material", p => p.Method.Solver != Solver.Direct && p.IsMaterial && (p.Material.Plateau != null
+                || p.Material.YieldStress.HasValue || p.Material.Material != CoreMaterial.None),
+                "\"none\", without plateau and yieldStress, with this solver: only direct has laws with a memory"),
+            new Rule("fibres", p => p.Material.Fibres == 1 || p.Material.Fibres == 2, "0, or 3 to 16"),
+            new Rule("wireSections", p => Array.Exists(SectionsOf(p.Material), section =>
+                (section.YieldStress.HasValue ? 1 : 0) + (section.Plateau != null ? 1 : 0)
+                + (section.Material > CoreMaterial.None ? 1 : 0) > 1),
+                "one of material, plateau and yieldStress in a section"),
+            new Rule("plateau", p => LawProblem(p) != null, p => LawProblem(p)!),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),
@@ -241,6 +255,41 @@ namespace Guidewire.Core
                 }
             }
             return false;
+        }
+
+        private static WireSection[] SectionsOf(MaterialParameters material) =>
+            System.Linq.Enumerable.ToArray(material.Sections);
+
+        // What is wrong with the laws along the wire, or null.
+        private static string? LawProblem(Facts p)
+        {
+            double length = p.Scene.GuidewireLength;
+            if (!p.IsMaterial || !HasStiffness(p) || HasHollowTooWide(p.Material)
+                || p.Material.InnerRadius >= p.Material.WireRadius)
+            {
+                return null;
+            }
+            foreach (CrossSection piece in new WireProfile(p.Material, length).Pieces)
+            {
+                if (piece.Fibres == null)
+                {
+                    continue;
+                }
+                if (!(piece.Fibres.ElasticStrain < 1.0))
+                {
+                    return "plateau and yield stresses below Young's modulus of the core";
+                }
+                if (piece.BendStiffness1 != piece.BendStiffness2)
+                {
+                    return "null, as are material and yieldStress, where bendingStiffness1 and 2 differ: fibres are"
+                        + " those of a round core";
+                }
+                if (p.Material.BendLaw == BendLaw.Darboux)
+                {
+                    return "null, as are material and yieldStress, with bendLaw \"darboux\"";
+                }
+            }
+            return null;
         }
 
         private static bool HasCoreTooWide(MaterialParameters material)

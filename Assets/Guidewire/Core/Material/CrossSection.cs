@@ -39,6 +39,9 @@ namespace Guidewire.Core
         /// curvature. Of a spring coil it is that of the coil's wire, which bends and twists by less.</summary>
         public double CoreRadius;
 
+        /// <summary>The law of its bending; null where that is linear.</summary>
+        public FibreSection? Fibres;
+
         /// <summary>What a joint sees of it.</summary>
         public JointSide Side => new JointSide
         {
@@ -85,6 +88,10 @@ namespace Guidewire.Core
             {
                 AxialStiffness = material.AxialStiffness,
                 CoreDiameter = material.CoreDiameter,
+                Material = material.Material,
+                Plateau = material.Plateau,
+                YieldStress = material.YieldStress,
+                Hardening = material.Hardening,
             };
             foreach (WireSection section in material.Sections)
             {
@@ -105,7 +112,24 @@ namespace Guidewire.Core
             here.CoreRadius = 0.5 * wire.CoreDiameter ?? radius;
             here.RestCurvature = wire.RestCurvature ?? material.RestCurvature;
             here.TakeDirect(wire);
+            MaterialLaw? law = MaterialLaw.Of(wire, material.Fibres);
+            here.Fibres = law == null ? null : FibresOf(law, wire, here.BendStiffness1, young, radius, inner);
             return here;
+        }
+
+        // Of a core whose diameter nobody said, that which has EI: a solid one, or a tube of these two radii. What EI
+        // is less than the core's makes E less; what it is more is linear.
+        private static FibreSection FibresOf(MaterialLaw law, WireSection wire, double stiffness, double young,
+            double radius, double inner)
+        {
+            double modulus = law.YoungsModulus > 0.0 ? law.YoungsModulus : young;
+            double core = 0.5 * wire.CoreDiameter ?? (inner > 0.0 ? radius
+                : Math.Min(radius, Math.Pow(4.0 * stiffness / (Math.PI * modulus), 0.25)));
+            double hollow = wire.CoreDiameter == null ? inner : 0.0;
+            double second = 0.25 * Math.PI * (Math.Pow(core, 4.0) - Math.Pow(hollow, 4.0));
+            bool isAll = law.YoungsModulus == 0.0 && wire.CoreDiameter != null;
+            return new FibreSection(law, isAll ? stiffness / second : Math.Min(modulus, stiffness / second), core,
+                hollow);
         }
 
         /// <summary>Radius of the lumen of these parameters at a position, m: 0 where there is none.</summary>

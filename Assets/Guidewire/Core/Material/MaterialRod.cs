@@ -73,6 +73,9 @@ namespace Guidewire.Core
         /// <summary>Damping in proportion to stiffness (Kelvin-Voigt), s.</summary>
         public double MaterialDamping { get; set; }
 
+        /// <summary>What its fibres remember; null of a linear wire.</summary>
+        public FibreMemory? Fibres { get; set; }
+
         /// <summary>Radius of the surface that touches walls, m; the largest along an element.</summary>
         public double[] Radius { get; }
 

@@ -175,6 +175,9 @@ namespace Guidewire.Core
                 rod.Length[j] = lengths[j];
                 profile.SetElement(rod, j, positions[j], positions[j + 1]);
             }
+            double metres = parameters.Scene.MetresPerUnit;
+            rod.Fibres = FibreMemory.Create(new InstrumentProfile(profile, metres),
+                System.Array.ConvertAll(positions, position => metres * position));
             return rod;
         }
     }

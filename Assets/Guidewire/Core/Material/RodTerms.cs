@@ -40,6 +40,7 @@ namespace Guidewire.Core
             CoaxialBending = supports.InnerCount > 0 ? new CoaxialBendTwist(supports.Coaxial!) : null;
             _joints = rod.Joints(supports);
             Bending = CoaxialBending ?? BendTwistTerm.Create(_joints, supports);
+            Fibres = Bending.Fibres = FibreBending.Create(rod, supports, Bending);
             Release = supports.Coaxial == null ? null
                 : new Release(supports.Coaxial, Bending, CoaxialBending, Stretch);
             Loads = new DeadLoads(Mass, rod.Length);
@@ -56,6 +57,7 @@ namespace Guidewire.Core
                     new SheathEnergy(supports.Coaxial!, (BendTwistEnergy<RotationVectorLaw>)Bending),
                 });
             }
+            _elastic = Fibres == null ? _elastic : Joined(_elastic, new EnergyTerm[] { Fibres });
             _loads = Joined(new EnergyTerm[]
             {
                 Loads,
@@ -96,6 +98,9 @@ namespace Guidewire.Core
 
         /// <summary>Bending and twist.</summary>
         public BendTwistTerm Bending { get; }
+
+        /// <summary>What fibres that yield or give way add to it; null of a linear wire.</summary>
+        public FibreBending? Fibres { get; }
 
         /// <summary>The same of several instruments; null of one alone.</summary>
         public CoaxialBendTwist? CoaxialBending { get; }

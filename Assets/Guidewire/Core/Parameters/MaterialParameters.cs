@@ -29,6 +29,21 @@ namespace Guidewire.Core
         /// </summary>
         public double? CoreDiameter { get; set; }
 
+        /// <summary>What the core is made of.</summary>
+        public CoreMaterial Material { get; set; }
+
+        /// <summary>Plateau of a superelastic core; null: none.</summary>
+        public Plateau? Plateau { get; set; }
+
+        /// <summary>Stress at which the core yields, Pa; null: none.</summary>
+        public double? YieldStress { get; set; }
+
+        /// <summary>Slope of its stress over its own strain beyond that, Pa; null: E/1000.</summary>
+        public double? Hardening { get; set; }
+
+        /// <summary>Rings of fibres in a section that is not linear; 0: as the material needs.</summary>
+        public int Fibres { get; set; }
+
         /// <summary>A = pi (r^2 - a^2), m^2.</summary>
         public double Area => Math.PI * (WireRadius * WireRadius - InnerRadius * InnerRadius);
 

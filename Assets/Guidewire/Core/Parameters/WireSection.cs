@@ -34,6 +34,18 @@ namespace Guidewire.Core
         /// <summary>Diameter of the thickest solid part, m: the core, or the wire of a coil.</summary>
         public double? CoreDiameter { get; set; }
 
+        /// <summary>What the core is made of: all of a material's numbers that the section does not state.</summary>
+        public CoreMaterial? Material { get; set; }
+
+        /// <summary>Plateau of a superelastic core.</summary>
+        public Plateau? Plateau { get; set; }
+
+        /// <summary>Stress at which the core yields, Pa.</summary>
+        public double? YieldStress { get; set; }
+
+        /// <summary>Slope of its stress over its own strain beyond that, Pa.</summary>
+        public double? Hardening { get; set; }
+
         /// <summary>What of GA resists shear.</summary>
         public double? ShearFactor { get; set; }
 
@@ -70,7 +82,7 @@ namespace Guidewire.Core
         public bool IsMarker => Attenuation.HasValue && !NumberRodElements.HasValue && !RestCurvature.HasValue
             && !(YoungsModulus ?? ShearModulus ?? Density ?? WireRadius ?? InnerRadius ?? ShearFactor ?? AxialStiffness
                 ?? ShearStiffness ?? BendingStiffness1 ?? BendingStiffness2 ?? TorsionalStiffness ?? MassPerLength
-                ?? RotaryInertia ?? CoreDiameter).HasValue;
+                ?? RotaryInertia ?? CoreDiameter ?? YieldStress ?? Hardening).HasValue && Plateau == null && !Material.HasValue;
 
         /// <summary>The first key of which another section has another value than this one; null where there is
         /// none.</summary>
@@ -100,10 +112,18 @@ namespace Guidewire.Core
         internal void TakeOver(WireSection over)
         {
             bool isNew = over.YoungsModulus.HasValue || over.ShearModulus.HasValue || over.Density.HasValue
-                || over.WireRadius.HasValue || over.InnerRadius.HasValue || over.ShearFactor.HasValue;
-            YoungsModulus = over.YoungsModulus ?? YoungsModulus;
-            ShearModulus = over.ShearModulus ?? ShearModulus;
-            Density = over.Density ?? Density;
+                || over.WireRadius.HasValue || over.InnerRadius.HasValue || over.ShearFactor.HasValue
+                || over.Material > CoreMaterial.None;
+            MaterialLaw? law = MaterialLaw.Find(over.Material);
+            YoungsModulus = over.YoungsModulus ?? law?.YoungsModulus ?? YoungsModulus;
+            ShearModulus = over.ShearModulus ?? law?.ShearModulus ?? ShearModulus;
+            Density = over.Density ?? law?.Density ?? Density;
+            if (over.Material.HasValue || over.Plateau != null || over.YieldStress.HasValue)
+            {
+                (Material, Plateau, YieldStress) = (over.Material, over.Plateau, over.YieldStress);
+                Hardening = null;
+            }
+            Hardening = over.Hardening ?? Hardening;
             CoreDiameter = over.CoreDiameter ?? (over.WireRadius.HasValue ? 2.0 * over.WireRadius : CoreDiameter);
             WireRadius = over.WireRadius ?? WireRadius;
             InnerRadius = over.InnerRadius ?? InnerRadius;

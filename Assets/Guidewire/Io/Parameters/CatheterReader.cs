@@ -26,8 +26,8 @@ namespace Guidewire.Io
         private static readonly string[] Shared =
         {
             "instrument", "wireRadius", "coreDiameter", "youngsModulus", "shearModulus", "density", "shearFactor",
-            "bendingStiffness",
-            "torsionalStiffness", "axialStiffness", "massPerLength", "restCurvature", "wireSections", "insertionSpeed",
+            "bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength", "material", "plateau",
+            "yieldStress", "hardening", "fibres", "shaped", "restCurvature", "wireSections", "insertionSpeed",
             "rotationSpeed", "driveFile", "slipSpeed", "tipForce", "distributedForce", "pointLoads",
         };
 

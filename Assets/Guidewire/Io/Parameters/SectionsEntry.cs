@@ -26,9 +26,12 @@ namespace Guidewire.Io
             new Number("torsionalStiffness", "GJ, N m^2"),
             new Number("massPerLength", "kg/m"),
             new Number("rotaryInertia", "rho I about d1 and d2 alike, kg m"),
+            new Number("yieldStress", "Pa"),
+            new Number("hardening", "Pa") { MayBeZero = true },
             new Number("attenuation", "of X-rays beyond that of the density, 1/mm"),
         };
 
+        private static ParameterEntry Materials => ParameterTable.Find("material")!;
 
         public SectionsEntry(string key, string help)
             : base(key, "", help)
@@ -46,7 +49,7 @@ namespace Guidewire.Io
                         + (number.MayBeZero ? " >= 0" : ""));
                 }
                 return "a list of {\"from\", \"to\" (units, from < to), and any of \"numberRodElements\" (a whole"
-                    + " number from 1 to 1000000), \"restCurvature\" (rad/m), and, > 0, "
+                    + " number from 1 to 1000000), \"restCurvature\" (rad/m), \"material\" (a word), \"plateau\", and, > 0, "
                     + string.Join(", ", words) + "}";
             }
         }
@@ -55,7 +58,7 @@ namespace Guidewire.Io
         {
             get
             {
-                var names = new List<string> { "from", "to", "numberRodElements", "restCurvature" };
+                var names = new List<string> { "from", "to", "numberRodElements", "restCurvature", "material", "plateau" };
                 names.AddRange(Array.ConvertAll(Numbers, number => number.Key));
                 return names;
             }
@@ -80,6 +83,14 @@ namespace Guidewire.Io
                     Vector3d curvature = section.RestCurvature.Value;
                     item["restCurvature"] = new JArray(curvature.X, curvature.Y, curvature.Z);
                 }
+                if (section.Material.HasValue)
+                {
+                    item["material"] = ChoiceEntry<CoreMaterial>.Word(section.Material.Value.ToString());
+                }
+                if (section.Plateau != null)
+                {
+                    item["plateau"] = PlateauEntry.Write(section.Plateau);
+                }
                 list.Add(item);
             }
             return list;
@@ -96,6 +107,10 @@ namespace Guidewire.Io
                     return "a whole number from 1 to 1000000";
                 case "restCurvature":
                     return "three numbers [x, y, z] (rad/m)";
+                case "material":
+                    return Materials.Allowed;
+                case "plateau":
+                    return PlateauEntry.Form;
                 default:
                     return Array.Find(Numbers, entry => entry.Key == field)?.Allowed;
             }
@@ -132,6 +147,25 @@ namespace Guidewire.Io
                         return false;
                     }
                     section.RestCurvature = curvature;
+                    continue;
+                }
+                if (property.Name == "material")
+                {
+                    var read = new RunParameters(Solver.Direct);
+                    if (!Materials.TryRead(read, property.Value))
+                    {
+                        return false;
+                    }
+                    section.Material = read.Simulation.Material.Material;
+                    continue;
+                }
+                if (property.Name == "plateau")
+                {
+                    if (!PlateauEntry.TryPlateau(property.Value, out Plateau plateau))
+                    {
+                        return false;
+                    }
+                    section.Plateau = plateau;
                     continue;
                 }
                 if (!NumberEntry.TryNumber(property.Value, out double number)

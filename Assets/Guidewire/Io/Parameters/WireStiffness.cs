@@ -41,6 +41,13 @@ namespace Guidewire.Io
         public static void Apply(RunParameters values, GivenParameters given)
         {
             MaterialParameters material = values.Simulation.Material;
+            if (MaterialLaw.Find(material.Material) is MaterialLaw law)
+            {
+                bool IsFree(int pair) => !given.Has(Pairs[pair].Stiffness) && !given.Has(Pairs[pair].Modulus);
+                material.YoungsModulus = IsFree(0) ? law.YoungsModulus : material.YoungsModulus;
+                material.ShearModulus = IsFree(1) ? law.ShearModulus : material.ShearModulus;
+                material.Density = IsFree(2) ? law.Density : material.Density;
+            }
             double area = material.Area;
             double second = material.SecondMomentOfArea;
             if (!(area > 0.0))

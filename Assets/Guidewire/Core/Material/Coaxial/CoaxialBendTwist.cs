@@ -175,13 +175,12 @@ namespace Guidewire.Core
                 if (_joints.IsTip(k))
                 {
                     RodVector a = default;
-                    _law.AddGradient(s.Joint, s.Relative, ref a, ref gradient[k]);
+                    AddCouple(s, ref a, ref gradient[k]);
                     TurnedFrame.Add(ref gradient[k - 1], s.FrameBefore, a);
                     _rows.AddTipGradient(gradient, k, s, a.T3);
                     continue;
                 }
-                _law.AddGradient(s.Joint, s.Relative, ref k == 0 ? ref _clampVector : ref gradient[k - 1],
-                    ref gradient[k]);
+                AddCouple(s, ref k == 0 ? ref _clampVector : ref gradient[k - 1], ref gradient[k]);
                 _rows.AddGradient(gradient, k, s);
             }
             if (to >= n && from < n && _joints.HasLast)
@@ -280,7 +279,7 @@ namespace Guidewire.Core
                 Evaluate(shape, k, out CoaxialJointState s);
                 RodVector before = default;
                 RodVector after = default;
-                _law.AddGradient(s.Joint, s.Relative, ref before, ref after);
+                AddCouple(s, ref before, ref after);
                 couples[k] = Quaterniond.Rotate(shape.Q[k], after.T);
             }
             couples[_joints.ElementCount] = Vector3d.Zero;
@@ -304,7 +303,7 @@ namespace Guidewire.Core
             Evaluate(shape, 0, out CoaxialJointState s);
             RodVector onFrame = default;
             RodVector onElement = default;
-            _law.AddGradient(s.Joint, s.Relative, ref onFrame, ref onElement);
+            AddCouple(s, ref onFrame, ref onElement);
             return Quaterniond.Rotate(_winding.Wound(shape.ProximalFrame), onFrame.T);
         }
 
@@ -322,6 +321,7 @@ namespace Guidewire.Core
                 s.First.Before = shape.Twist[k - 1];
                 s.First.After = k < _joints.ActiveCount ? shape.Twist[k] : 0.0;
                 s.Set(_joints[k], _law, false);
+                Fibres?.AddTo(k, ref s);
                 return;
             }
             s.Relative = Relative(shape, k);
@@ -335,11 +335,13 @@ namespace Guidewire.Core
             if (k > 0)
             {
                 s.Set(_joints[k], _law, _hasSecond);
+                Fibres?.AddTo(k, ref s);
                 return;
             }
             CoaxialJoint first = _joints[0];
             first.RestTwist += HubTwist[0] - _winding.Turn;
             s.Set(first, _law, _hasSecond);
+            Fibres?.AddTo(k, ref s);
         }
 
         /// <summary>What the last half element holds, J, and its derivatives by both angles.</summary>
@@ -386,6 +388,15 @@ namespace Guidewire.Core
                 ? shape.Twist[(instrument - 1) * shape.ElementCount + k] : 0.0;
         }
 
+        private void AddCouple(in CoaxialJointState s, ref RodVector a, ref RodVector b)
+        {
+            _law.AddGradient(s.Joint, s.Relative, ref a, ref b);
+            if (Fibres != null)
+            {
+                RotationVectorLaw.AddGradient(s.Fibres.Turn, s.Fibres.Moment, ref a, ref b);
+            }
+        }
+
         private AngleHessian AddLast(RodShape shape, RodVector[] gradient)
         {
             int n = _joints.ElementCount;
@@ -398,6 +409,10 @@ namespace Guidewire.Core
         private void AddJoint(in CoaxialJointState s, ref RodVector a, ref RodVector b, ref RodBlock blockA,
             ref RodBlock blockB)
         {
+            if (Fibres != null)
+            {
+                s.Fibres.AddBlocks(_rows.DropsGeometricStiffness, ref a, ref b, ref blockA, ref blockB);
+            }
             if (!_rows.DropsGeometricStiffness)
             {
                 _law.AddBlocks(s.Joint, s.Relative, ref a, ref b, ref blockA, ref blockB);

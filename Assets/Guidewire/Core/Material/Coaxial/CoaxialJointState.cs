@@ -13,6 +13,7 @@ namespace Guidewire.Core
         public CoaxialPartState First;  // of the others
         public CoaxialPartState Second;
         public double MixedSecond;      // d2E/(dt dt') of both, J
+        public FibreJoint Fibres;       // the correction by their fibres
 
         /// <summary>Sets all from the relative turn and the angles of both parts.</summary>
         /// <param name="hasSecond">Whether there are three instruments.</param>

@@ -97,6 +97,9 @@ namespace Guidewire.Core
         /// <summary>Elements of the outermost instrument before the chain, which are straight.</summary>
         public int First { get; private set; }
 
+        /// <summary>Grows with every change of the joints.</summary>
+        public int Version { get; private set; }
+
         /// <summary>The most elements that the chain can have.</summary>
         public int Capacity { get; }
 
@@ -250,6 +253,7 @@ namespace Guidewire.Core
             double most = Math.Max(Hubs.Sheathed, sheathed);   // no number at first
             bool slides = double.IsNaN(most);
             Hubs.Sheathed = sheathed;
+            Version++;
             ActiveCount = 0;
             HeldInLead = 0.0;
             for (int i = 0; i < Count; i++)

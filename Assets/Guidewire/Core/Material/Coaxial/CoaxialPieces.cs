@@ -28,6 +28,10 @@ namespace Guidewire.Core
             Stretch = new double[instruments.Length];
         }
 
+        /// <summary>Called after each piece with the integral of the joint's hat function over it, m, and whether it is
+        /// in a sheath; or null.</summary>
+        public Action<double, bool>? Added { get; set; }
+
         /// <summary>Sum of lambda/GJ of each, rad/(N m).</summary>
         public double[] Compliance { get; }
 
@@ -212,6 +216,7 @@ namespace Guidewire.Core
             {
                 AddBend(ref joint, lambda, frame);
             }
+            Added?.Invoke(lambda, isSheathed);
         }
 
         // The border of an instrument's piece; one at a time, as others in the same place move otherwise.
@@ -237,7 +242,14 @@ namespace Guidewire.Core
                 + piece.BendStiffness2 * curvature.Y * curvature.Y);
         }
 
-        private ref readonly CrossSection PieceOf(int instrument) => ref _pieces[instrument][_piece[instrument]];
+        /// <summary>Whether an instrument is in the piece that was added last.</summary>
+        public bool IsPresent(int instrument) => instrument >= _carrier && _isPresent[instrument];
+
+        /// <summary>Gives the index of an instrument's piece there.</summary>
+        public int IndexOf(int instrument) => _piece[instrument];
+
+        /// <summary>What an instrument is made of there.</summary>
+        public ref readonly CrossSection PieceOf(int instrument) => ref _pieces[instrument][_piece[instrument]];
 
         private void AddBend(ref CoaxialJoint joint, double lambda, int frame)
         {

@@ -71,6 +71,12 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>What the fibres of each instrument remember; null of a linear one.</summary>
+        public FibreMemory?[] Memory => Array.ConvertAll(_instrument, instrument => instrument.Rod.Fibres);
+
+        /// <summary>What an instrument is made of.</summary>
+        public InstrumentProfile ProfileOf(int instrument) => _instrument[instrument].Profile;
+
         /// <summary>Where their joints are and what these are made of.</summary>
         public CoaxialJoints Joints { get; }
 

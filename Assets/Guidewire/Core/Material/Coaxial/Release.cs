@@ -215,6 +215,7 @@ namespace Guidewire.Core
                 var rate = default(CoaxialJoint);
                 _before.Clear();
                 _after.Clear();
+                _bending.Fibres?.BeginRate();
                 bool moves = k > 0 && AddSide(ref rate, k, k - 1, _before);
                 moves |= AddSide(ref rate, k, k + 1, _after);
                 if (moves || (k == 0 && _speeds.Exit == 0.0))
@@ -229,6 +230,7 @@ namespace Guidewire.Core
 
         private bool AddSide(ref CoaxialJoint rate, int k, int other, CoaxialPieces side)
         {
+            _bending.Fibres?.AddSideRate(k, other, _speeds, _station[k], _station[other]);
             return side.AddSideRate(ref rate, _joints.Stations[k], _joints.Stations[other],
                 _joints.CarrierOf(Math.Min(k, other)), _joints.FrameOf(k), _joints.Hubs, _speeds, _station[k],
                 _station[other]);
@@ -292,7 +294,8 @@ namespace Guidewire.Core
             rate.Second.AddRest(u, ref rest, out _, out _);
             double held = rate.HeldAt(t, u, out _, out _, out _);
             double couple = joint.Twist * (s.Turn.Z - joint.RestTwist);
-            return rate.BendingRate(s.Joint.Bend1 * (s.Turn.X - s.Joint.Rest.X),
+            double fibres = _bending.Fibres?.RateOf(k, s, rate, rest) ?? 0.0;
+            return fibres + rate.BendingRate(s.Joint.Bend1 * (s.Turn.X - s.Joint.Rest.X),
                     s.Joint.Bend2 * (s.Turn.Y - s.Joint.Rest.Y), rest, held)
                 - couple * (0.5 * couple * rate.Twist + rate.RestTwist) + OfPart(rate.First, s.First)
                 + OfPart(rate.Second, s.Second);
@@ -309,6 +312,7 @@ namespace Guidewire.Core
             int n = _joints.ElementCount;
             var rate = default(CoaxialJoint);
             _before.Clear();
+            _bending.Fibres?.BeginRate();
             return AddSide(ref rate, n, n - 1, _before) ? bending.LastAt(shape, rate, out _, out _, out _) : 0.0;
         }
 

@@ -295,6 +295,11 @@ namespace Guidewire.Core
                 _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref _clampVector,
                     ref _onAfter[n]);
             }
+            for (int k = 0; k <= n && Fibres != null; k++)
+            {
+                RodVector onBefore = default;
+                Fibres.AddCouple(shape, k, ref onBefore, ref _onAfter[k]);
+            }
             for (int k = 0; k <= n; k++)
             {
                 bool isMissing = (k == 0 && !_hasProximal) || (k == n && !_hasDistal);
@@ -326,6 +331,7 @@ namespace Guidewire.Core
             if (_hasProximal)
             {
                 _law.AddGradient(First, FirstRelative(shape), ref onFrame, ref onElement);
+                Fibres?.AddCouple(shape, 0, ref onFrame, ref onElement);
             }
             return Quaterniond.Rotate(_winding.Wound(shape.ProximalFrame), onFrame.T);
         }
@@ -339,6 +345,7 @@ namespace Guidewire.Core
             if (_hasDistal)
             {
                 _law.AddGradient(_joint[n], shape.Q[n - 1].Conjugate * shape.DistalFrame, ref onElement, ref onFrame);
+                Fibres?.AddCouple(shape, n, ref onElement, ref onFrame);
             }
             return Quaterniond.Rotate(shape.DistalFrame, onFrame.T);
         }

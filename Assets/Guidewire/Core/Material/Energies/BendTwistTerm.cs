@@ -3,6 +3,9 @@ namespace Guidewire.Core
     /// <summary>Bending and twist, whatever the joints' law, with the couples that its clamps exert.</summary>
     internal abstract class BendTwistTerm : EnergyTerm
     {
+        /// <summary>What the fibres of the wire add; null where it is linear.</summary>
+        public FibreBending? Fibres { get; set; }
+
         /// <summary>Turns the elements, from the proximal clamp on (without one from the first element), so that no
         /// joint but that of a distal clamp exerts a couple.</summary>
         /// <returns>False where they are so already because no joint is turned at rest.</returns>

@@ -1,3 +1,4 @@
+using System;
 using System.Runtime.CompilerServices;
 
 namespace Guidewire.Core
@@ -47,9 +48,40 @@ namespace Guidewire.Core
             Vector3d theta = RotationVector.Log(relative);
             Vector3d strain = theta - joint.Rest;
             Vector3d m = new Vector3d(joint.Bend1 * strain.X, joint.Bend2 * strain.Y, joint.Twist * strain.Z);
+            AddGradient(theta, m, ref a, ref b);
+        }
+
+        /// <summary>Adds the couples of a joint with the turn theta and the couple m.</summary>
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        public static void AddGradient(in Vector3d theta, in Vector3d m, ref RodVector a, ref RodVector b)
+        {
             double square = theta.LengthSquared;
             double c = RotationVector.CotangentFactor(square);
             AddCouple(1.0 - c * square, c * Vector3d.Dot(theta, m), theta, m, Vector3d.Cross(m, theta), ref a, ref b);
+        }
+
+        /// <summary>Adds second derivatives of a joint with the turn theta, the couple m, and a stiffness about d1 and
+        /// d2 with the coefficients s.</summary>
+        public static void AddBlocks(in Vector3d theta, in Vector3d m, double s11, double s12, double s22,
+            ref RodBlock blockA, ref RodBlock blockB)
+        {
+            double square = theta.LengthSquared;
+            double c = RotationVector.CotangentFactor(square);
+            double tb = 1.0 - c * square;
+            if (m != Vector3d.Zero)
+            {
+                AddBlocks(0.0, 0.0, theta, m, tb, c, ref blockA, ref blockB);
+            }
+            double mean = 0.5 * (s11 + s22);
+            double half = 0.5 * (s11 - s22);
+            double apart = Math.Sqrt(half * half + s12 * s12);
+            if (mean != 0.0 || apart != 0.0)
+            {
+                double angle = 0.5 * Math.Atan2(s12, half);
+                var first = new Vector3d(Math.Cos(angle), Math.Sin(angle), 0.0);
+                AddAlong(mean + apart, first, theta, tb, c, ref blockA, ref blockB);
+                AddAlong(mean - apart, new Vector3d(-first.Y, first.X, 0.0), theta, tb, c, ref blockA, ref blockB);
+            }
         }
 
         /// <inheritdoc/>
@@ -63,12 +95,23 @@ namespace Guidewire.Core
             Vector3d m = new Vector3d(bend * strain.X, joint.Bend2 * strain.Y, joint.Twist * strain.Z);
             double square = theta.LengthSquared;
             double c = RotationVector.CotangentFactor(square);
+            double tb = 1.0 - c * square;
+            AddCouple(tb, c * Vector3d.Dot(theta, m), theta, m, Vector3d.Cross(m, theta), ref a, ref b);
+            AddBlocks(bend, k, theta, m, tb, c, ref blockA, ref blockB);
+            if (joint.Bend2 != bend)
+            {
+                AddAlong(joint.Bend2 - bend, Vector3d.UnitY, theta, tb, c, ref blockA, ref blockB);
+            }
+        }
+
+        [MethodImpl(MethodImplOptions.AggressiveInlining)]
+        private static void AddBlocks(double bend, double k, Vector3d theta, Vector3d m, double tb, double c,
+            ref RodBlock blockA, ref RodBlock blockB)
+        {
+            double square = theta.LengthSquared;
             double slope = RotationVector.CotangentSlope(square, c);
             double s = Vector3d.Dot(theta, m);
             Vector3d w = Vector3d.Cross(m, theta);
-            double tb = 1.0 - c * square;
-            AddCouple(tb, c * s, theta, m, w, ref a, ref b);
-
             double tt = theta.X;
             double tu = theta.Y;
             double tv = theta.Z;
@@ -101,21 +144,18 @@ namespace Guidewire.Core
             blockA.F31 -= tv * y.X + z.Z * tt - v.Y + k3 * r.X;
             blockA.F32 -= tv * y.Y + z.Z * tu + v.X + k3 * r.Y;
             blockA.F33 -= sigmaMixed + tv * y.Z + z.Z * tv + k3 * r.Z;
-            if (joint.Bend2 != bend)
-            {
-                AddUneven(joint.Bend2 - bend, theta, tb, c, ref blockA, ref blockB);
-            }
         }
 
-        /// <summary>What a stiffness about d2 other than that about d1 adds: d p p^T to C_b, d r r^T to C_a and -d p
-        /// r^T to F with p = T^T e2, r = T e2 and d the difference. Theta by value: a reference would exclude it of
-        /// registers in an even wire too.</summary>
-        private static void AddUneven(double difference, Vector3d theta, double tb, double c, ref RodBlock blockA,
-            ref RodBlock blockB)
+        /// <summary>What a stiffness d about an axis e across the wire adds: d p p^T to C_b, d r r^T to C_a and -d p
+        /// r^T to F with p = T^T e and r = T e. Theta by value: a reference would exclude it of registers in an even
+        /// wire too.</summary>
+        private static void AddAlong(double difference, Vector3d e, Vector3d theta, double tb, double c,
+            ref RodBlock blockA, ref RodBlock blockB)
         {
-            double cu = c * theta.Y;
-            Vector3d p = new Vector3d(cu * theta.X + 0.5 * theta.Z, tb + cu * theta.Y, cu * theta.Z - 0.5 * theta.X);
-            Vector3d r = new Vector3d(cu * theta.X - 0.5 * theta.Z, tb + cu * theta.Y, cu * theta.Z + 0.5 * theta.X);
+            double along = c * Vector3d.Dot(theta, e);
+            Vector3d across = 0.5 * Vector3d.Cross(theta, e);
+            Vector3d p = tb * e + along * theta - across;
+            Vector3d r = tb * e + along * theta + across;
             AddSymmetric(ref blockB, 0.0, theta, Vector3d.Zero, difference, p);
             AddSymmetric(ref blockA, 0.0, theta, Vector3d.Zero, difference, r);
             Vector3d d = difference * p;

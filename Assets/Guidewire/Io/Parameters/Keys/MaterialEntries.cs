@@ -23,6 +23,22 @@ namespace Guidewire.Io
                 "diameter of the thickest solid part, the core or the wire of a coil, of which strains are taken; "
                 + "null: "
                 + "that of the wire"),
+            new ChoiceEntry<CoreMaterial>("material",
+                "material of the core, which gives way beyond its elastic range (docs/materials.md); sets E, G and rho "
+                + "where they are not given")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            new PlateauEntry("plateau",
+                "plateau of a superelastic core by numbers; null: none")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            new OptionalNumberEntry("yieldStress", "Pa", NumberRange.Positive,
+                "stress at which the core yields and keeps a bend; null: none")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            new OptionalNumberEntry("hardening", "Pa", NumberRange.NotNegative,
+                "slope of the stress over the core's own strain beyond plateau or yield; null: E/1000")
+                .OnlyWith(Takers.Only(Solver.Direct)),
+            new IntegerEntry("fibres", "", 0, 16,
+                "rings of fibres in a section with such a law, with 4 (rings - 1) fibres on each; 0: 4 to 7 by material")
+                .OnlyWith(Takers.Only(Solver.Direct)),
             new NumberEntry("shearFactor", "", NumberRange.Positive,
                 "shear correction factor of GA: 0.9 for a round wire, about 0.5 for a thin-walled tube"),
             new OptionalNumberEntry("bendingStiffness", "N m^2", NumberRange.Positive,
