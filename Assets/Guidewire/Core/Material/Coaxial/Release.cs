@@ -230,8 +230,8 @@ namespace Guidewire.Core
 
         private bool AddSide(ref CoaxialJoint rate, int k, int other, CoaxialPieces side)
         {
-            _bending.Fibres?.AddSideRate(k, other, _speeds, _station[k], _station[other]);
-            return side.AddSideRate(ref rate, _joints.Stations[k], _joints.Stations[other],
+            bool moves = _bending.Fibres?.AddSideRate(k, other, _speeds, _station[k], _station[other]) ?? false;
+            return moves | side.AddSideRate(ref rate, _joints.Stations[k], _joints.Stations[other],
                 _joints.CarrierOf(Math.Min(k, other)), _joints.FrameOf(k), _joints.Hubs, _speeds, _station[k],
                 _station[other]);
         }
@@ -294,7 +294,7 @@ namespace Guidewire.Core
             rate.Second.AddRest(u, ref rest, out _, out _);
             double held = rate.HeldAt(t, u, out _, out _, out _);
             double couple = joint.Twist * (s.Turn.Z - joint.RestTwist);
-            double fibres = _bending.Fibres?.RateOf(k, s, rate, rest) ?? 0.0;
+            double fibres = _bending.Fibres?.RateOf(shape, k, s, rate, rest) ?? 0.0;
             return fibres + rate.BendingRate(s.Joint.Bend1 * (s.Turn.X - s.Joint.Rest.X),
                     s.Joint.Bend2 * (s.Turn.Y - s.Joint.Rest.Y), rest, held)
                 - couple * (0.5 * couple * rate.Twist + rate.RestTwist) + OfPart(rate.First, s.First)

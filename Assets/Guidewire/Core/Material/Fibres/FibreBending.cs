@@ -15,6 +15,8 @@ namespace Guidewire.Core
     /// exactly (<see cref="Release"/>). The memory moves at a step's end only.</remarks>
     internal sealed class FibreBending : EnergyTerm
     {
+        private const int Neighbours = 3;   // joints beside one in which a node of an instrument inside may be, too
+
         private readonly BendTwistTerm _bending;
         private readonly RodSupports _supports;
         private readonly MaterialRod _rod;
@@ -221,18 +223,20 @@ namespace Guidewire.Core
         }
 
         /// <summary>Adds the derivatives of lengths on one side of the joint at node k.</summary>
-        public void AddSideRate(int k, int other, HubSpeeds speeds, double nodeSpeed, double farSpeed)
+        /// <returns>Whether any is not 0.</returns>
+        public bool AddSideRate(int k, int other, HubSpeeds speeds, double nodeSpeed, double farSpeed)
         {
             Begin(_rates, k, other);
             var none = default(CoaxialJoint);
             _sides.AddSideRate(ref none, _joints!.Stations[k], _joints.Stations[other],
                 _joints.CarrierOf(Math.Min(k, other)), _joints.FrameOf(k), _joints.Hubs, speeds, nodeSpeed, farSpeed);
+            return _rates.Count > 0;
         }
 
         /// <summary>The derivative of the correction by the place of a hub.</summary>
         /// <param name="rate">Derivatives of the joint's sums.</param>
         /// <param name="rest">Derivative of its turn at rest.</param>
-        public double RateOf(int k, in CoaxialJointState s, in CoaxialJoint rate, in Vector3d rest)
+        public double RateOf(RodShape shape, int k, in CoaxialJointState s, in CoaxialJoint rate, in Vector3d rest)
         {
             Angles angles = AnglesOf(k, s);
             double sum = 0.0;
@@ -245,10 +249,7 @@ namespace Guidewire.Core
                 FibreSection section = memory.Sections[piece.Slot]!;
                 var curve = default(FibreCurve);
                 section.Add(curvature.X, curvature.Y, states, from, 1.0, ref curve);
-                double growing = piece.IsInside ? -memory.Growth(piece.Slot) : memory.Growth(piece.Slot);
-                double passing = growing <= 0.0 ? 0.0 : section.Towards(curvature.X, curvature.Y, states,
-                    from, piece.IsInside ? memory.Bent : memory.Straight, memory.StartOf(piece.Slot));
-                sum += piece.Length * (curve.Energy + passing);
+                sum += piece.Length * (curve.Energy + Passing(shape, k, piece));
             }
             if (At(k, s, out FibreJoint joint))
             {
@@ -258,6 +259,49 @@ namespace Guidewire.Core
                     + joint.Curve.Moment2 * (rate.Compliance2 * moment2 + rest.Y);
             }
             return sum;
+        }
+
+        // The change of w by the states that pass the exit while a piece grows, J/m. Of a length L that has grown by g
+        // e_n is e + g/L (e' - e), the other side's e'; where it has shrunk the straight side has that, of its length.
+        private double Passing(RodShape shape, int k, in FibrePiece piece)
+        {
+            FibreMemory memory = Memory[piece.Instrument]!;
+            double growth = memory.Remembers[piece.Slot] ? memory.Growth(piece.Slot) : 0.0;
+            if (growth >= 0.0)
+            {
+                return growth == 0.0 || piece.IsInside ? 0.0
+                    : memory.OwnShare(piece.Slot, false) * Passing(shape, k, piece, false);
+            }
+            return (piece.IsInside ? memory.OwnShare(piece.Slot, true) - 1.0 : -1.0) * Passing(shape, k, piece, true);
+        }
+
+        // By the state of the other side in place of a side's own, of a unit of its length, in all joints of a slot.
+        private double Passing(RodShape shape, int k, in FibrePiece passing, bool isInside)
+        {
+            FibreMemory memory = Memory[passing.Instrument]!;
+            double[] own = isInside ? memory.Straight : memory.Bent;
+            double[] others = isInside ? memory.Bent : memory.Straight;
+            double sum = 0.0;
+            double length = 0.0;
+            for (int j = Math.Max(0, k - Neighbours); j <= Math.Min(k + Neighbours, LastJoint(shape)); j++)
+            {
+                _bending.Evaluate(shape, j, out CoaxialJointState s);
+                Angles angles = AnglesOf(j, s);
+                for (int p = 0; p < _pieces[j].Count; p++)
+                {
+                    ref FibrePiece piece = ref _pieces[j][p];
+                    if (piece.Instrument == passing.Instrument && piece.Slot == passing.Slot
+                        && piece.IsInside == isInside)
+                    {
+                        Vector3d curvature = piece.Curvature(angles, out _);
+                        double[] states = StatesOf(memory, piece, out int from);
+                        sum += piece.Length * memory.Sections[piece.Slot]!.Towards(curvature.X, curvature.Y, states,
+                            from, own, others, memory.StartOf(piece.Slot));
+                        length += piece.Length;
+                    }
+                }
+            }
+            return length > 0.0 ? sum / length : 0.0;
         }
 
         /// <summary>Finds the largest strain of the fibres, and the share of the section there whose fibres have left

@@ -120,24 +120,24 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Derivative of w where e_n goes towards that of another state, J/m.</summary>
-        public double Towards(double kappa1, double kappa2, double[] states, int from, double[] others,
+        /// <summary>Derivative of w where e_n changes by the difference of two states, J/m.</summary>
+        public double Towards(double kappa1, double kappa2, double[] states, int from, double[] own, double[] others,
             int at)
         {
             double sum = 0.0;
             for (int i = 0; i < _area.Length; i++)
             {
                 double before = states[from + i];
-                double change = others[at + i] - before;
+                double change = others[at + i] - own[at + i];
                 if (change == 0.0)
                 {
                     continue;
                 }
                 double strain = kappa1 * _y[i] - kappa2 * _x[i];
-                double own = Own(strain, before);
-                double slope = own == before
-                    ? (_young + _hardening) * own - _young * strain + _mean * Math.Sign(own)
-                    : -_half * Math.Sign(own - before);
+                double now = Own(strain, before);
+                double slope = now == before
+                    ? (_young + _hardening) * now - _young * strain + _mean * Math.Sign(now)
+                    : -_half * Math.Sign(now - before);
                 sum += _area[i] * change * Math.Max(-_half, Math.Min(_half, slope));
             }
             return sum;

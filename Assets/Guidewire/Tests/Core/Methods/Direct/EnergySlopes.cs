@@ -13,23 +13,27 @@ namespace Guidewire.Core.Tests
 
         /// <summary>Compares a gradient with the differences of the value.</summary>
         /// <param name="value">With unknown i moved by s.</param>
-        public static void AssertGradient(double[] gradient, int unknowns, Func<int, double, double> value)
+        /// <param name="step">Of the differences.</param>
+        public static void AssertGradient(double[] gradient, int unknowns, Func<int, double, double> value,
+            double step = Step, double tolerance = GradientTolerance)
         {
             double worst = 0.0;
             double largest = 0.0;
             for (int i = 0; i < unknowns; i++)
             {
-                double difference = FourthOrder(s => value(i, s));
+                double difference = FourthOrder(step, s => value(i, s));
                 worst = Math.Max(worst, Math.Abs(difference - gradient[i]));
                 largest = Math.Max(largest, Math.Abs(difference));
             }
-            Assert.That(worst, Is.LessThan(GradientTolerance * largest));
+            Assert.That(worst, Is.LessThan(tolerance * largest));
         }
 
         /// <summary>Compares second derivatives with the differences of the value, not of the gradient: that of a
         /// rotated shape is along its own axes.</summary>
         /// <param name="value">With unknown i moved by s and k by t.</param>
-        public static void AssertBlocks(double[,] second, int unknowns, Func<int, double, int, double, double> value)
+        /// <param name="step">Of the differences.</param>
+        public static void AssertBlocks(double[,] second, int unknowns, Func<int, double, int, double, double> value,
+            double step = Step, double tolerance = HessianTolerance)
         {
             double worst = 0.0;
             double largest = 0.0;
@@ -37,16 +41,16 @@ namespace Guidewire.Core.Tests
             {
                 for (int k = 0; k <= i; k++)
                 {
-                    double difference = FourthOrder(s => FourthOrder(t => value(i, s, k, t)));
+                    double difference = FourthOrder(step, s => FourthOrder(step, t => value(i, s, k, t)));
                     worst = Math.Max(worst, Math.Abs(difference - second[i, k]));
                     largest = Math.Max(largest, Math.Abs(difference));
                 }
             }
-            Assert.That(worst, Is.LessThan(HessianTolerance * largest));
+            Assert.That(worst, Is.LessThan(tolerance * largest));
         }
 
-        private static double FourthOrder(Func<double, double> f) =>
-            (8.0 * (f(Step) - f(-Step)) - (f(2.0 * Step) - f(-2.0 * Step))) / (12.0 * Step);
+        private static double FourthOrder(double step, Func<double, double> f) =>
+            (8.0 * (f(step) - f(-step)) - (f(2.0 * step) - f(-2.0 * step))) / (12.0 * step);
 
         /// <summary>Central difference of a value that a step on and back changes.</summary>
         public static double Difference(double step, Func<double, double> value) =>

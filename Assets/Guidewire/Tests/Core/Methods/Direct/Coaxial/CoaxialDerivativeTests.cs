@@ -33,6 +33,32 @@ namespace Guidewire.Core.Tests
                 (i, s, k, t) => pair.Bending.Value(Moved(pair, i, s, k, t)));
         }
 
+        /// <summary>Of cores that give way, with a memory. Where a fibre begins to flow the second derivative
+        /// jumps: so steps are small.</summary>
+        [TestCaseSource(nameof(Shapes))]
+        public void CorrectionByFibres_HasTheDerivativesOfItsEnergy(double angle, int beyond)
+        {
+            foreach (bool isSteel in new[] { false, true })
+            {
+                CoaxialPair pair = Pair(angle, beyond);
+                pair.GiveWay(0.4, isSteel);
+                var bent = new RodShape(pair.Shape.ElementCount, pair.Shape.InnerCount);
+                bent.CopyFrom(pair.Shape);
+                for (int j = 0; j < bent.ElementCount; j++)
+                {
+                    bent.Q[j] *= RotationVector.Exp(0.3 * new Vector3d(Math.Sin(2.0 * j), Math.Cos(3.0 * j), 0.2));
+                }
+                pair.Terms.Fibres!.EndStep(bent);
+                Assert.That(pair.Terms.Fibres.Loss, Is.GreaterThan(0.0));
+                double[] gradient = Gradient(pair);
+                EnergySlopes.AssertGradient(gradient, gradient.Length, (i, s) => pair.Bending.Value(Moved(pair, i, s)),
+                    1e-6, 1e-8);
+                double[,] second = Assembled(pair, new EnergyTerm[] { pair.Bending }, 0.0);
+                EnergySlopes.AssertBlocks(second, second.GetLength(0),
+                    (i, s, k, t) => pair.Bending.Value(Moved(pair, i, s, k, t)), 1e-5, 1e-4);
+            }
+        }
+
         [TestCase(2)]
         [TestCase(0)]
         [TestCase(-1)]

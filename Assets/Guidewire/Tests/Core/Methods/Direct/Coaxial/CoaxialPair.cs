@@ -110,6 +110,41 @@ namespace Guidewire.Core.Tests
             }
         }
 
+        /// <summary>Gives the pieces cores of four fifths of their stiffness that leave their line at a curvature,
+        /// rad/m; the shape stays.</summary>
+        /// <param name="isSteel">Whether they yield; else they have a plateau.</param>
+        public void GiveWay(double curvature, bool isSteel)
+        {
+            const double radius = 0.1;
+            for (int i = 0; i < _instruments.Length; i++)
+            {
+                CrossSection[] pieces = _instruments[i].Profile.Pieces;
+                for (int p = 0; p < pieces.Length; p++)
+                {
+                    double young = 0.8 * pieces[p].BendStiffness1 / (0.25 * Math.PI * Math.Pow(radius, 4.0));
+                    double stress = young * radius * curvature;
+                    pieces[p].Fibres = new FibreSection(new MaterialLaw
+                    {
+                        IsSuperelastic = !isSteel,
+                        Upper = stress,
+                        Lower = 0.4 * stress,
+                        Strain = 6.0 * radius * curvature,
+                        Hardening = 0.03 * young,
+                        Rings = 2,
+                    }, young, radius, 0.0);
+                }
+                _instruments[i].Rod.Fibres = FibreMemory.Create(_instruments[i].Profile, _instruments[i].Stations);
+            }
+            CoaxialJoints joints = Coaxial.Joints;
+            var beyond = new int[_instruments.Length];
+            for (int i = 1; i < beyond.Length; i++)
+            {
+                beyond[i] = joints.BeyondOf(i);
+            }
+            Bending.HubTwist.CopyTo(_hubTwist, 0);
+            Build(beyond, (double[])joints.Hubs.Leads.Clone(), joints.Sheathed);
+        }
+
         /// <summary>The rest shape at an angle of the inner hub; throws where there is none.</summary>
         public void Solve(double hubTwist) => Solve(new[] { 0.0, hubTwist });
 

@@ -55,6 +55,48 @@ namespace Guidewire.Core.Tests
             Assert.That(all.Error, Is.LessThan(5e-6));
         }
 
+        // Of cores that give way: at first without memory, then with that of another shape, the exit beside where it was.
+        [Test]
+        public void ForcesOfCoresThatGiveWay_AreTheSlopesOfTheEnergy([Values(2, 3)] int instruments,
+            [Values] bool isSteel, [Values(0.0, 0.027, -0.027)] double moved)
+        {
+            var inner = new Compared();
+            var all = new Compared();
+            for (int k = 0; k < 12; k++)
+            {
+                CoaxialPair tubes = instruments == 2 ? Two(3 * k) : ThreeTubes.Mixed(k % 4);
+                tubes.GiveWay(0.5, isSteel);
+                double sheathed = 0.07 + 0.0639 * k;
+                Disturb(tubes, Disturbed, k, sheathed);
+                if (moved != 0.0)
+                {
+                    tubes.Terms.Fibres!.EndStep(tubes.Shape);
+                    tubes.Coaxial.SetHubs((double[])tubes.Coaxial.Joints.Hubs.Leads.Clone(), sheathed + 0.5 * moved);
+                    tubes.Terms.Fibres.EndStep(tubes.Shape);
+                    tubes.Coaxial.SetHubs((double[])tubes.Coaxial.Joints.Hubs.Leads.Clone(), sheathed + moved);
+                    tubes.Solve(instruments == 2 ? new[] { 0.0, 0.7 } : new[] { 0.0, 0.7, -0.5 });
+                    for (int j = 1; j < tubes.Shape.ElementCount; j++)
+                    {
+                        // What is in the sheath is stiff.
+                        bool isOut = tubes.Coaxial.Joints.Stations[j - 1] >= sheathed + Math.Abs(moved);
+                        tubes.Shape.Q[j] *= Quaterniond.FromAxisAngle(Vector3d.UnitX, (isOut ? 0.01 : 0.0) * Math.Sin(3.0 * j + k));
+                    }
+                }
+                Assert.That(Math.Abs(tubes.Terms.Fibres!.Loss), moved == 0.0 ? Is.Zero : Is.GreaterThan(0.0));
+                for (int i = 1; i < instruments; i++)
+                {
+                    int hub = i;
+                    double slope = EnergySlopes.FineDifference(Step, d => EnergyAt(tubes, hub, d, 0.0));
+                    inner.Add(tubes.Terms.Release!.InnerForce(tubes.Shape, tubes.Terms, i), slope);
+                }
+                all.Add(tubes.Terms.Release!.SheathForce(tubes.Shape),
+                    EnergySlopes.FineDifference(Step, d => EnergyAt(tubes, 0, 0.0, d)));
+            }
+            Assert.That(inner.Error, Is.LessThan(2e-5));
+            Assert.That(all.Largest, Is.GreaterThan(0.05));
+            Assert.That(all.Error, Is.LessThan(2e-5));
+        }
+
         // A border within the wire at a node of the catheter; the wire's own nodes and borders at the catheter's tip.
         // Almost without shear, by which a force jumps there.
         [TestCase(0.25, 0.6, 0)]
