@@ -190,6 +190,17 @@ namespace Guidewire.Core
             s.MixedSecond += joint.FirstSecond;
         }
 
+        /// <summary>Whether any fibre has left its line in a shape.</summary>
+        public bool GivesWay(RodShape shape)
+        {
+            bool givesWay = false;
+            for (int k = 0; k <= LastJoint(shape); k++)
+            {
+                givesWay |= At(shape, k, out _);
+            }
+            return givesWay;
+        }
+
         /// <summary>The step that began last is accepted: the fibres remember.</summary>
         public override void EndStep(RodShape shape)
         {

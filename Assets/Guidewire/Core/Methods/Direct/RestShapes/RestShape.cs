@@ -6,6 +6,8 @@ namespace Guidewire.Core
     /// in increments, each solved before the next, so that a rod is wound up by many turns instead of taking the
     /// shorter rotation. A rod with rest curvature and one free end starts from its stress-free shape: a coil of many
     /// turns is not reached from the straight shape.</summary>
+    /// <remarks>A wire whose fibres give way remembers its path. Its loads and the displacements of its ends then grow
+    /// together, and it remembers after each increment.</remarks>
     internal sealed class RestShape
     {
         /// <summary>Iterations over those of a stage of a motion: a search may start far away.</summary>
@@ -13,12 +15,14 @@ namespace Guidewire.Core
 
         private const double LargestShift = 0.01;  // of L a part
         private const double MaxShifts = 1000.0;  // parts of a shift; by more than 10 L each is larger
+        private const int PathParts = 40;    // of loads, where fibres give way
 
         private readonly MaterialScene _scene;
         private readonly RodTerms _terms;
         private readonly double _tolerance;
         private readonly int _maxIterations;
         private readonly SolverReport _report;
+        private Action<double>? _grow;     // sets a fraction of the loads
 
         /// <summary>Makes a search in this scene.</summary>
         /// <param name="tolerance">Error that the shape may have: radians, or displacement over L.</param>
@@ -46,14 +50,47 @@ namespace Guidewire.Core
                 if (_terms.Bending.RelaxTurns(shape))
                 {
                     PlaceNodes(shape);
-                    if (Move(shape) == null)
+                    if (MoveByPath(shape) == null)
                     {
                         return null;
                     }
                 }
                 shape.CopyFrom(straight);
             }
-            return Move(shape);
+            return MoveByPath(shape);
+        }
+
+        // At once; where fibres give way once more, by their path.
+        private string? MoveByPath(RodShape shape)
+        {
+            if (_terms.Fibres == null)
+            {
+                return Move(shape, 1);
+            }
+            var start = new RodShape(shape.ElementCount, shape.InnerCount, shape.Q.Length);
+            start.CopyFrom(shape);
+            string? failure = Move(shape, 1);
+            if (failure == null && !_terms.Fibres.GivesWay(shape))
+            {
+                return null;
+            }
+            shape.CopyFrom(start);
+            var loads = (Vector3d[])_terms.Loads.Force.Clone();
+            Vector3d moment = _terms.Followers.Moment.Moment;
+            Vector3d force = _terms.Followers.Force.Force;
+            _grow = fraction =>
+            {
+                for (int i = 0; i < loads.Length; i++)
+                {
+                    _terms.Loads.Force[i] = fraction * loads[i];
+                }
+                _terms.Followers.Moment.Moment = fraction * moment;
+                _terms.Followers.Force.Force = fraction * force;
+            };
+            failure = Move(shape, PathParts);
+            _grow(1.0);
+            _grow = null;
+            return failure;
         }
 
         // Lays the elements end to end.
@@ -65,7 +102,7 @@ namespace Guidewire.Core
             }
         }
 
-        private string? Move(RodShape shape)
+        private string? Move(RodShape shape, int least)
         {
             RodSchedule schedule = _scene.Schedule;
             var statics = new RodStatics(_terms);
@@ -82,7 +119,7 @@ namespace Guidewire.Core
             {
                 return "no rest shape: " + failure;
             }
-            int parts = Math.Max(turns, 1 + (int)Math.Min(shift / LargestShift, MaxShifts));
+            int parts = Math.Max(least, Math.Max(turns, 1 + (int)Math.Min(shift / LargestShift, MaxShifts)));
             for (int k = 1; k <= parts; k++)
             {
                 // Each part is spread over the rod as an even stretch and an even twist; the solver does the rest.
@@ -97,6 +134,7 @@ namespace Guidewire.Core
                     shape.Q[j] = shape.Q[j] * Quaterniond.FromAxisAngle(Vector3d.UnitZ, fraction);
                 }
                 schedule.TurnFrames(shape, 0.0, turn * k / parts, 0.0);
+                _grow?.Invoke((double)k / parts);
                 EquilibriumResult result = statics.Solve(shape, _tolerance, _maxIterations);
                 _report.EquilibriumIterations += result.Iterations;
                 _report.Factorisations += result.Factorisations;
@@ -107,6 +145,10 @@ namespace Guidewire.Core
                 if (turned != null || !result.Converged)
                 {
                     return "no rest shape: " + (turned ?? result.Reason);
+                }
+                if (_grow != null)
+                {
+                    _terms.Fibres!.EndStep(shape);
                 }
             }
             return null;

@@ -1,0 +1,130 @@
+using System;
+using System.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Wires whose cores give way or yield against solutions of the planar elastica by independent code: a
+    /// nitinol wire of radius 0.178 mm, E 60 GPa, plateaus 500 and 250 MPa over 5 %.</summary>
+    public sealed class FibreRunTests
+    {
+        private const double Radius = 0.178e-3;
+
+        /// <summary>A cantilever of 30 mm under a dead force at its tip, up in 20 steps and back by half of them. Its
+        /// tip, mm, by curvatures at 150 and 300 midpoints, extrapolated.</summary>
+        [Category("Row")]
+        [TestCase(0.1, 25.476531, 14.388223, 28.440853, 8.700774)]
+        [TestCase(0.2, 18.627820, 21.834150, 23.407959, 17.635759)]
+        [TestCase(0.4, 10.706269, 26.652590, 14.492800, 25.146681)]
+        public void Cantilever_BendsUpAndBack(double force, double x, double y, double xHalf, double yHalf)
+        {
+            RodTerms terms = Terms(Wire(60, 0.03), new RodSupports());
+            RodShape shape = Rods.Straight(terms.Rod);
+            for (int k = 1; k <= 30; k++)
+            {
+                double now = force * (k <= 20 ? k : 40 - k) / 20.0;
+                Solve(terms, shape, new Vector3d(now, 0.0, 0.0));
+                if (k == 20)
+                {
+                    Report("up", shape, x, y);
+                }
+            }
+            Report("back to half of the force", shape, xHalf, yHalf);
+        }
+
+        /// <summary>A strut of 30 mm between pins, shortened to 0.7 L and back: its thrust at 0.2 L, N.</summary>
+        [Test]
+        [Category("Row")]
+        public void Strut_ThrustsLessOnItsWayBack()
+        {
+            RodTerms terms = Terms(Wire(60, 0.03),
+                new RodSupports { Proximal = ProximalEnd.Held, Distal = DistalEnd.Held });
+            RodShape shape = Rods.Straight(terms.Rod);
+            terms.Loads.AddAt(0.015, new Vector3d(1e-5, 0.0, 0.0));
+            for (int k = 1; k <= 240; k++)
+            {
+                double shortening = 0.7 * (k <= 140 ? k : 280 - k) / 140.0;
+                shape.X[60] = new Vector3d(0.0, 0.0, 0.03 * (1.0 - shortening));
+                EquilibriumResult result = new RodStatics(terms).Solve(shape, 1e-10, 500);
+                Assert.That(result.Converged, Is.True, result.Reason);
+                terms.Fibres!.EndStep(shape);
+                if (k == 40 || k == 240)
+                {
+                    double thrust = Math.Abs(terms.EndGradient(shape, 60).Z);
+                    Row.Holds("thrust of a nitinol strut at 0.2 L, N, " + (k == 40 ? "shortened" : "on its way back"),
+                        thrust, k == 40 ? 0.432553 : 0.222746, k == 40 ? 0.0043 : 0.0022);
+                }
+            }
+        }
+
+        /// <summary>Steel of 190 GPa and 1.5 GPa is bent by 90 degrees over a mandrel and let go: it keeps 90 (1 - 4 eta
+        /// g/pi) degrees, by its axis on the mandrel's radius and its own.</summary>
+        [Category("Row")]
+        [TestCase(1.5e-3, 78.660404)]
+        [TestCase(3e-3, 68.677399)]
+        [TestCase(6e-3, 49.688234)]
+        [TestCase(10e-3, 27.835369)]
+        public void Mandrel_LeavesTheAngleOfItsSpringBack(double mandrel, double degrees)
+        {
+            double radius = mandrel + Radius;
+            double length = 0.5 * Math.PI * radius;
+            const int n = 60;
+            MaterialRod rod = MaterialRod.Round(n, length, Radius, 190e9, 74e9, 7900.0);
+            CrossSection section = CrossSection.Round(Radius, 190e9, 74e9, 7900.0);
+            section.Fibres = new FibreSection(new MaterialLaw { Upper = 1.5e9, Rings = 6 }, 190e9, Radius, 0.0);
+            rod.Fibres = FibreMemory.Create(new InstrumentProfile(new[] { 0.0, length }, new[] { section }),
+                Rods.Stations(rod));
+            var held = new RodTerms(rod, new RodSupports { Distal = DistalEnd.Clamped });
+            RodShape shape = Rods.Straight(rod);
+            for (int k = 1; k <= 30; k++)
+            {
+                double angle = 0.5 * Math.PI * k / 30.0;
+                shape.X[n] = length / angle * new Vector3d(0.0, -(1.0 - Math.Cos(angle)), Math.Sin(angle));
+                shape.DistalFrame = Quaterniond.FromAxisAngle(Vector3d.UnitX, angle);
+                EquilibriumResult result = new RodStatics(held).Solve(shape, 1e-11, 500);
+                Assert.That(result.Converged, Is.True, result.Reason);
+                held.Fibres!.EndStep(shape);
+            }
+            var free = new RodTerms(rod, new RodSupports());
+            for (int j = 0; j < n; j++)
+            {
+                shape.X[j + 1] = shape.X[j] + rod.Length[j] * shape.Q[j].Director3;
+            }
+            Assert.That(new RodStatics(free).Solve(shape, 1e-11, 500).Converged, Is.True);
+            // The last element stands for the middle of its piece.
+            Vector3d tip = shape.Q[n - 1].Director3;
+            double kept = Math.Atan2(-tip.Y, tip.Z) * 180.0 / Math.PI * n / (n - 0.5);
+            Row.Holds("angle that a steel wire keeps of 90° over a mandrel, degrees", kept, degrees, 0.1);
+        }
+
+        private static void Report(string what, RodShape shape, double x, double y)
+        {
+            Vector3d tip = 1e3 * shape.X[shape.ElementCount];
+            Row.Holds("tip of a nitinol cantilever, " + what + ", mm off", Math.Sqrt((tip.Z - x) * (tip.Z - x)
+                + (tip.X - y) * (tip.X - y)), 0.0, 0.05);
+        }
+
+        private static void Solve(RodTerms terms, RodShape shape, in Vector3d force)
+        {
+            terms.Loads.Set(Vector3d.Zero, force);
+            EquilibriumResult result = new RodStatics(terms).Solve(shape, 1e-11, 300);
+            Assert.That(result.Converged, Is.True, result.Reason);
+            terms.Fibres!.EndStep(shape);
+        }
+
+        private static RodTerms Terms(MaterialRod rod, RodSupports supports) => new RodTerms(rod, supports);
+
+        private static MaterialRod Wire(int n, double length)
+        {
+            MaterialRod rod = MaterialRod.Round(n, length, Radius, 60e9, 23e9, 6450.0);
+            CrossSection section = CrossSection.Round(Radius, 60e9, 23e9, 6450.0);
+            section.Fibres = new FibreSection(new MaterialLaw
+            {
+                IsSuperelastic = true, Upper = 500e6, Lower = 250e6, Strain = 0.05, Hardening = 0.0,
+            }, 60e9, Radius, 0.0);
+            rod.Fibres = FibreMemory.Create(new InstrumentProfile(new[] { 0.0, length }, new[] { section }),
+                Rods.Stations(rod));
+            return rod;
+        }
+    }
+}
