@@ -11,6 +11,8 @@ namespace Guidewire.Core
         private const double OddStretch = 0.01;     // of the length, which no wire of metal survives
         private const double OddStrain = 0.2;       // of the outermost fibre: bent to five times its own radius
 
+        private const double ElasticStrain = 0.0085;    // where nitinol and hard steel have left their line
+
         private const double NearLimit = 0.9;       // of a soft wall's limit
 
         private readonly bool _isMaterial;
@@ -62,6 +64,14 @@ namespace Guidewire.Core
             if (_overlap.Warning is RunWarning overlap)
             {
                 yield return overlap;
+            }
+            if (extremes != null && extremes.LawShare > 1.0)
+            {
+                yield return WarningTable.BeyondLaw.With(100.0 * extremes.CoreStrain, 1e3 * extremes.CorePlace);
+            }
+            if (extremes != null && extremes.MetalStrain > ElasticStrain && extremes.Strain <= OddStrain)
+            {
+                yield return WarningTable.BeyondElastic.With(100.0 * extremes.MetalStrain);
             }
             if (contacts != null && Shortfall.Counts(contacts.DriveShortfall, contacts.DriveAsked, _length))
             {

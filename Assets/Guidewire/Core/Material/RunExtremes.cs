@@ -6,6 +6,8 @@ namespace Guidewire.Core
     /// NaN for quantities that do not exist.</summary>
     public sealed class RunExtremes
     {
+        private const double LeastMetal = 30e9;    // E of a core, Pa, that may be one of metal
+
         private Vector3d[] _turns = Array.Empty<Vector3d>();      // of the joints, rad
         private double[] _stretch = Array.Empty<double>();        // of the elements, without sign
         private double _curvatureSquared;
@@ -28,6 +30,37 @@ namespace Guidewire.Core
         /// <summary>Length of the run's first step, s: 0 where it is over. A wire that sets out suddenly often has its
         /// largest values there.</summary>
         internal double FirstStep { get; set; }
+
+        /// <summary>Largest strain by bending of the fibres of a core that may give way; NaN where all are
+        /// linear.</summary>
+        public double CoreStrain { get; private set; } = double.NaN;
+
+        /// <summary>Instrument of that strain, 0 the outermost one.</summary>
+        public int CoreInstrument { get; private set; }
+
+        /// <summary>Where that strain was, m from the instrument's hub.</summary>
+        public double CorePlace { get; private set; } = double.NaN;
+
+        /// <summary>When that strain was, s.</summary>
+        public double CoreTime { get; private set; } = double.NaN;
+
+        /// <summary>Largest share of a section whose fibres had left their line, from 0 to 1.</summary>
+        public double CoreShare { get; private set; } = double.NaN;
+
+        /// <summary>Largest curvature that yielded cores keep at the end, where their couple is gone, rad/m.</summary>
+        public double KeptCurvature { get; private set; } = double.NaN;
+
+        /// <summary>Where a core keeps that, m from its hub.</summary>
+        public double KeptPlace { get; private set; } = double.NaN;
+
+        /// <summary>Energy that the material has turned into heat, J; NaN where all is linear.</summary>
+        public double MaterialLoss { get; private set; } = double.NaN;
+
+        /// <summary>Largest strain beyond that to which its law holds, of the latter.</summary>
+        internal double LawShare { get; private set; }
+
+        /// <summary>Largest strain by bending of a linear core as stiff as metal.</summary>
+        internal double MetalStrain { get; private set; }
 
         /// <summary>Largest force of the hub along its axis, thrust or pull, N; NaN without walls.</summary>
         public double AxialForce { get; private set; } = double.NaN;
@@ -118,8 +151,11 @@ namespace Guidewire.Core
                 // An end without a clamp has no joint, and no turn.
                 double bend = (k > 0 || terms.Supports.HasProximalJoint) && (k < n || terms.Supports.HasDistalJoint)
                     ? perLength * Math.Sqrt(change.X * change.X + change.Y * change.Y) : 0.0;
-                strain = Math.Max(strain, Math.Max(rod.CoreRadius[before], rod.CoreRadius[after]) * bend
-                    + Math.Max(_stretch[before], _stretch[after]));
+                double core = Math.Max(rod.CoreRadius[before], rod.CoreRadius[after]);
+                strain = Math.Max(strain, core * bend + Math.Max(_stretch[before], _stretch[after]));
+                bool isMetal = terms.Fibres == null && rod.BendStiffness1[after]
+                    > LeastMetal * 0.25 * Math.PI * Math.Pow(core, 4.0);
+                MetalStrain = Math.Max(MetalStrain, isMetal ? core * bend : 0.0);
             }
             _curvatureSquared = largest;
             TakeStrain(strain, time);
@@ -127,6 +163,32 @@ namespace Guidewire.Core
 
         /// <summary>Whether a time is that of the first step, in which the wire sets out.</summary>
         public bool IsFirstStep(double time) => time > 0.0 && time <= FirstStep;
+
+        /// <summary>Takes what the fibres of all instruments are.</summary>
+        internal void TakeFibres(RodTerms terms, RodShape shape, double time)
+        {
+            if (terms.Fibres != null)
+            {
+                Take(terms.Fibres, shape, time);
+            }
+        }
+
+        private void Take(FibreBending fibres, RodShape shape, double time)
+        {
+            MaterialLoss = fibres.Loss;
+            CoreShare = Larger(CoreShare, 0.0);
+            fibres.Visit(shape, (instrument, node, strain, share, section) =>
+            {
+                if (!(CoreStrain >= strain))
+                {
+                    (CoreStrain, CoreInstrument, CoreTime) = (strain, instrument, time);
+                    CorePlace = fibres.Memory[instrument]!.Stations[node];
+                }
+                CoreShare = Math.Max(CoreShare, share);
+                LawShare = Math.Max(LawShare, strain / section.Law.LargestStrain);
+            });
+            (KeptCurvature, KeptPlace) = fibres.LargestKept();
+        }
 
         /// <summary>Takes a strain of an instrument; what is not a number is more than any.</summary>
         /// <param name="time">s.</param>
@@ -201,6 +263,16 @@ namespace Guidewire.Core
             WallPressure = snapshot.Serialize(WallPressure);
             FrictionPower = snapshot.Serialize(FrictionPower);
             FrictionWork = snapshot.Serialize(FrictionWork);
+            MetalStrain = snapshot.Serialize(MetalStrain);
+            CoreStrain = snapshot.Serialize(CoreStrain);
+            CoreInstrument = snapshot.Serialize(CoreInstrument);
+            CorePlace = snapshot.Serialize(CorePlace);
+            CoreTime = snapshot.Serialize(CoreTime);
+            CoreShare = snapshot.Serialize(CoreShare);
+            KeptCurvature = snapshot.Serialize(KeptCurvature);
+            KeptPlace = snapshot.Serialize(KeptPlace);
+            MaterialLoss = snapshot.Serialize(MaterialLoss);
+            LawShare = snapshot.Serialize(LawShare);
         }
 
         // Any number replaces NaN.

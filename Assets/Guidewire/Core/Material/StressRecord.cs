@@ -32,6 +32,17 @@ namespace Guidewire.Core
         /// <summary>Couple at each of the n+1 joints, N m: 0 at an end without a clamp.</summary>
         public Vector3d[] Couple { get; }
 
+        /// <summary>Largest strain by bending of the core's fibres at each of the n+1 joints; empty of a linear
+        /// wire.</summary>
+        public double[] CoreStrain { get; private set; } = Array.Empty<double>();
+
+        /// <summary>Share of the core's section there whose fibres have left their line, from 0 to 1; empty of a linear
+        /// wire.</summary>
+        public double[] CoreShare { get; private set; } = Array.Empty<double>();
+
+        /// <summary>Energy that the material of all instruments has turned into heat, J.</summary>
+        public double MaterialLoss { get; private set; }
+
         /// <summary>Energy of motion, J.</summary>
         public double KineticEnergy { get; private set; }
 
@@ -71,6 +82,31 @@ namespace Guidewire.Core
             TakeEnergies(outside.KineticEnergy, outside.ElasticEnergy, outside.PotentialEnergy);
         }
 
+        /// <summary>Takes what the fibres of an instrument are at its nodes; nothing of a linear one.</summary>
+        internal void TakeFibres(RodTerms terms, RodShape shape, int instrument)
+        {
+            if (terms.Fibres?.Memory[instrument] == null)
+            {
+                return;
+            }
+            if (CoreStrain.Length == 0)
+            {
+                CoreStrain = new double[Curvature.Length];
+                CoreShare = new double[Curvature.Length];
+            }
+            Array.Clear(CoreStrain, 0, CoreStrain.Length);
+            Array.Clear(CoreShare, 0, CoreShare.Length);
+            MaterialLoss = terms.Fibres.Loss;
+            terms.Fibres.Visit(shape, (of, node, strain, share, _) =>
+            {
+                if (of == instrument)
+                {
+                    CoreStrain[node] = Math.Max(CoreStrain[node], strain);
+                    CoreShare[node] = Math.Max(CoreShare[node], share);
+                }
+            });
+        }
+
         /// <summary>Takes kinetic, elastic and potential energy, J.</summary>
         internal void TakeEnergies(double kinetic, double elastic, double potential)
         {
@@ -95,6 +131,10 @@ namespace Guidewire.Core
                 Strain[j] = p - Vector3d.UnitZ;
             }
             TakeEnergies(kineticEnergy, terms.ElasticEnergy(shape), terms.LoadPotential(shape));
+            if (terms.Supports.Coaxial == null)
+            {
+                TakeFibres(terms, shape, 0);
+            }
         }
     }
 }

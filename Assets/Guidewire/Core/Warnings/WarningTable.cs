@@ -196,6 +196,17 @@ namespace Guidewire.Core
             "the nearest of all steps, beyond what bending brings together. Without self-contact an instrument does "
             + "not meet itself");
 
+        /// <summary>A core strained beyond its law.</summary>
+        public static readonly WarningKind BeyondLaw = AtEnd("beyondLaw",
+            "the core was strained by up to *p:0.0* %, *d:G4* mm from the hub: beyond the range of its material's law",
+            "`coreStrain` of `extremes`: nitinol beyond its plateau, steel near fracture ([materials.md](materials.md))");
+
+        /// <summary>A linear core strained beyond the elastic range of metals.</summary>
+        public static readonly WarningKind BeyondElastic = Add("beyondElastic", WarningPlace.End, true,
+            "the wire was strained by up to *p:0.0* %: nitinol and steel leave their elastic line at 0.8 %; key "
+            + "material takes that into account", "a linear wire as stiff as metal; forces of bends are too large "
+            + "([materials.md](materials.md))");
+
         /// <summary>A drive that the walls kept back.</summary>
         public static readonly WarningKind DriveShortfall = AtEnd("driveShortfall",
             "the drive fell short: of *a:G4* units that it asked of the first sphere *b:G3* are missing",

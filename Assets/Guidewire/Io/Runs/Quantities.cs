@@ -57,6 +57,12 @@ namespace Guidewire.Io
             Vectors("force", QuantityPlace.Element, "N", "force in each element along the world's axes",
                 QuantitySwitch.Strains, m => Moment.Of(m.Stress?.Force)).Json("stress.force")
                 .InAnswer(StatePart.Strains),
+            OfCore("coreStrain", "largest strain by bending of the core's fibres at each joint", s => s.CoreStrain),
+            OfCore("coreShare", "share of the core's section at each joint whose fibres have left their elastic line",
+                s => s.CoreShare),
+            Number("materialLoss", "J", "energy that the instruments' material has turned into heat",
+                QuantitySwitch.Strains, m => m.Stress?.CoreStrain.Length > 0 ? m.Of(m.Stress.MaterialLoss) : default)
+                .Json("stress.materialLoss"),
             Vectors("angularVelocities", QuantityPlace.Element, "rad/s",
                 "angular velocity of each element in its own frame", QuantitySwitch.Strains,
                 m => Moment.Of(m.State.AngularVelocities)).Json("stress.angularVelocities")
@@ -272,6 +278,13 @@ namespace Guidewire.Io
         {
             return Number(name, unit, help, QuantitySwitch.Hub, m => m.Of(m.Hub == null ? null : value(m.Hub)))
                 .Json("hub." + key).InAnswer(StatePart.Instruments, "hub").InSummary("hub", key);
+        }
+
+        private static Quantity OfCore(string name, string help, Func<StressRecord, double[]> value)
+        {
+            return new Quantity(name, QuantityPlace.Joint, "value", "1", help,
+                m => m.Stress is StressRecord stress ? value(stress) : default(ReadOnlySpan<double>))
+                { Switch = QuantitySwitch.Strains }.Json("stress." + name).InAnswer(StatePart.Strains);
         }
 
         private static Quantity OfContacts(string name, string unit, string help, Func<ContactRecord, Vector3d> value,

@@ -344,6 +344,27 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>The largest curvature that cores which yield keep without a couple, rad/m, and where, m from the
+        /// hub.</summary>
+        public (double Curvature, double Place) LargestKept()
+        {
+            (double Curvature, double Place) largest = (0.0, double.NaN);
+            foreach (FibreMemory? memory in Memory)
+            {
+                for (int slot = 0; memory != null && slot < memory.Remembers.Length; slot++)
+                {
+                    if (memory.Remembers[slot])
+                    {
+                        int node = memory.NodeOf(slot);
+                        double kept = memory.Sections[slot]!.Kept(memory.Bent, memory.StartOf(slot),
+                            memory.Profile.Pieces[memory.PieceOf(slot)].BendStiffness1);
+                        largest = kept > largest.Curvature ? (kept, memory.Stations[node]) : largest;
+                    }
+                }
+            }
+            return largest;
+        }
+
         private int LastJoint(RodShape shape) =>
             _joints == null && _supports.HasDistalJoint ? shape.ElementCount : shape.ElementCount - 1;
 

@@ -105,6 +105,9 @@ namespace Guidewire.Core
         /// <summary>Gives the node of a slot.</summary>
         public int NodeOf(int slot) => _nodeOf[slot];
 
+        /// <summary>Gives the piece of material of a slot.</summary>
+        public int PieceOf(int slot) => _firstPiece[_nodeOf[slot]] + slot - _firstSlot[_nodeOf[slot]];
+
         /// <summary>Gives the slot after the last one of a node.</summary>
         public int EndOf(int node) => node + 1 < _firstSlot.Length ? _firstSlot[node + 1] : Sections.Length;
 
@@ -151,6 +154,23 @@ namespace Guidewire.Core
             return isInside ? growth < 0.0 ? Math.Max(0.0, 1.0 + growth / Inside[slot]) : 1.0
                 : growth > 0.0 && _insideBefore[slot] > 0.0
                     ? Math.Max(0.0, 1.0 - Math.Min(growth, _insideBefore[slot]) / Outside[slot]) : 1.0;
+        }
+
+        /// <summary>Couple of the correction at a node, N m: the mean of the pieces there.</summary>
+        /// <param name="curvature">Along its own axes, rad/m.</param>
+        public Vector3d CoupleAt(int node, in Vector3d curvature, bool isInside)
+        {
+            double mean = 0.5 * (Stations[Math.Min(node + 1, Stations.Length - 1)] + Stations[node]);
+            int slot = SlotOf(node, Profile.PieceAt(mean));
+            if (!(Sections[slot] is FibreSection section))
+            {
+                return Vector3d.Zero;
+            }
+            Vector3d rest = Profile.Pieces[Profile.PieceAt(mean)].RestCurvature;
+            var curve = default(FibreCurve);
+            section.Add(curvature.X - rest.X, curvature.Y - rest.Y, isInside ? Straight : Bent, _start[slot], 1.0,
+                ref curve);
+            return new Vector3d(curve.Moment1, curve.Moment2, 0.0);
         }
 
         /// <summary>Writes or restores the states that are not 0.</summary>

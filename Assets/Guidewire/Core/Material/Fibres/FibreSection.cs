@@ -156,6 +156,17 @@ namespace Guidewire.Core
             return beyond / all;
         }
 
+        /// <summary>Curvature that is left where the couple is gone, in a section that yields, rad/m: as much as its
+        /// fibres would bend all of it.</summary>
+        /// <param name="stiffness">EI of all of the wire there, N m^2.</param>
+        public double Kept(double[] states, int from, double stiffness)
+        {
+            var curve = default(FibreCurve);
+            Add(0.0, 0.0, states, from, 1.0, ref curve);
+            return Law.IsSuperelastic ? 0.0
+                : Math.Sqrt(curve.Moment1 * curve.Moment1 + curve.Moment2 * curve.Moment2) / stiffness;
+        }
+
         // The minimiser e. The slope by e, (E + H) e - E eps + c sign(e) + d sign(e - e_n), grows and jumps at 0 and at
         // e_n.
         private double Own(double strain, double before)

@@ -85,6 +85,7 @@ namespace Guidewire.Core
             _jointLengths = scene.Rod.JointLengths(scene.Supports);
             _extremes.FirstStep = (1.0 + Rounding) * method.TimeStep;
             _extremes.TakeShape(dynamics.Terms, _joints, _jointLengths, dynamics.Shape, Time);
+            _extremes.TakeFibres(dynamics.Terms, dynamics.Shape, dynamics.Time);
             FollowEnds();
             _energy.Start();  // the hub's spring is in place only now
             if (scene.Supports.Proximal == ProximalEnd.Free && scene.Supports.Distal == DistalEnd.Free)
@@ -290,6 +291,7 @@ namespace Guidewire.Core
             _spinLoss?.Take(Terms.Rod, Shape, Spins, length,
                 Math.Max(1, _dynamics.Control.Steps - _innerSteps));
             _extremes.TakeShape(Terms, _joints, _jointLengths, Shape, Time);
+            _extremes.TakeFibres(Terms, Shape, Time);
             if (_elementForces == null)
             {
                 return;
@@ -493,8 +495,9 @@ namespace Guidewire.Core
         }
 
         // Between walls more is kept than without.
-        private string SectionKey => Terms.Walls() == null ? "direct"
-            : Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free";
+        private string SectionKey => (Terms.Walls() == null ? "direct"
+            : Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free")
+            + (Terms.Fibres == null ? "" : ", " + Terms.Fibres.StateCount + " fibres");
 
         private void SerializeOwn(Snapshot snapshot)
         {

@@ -86,6 +86,7 @@ namespace Guidewire.Core
             Wire.TakeForces(Dynamics.Terms, Dynamics.Shape);
             _stress ??= new StressRecord(Setup.Wire.Rod.JointLengths(Setup.Wire.Supports));
             _stress.Take(Rod.Stress(), Setup.Wire.Rod, Chain.Rod.Joints.First, Setup.Axis, Wire.Thrust, Wire.Torque);
+            _stress.TakeFibres(Dynamics.Terms, Dynamics.Shape, 0);
             return _stress;
         }
 

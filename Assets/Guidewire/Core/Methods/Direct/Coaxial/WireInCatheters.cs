@@ -43,6 +43,7 @@ namespace Guidewire.Core
             record.TakeEnergies(Dynamics.KineticEnergy,
                 terms.ElasticEnergy(Dynamics.Shape) - Chain.Rod.Axial.PreloadEnergy,
                 terms.LoadPotential(Dynamics.Shape));
+            record.TakeFibres(terms, Dynamics.Shape, Chain.Rod.Joints.InnerCount);
             return record;
         }
 

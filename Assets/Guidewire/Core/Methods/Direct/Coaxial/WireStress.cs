@@ -45,7 +45,8 @@ namespace Guidewire.Core
                 curvature = at < joints.Sheathed ? curvature.Z * Vector3d.UnitZ : curvature;
                 Joint joint = _joints[k];
                 Vector3d couple = _lengths[k] * curvature - joint.Rest;
-                couple = new Vector3d(joint.Bend1 * couple.X, joint.Bend2 * couple.Y, joint.Twist * couple.Z);
+                couple = new Vector3d(joint.Bend1 * couple.X, joint.Bend2 * couple.Y, joint.Twist * couple.Z)
+                    + (_own.Rod.Fibres?.CoupleAt(k, curvature, at < joints.Sheathed) ?? Vector3d.Zero);
                 _record.Curvature[k] = curvature;
                 _record.Couple[k] = k == n ? Vector3d.Zero : Quaterniond.Rotate(_wire.Shape.Q[k], couple);
                 if (k < n)
