@@ -47,6 +47,12 @@ def has_walls(scene: Values) -> bool:
     return bool(scene.get("vessel") or scene.get("obstacles"))
 
 
+def has_law(scene: Values) -> bool:
+    """Whether the wire's core gives way or yields."""
+    return scene.get("material", "none") not in ("none", "polymer") or any(
+        scene.get(key) is not None for key in ("plateau", "yieldStress"))
+
+
 def references(scene: Values) -> tuple[Trial, Trial, Trial]:
     """The reference of a scene of these effective values, and runs half and three quarters as fine that say what it is
     worth."""
@@ -59,6 +65,7 @@ def references(scene: Values) -> tuple[Trial, Trial, Trial]:
     for fraction, part in zip((1.0, 0.5, 0.75), parts):
         finer = _with_elements(scene, lambda n: int(fraction * 2 * max(16, n))) if _may_change_elements(scene) else {}
         changed = {**_direct(scheme), **finer, **_stepped(scene, 1.0 / part)}
+        changed |= {"fibres": min(16, int(8 * fraction) + 1)} if has_law(scene) else {}
         made.append(Trial("reference, " + _settings({**scene, **changed}), changed))
     return tuple(made)
 
@@ -88,7 +95,7 @@ _SOFTNESS = dict.fromkeys(("wallStiffness", "softLimit", "tipLength", _DELAY, "m
 _SHEAR = ("shearFactor", "shearStiffness")
 _TWIST = ("shearModulus", "shearStiffness", "torsionalStiffness")
 _VARIED = ("solver", "integrator", "numberRodElements", "catheters", "timeStep", "constraintSolverSteps", "substeps",
-           "elementContact", *_STIFFNESSES)
+           "elementContact", "fibres", *_STIFFNESSES)
 
 
 def parts(scene: Values) -> list[Trial]:
@@ -122,6 +129,9 @@ def parts(scene: Values) -> list[Trial]:
              {"shearFactor": 100.0 * scene["shearFactor"], **_in_sections(scene, _SHEAR, 100.0)}),
             ("drag, left out", _without(scene, "massDamping", 0.0)),
             ("material damping, left out", _without(scene, "materialDamping", 0.0)),
+            ("law of the core, left out", {"material": "none", "plateau": None, "yieldStress": None}
+             if has_law(scene) else None),
+            ("rings of fibres, doubled", {"fibres": min(16, 2 * (scene["fibres"] or 4))} if has_law(scene) else None),
             ("fourth-order clamp, left out", _without(scene, "clampRule", "halfElement")),
         ]
         if scene["solver"] == "direct":
@@ -170,6 +180,8 @@ def _of_material(scene: Values) -> Iterator[Trial]:
                 if fewer is not None and stepped is not None:
                     changed = {**_direct(scheme), **fewer, **stepped}
                     yield Trial(_settings({**scene, **changed}), changed)
+    for rings in (4, 5, 6, 8) if has_law(scene) else ():
+        yield Trial(_settings({**scene, "fibres": rings}), {"fibres": rings})
     for factor in (0.5, 0.25):
         changed = _over(scene, "substeps", factor)
         if scene["solver"] in ("xpbd", "explicit") and changed:
@@ -183,6 +195,7 @@ def _settings(effective: Values) -> str:
         words.append(effective["integrator"])
     words.append(f"n = {effective['numberRodElements']}")
     words += [f"of the catheter {one['elements']}" for one in effective.get("catheters") or ()]
+    words += [f"{effective['fibres']} rings of fibres"] * (has_law(effective) and effective["fibres"] > 0)
     words += [f"dt = {number(1e3 * effective['timeStep'], 3)} ms"]
     if effective["solver"] in ("pbd", "xpbd"):
         words.append(f"m = {effective['constraintSolverSteps']}")

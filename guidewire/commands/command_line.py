@@ -18,7 +18,7 @@ from guidewire.prepare import ANATOMY, DICOM, DRAWING, INSTALLED, PACKAGING, SWE
 GROUPS = {
     "start": ("demo", "scenes", "keys", "run", "view"),
     "study": ("sweep", "figures", "advise", "compare", "identify"),
-    "look": ("render", "export", "site", "plot", "hub", "stress", "modes"),
+    "look": ("render", "export", "site", "plot", "hub", "stress", "modes", "mandrel"),
     "vessel": ("anatomy", "steer"),
     "instruments": ("instrument",),
     "train": ("tasks",),
@@ -238,6 +238,13 @@ def parse(argv: list[str]) -> argparse.Namespace:
     identify.add_argument("--jobs", type=positive, metavar="N", help="runs at once (one a processor)")
     _add_overrides(identify)
     identify.set_defaults(packages=DRAWING)
+
+    mandrel = commands.add_parser("mandrel", help="the mandrel over which a wire's core keeps a bend of an angle")
+    mandrel.add_argument("file", type=Path, metavar="FILE", help="parameter file of a wire whose core yields")
+    mandrel.add_argument("--angle", type=above_zero, default=45.0, metavar="A", help="that remains, degrees (45)")
+    mandrel.add_argument("--from", dest="start", type=float, metavar="X", help="where the bend begins, units from the "
+                         "hub, with --to (the last 7 to 2 units)")
+    mandrel.add_argument("--to", dest="end", type=float, metavar="X", help="where it ends")
 
     modes = commands.add_parser("modes", help="lowest natural frequencies and mode shapes of a wire with a material")
     modes.add_argument("file", type=Path, metavar="FILE",

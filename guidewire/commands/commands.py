@@ -5,6 +5,7 @@ from __future__ import annotations
 import argparse
 import importlib
 import json
+import math
 import os
 import subprocess
 import sys
@@ -316,6 +317,21 @@ def _modes(arguments: argparse.Namespace) -> int:
     return _save(figure, arguments.out / f"{arguments.file.stem}-modes.png")
 
 
+def _mandrel(arguments: argparse.Namespace) -> int:
+    checking.check_file(arguments.file)
+    places = [repr(place) for place in (arguments.start, arguments.end) if place is not None]
+    command = [*build_runner(), "--mandrel", str(arguments.file), repr(math.radians(arguments.angle)), *places]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True)
+    if done.returncode != 0:
+        return done.returncode
+    found = json.loads(done.stdout)
+    print(f"mandrel of radius {found['radius']:.4g} units, bent by {math.degrees(found['bent']):.4g} degrees from "
+          f"{found['from']:g} to {found['to']:g}: {arguments.angle:g} degrees remain; the core is strained by "
+          f"{100.0 * found['strain']:.3g} %")
+    print(f'key: "shaped": {{"from": {found["from"]:g}, "to": {found["to"]:g}, "radius": {found["radius"]:.6g}}}')
+    return 0
+
+
 def _instrument(arguments: argparse.Namespace) -> int:
     from guidewire.commands import instruments
 
@@ -360,7 +376,7 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 _ACTIONS = {
     "run": _run, "sweep": _sweep, "advise": _advise, "plot": _plot, "anatomy": _anatomy, "steer": _steer,
     "keys": _keys, "render": _render, "export": _export, "view": _view, "site": _site, "stress": _stress, "hub": _hub,
-    "compare": _compare, "identify": _identify, "modes": _modes, "instrument": _instrument, "tasks": _tasks,
+    "compare": _compare, "identify": _identify, "modes": _modes, "mandrel": _mandrel, "instrument": _instrument, "tasks": _tasks,
     "python": _python, "native": _native,
     "scenes": _scenes, "unity-check": _unity_check,
 }

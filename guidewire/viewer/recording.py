@@ -28,6 +28,7 @@ _ALIGNED = 8
 _ROWS = {row.name: row for row in WIRE}
 ENERGIES = {"kineticEnergy": "energy of motion", "elasticEnergy": "elastic energy",
              "potentialEnergy": "potential energy"}
+CORE = {"coreStrain": "strain of the core", "coreShare": "share of the core beyond its elastic line"}
 _HUB = {"hubForce": ("force at the hub", True), "hubTorque": ("torque at the hub", True),
         "hubInsertion": ("insertion", True), "hubTurn": ("rotation of the hub", True),
         "twist": ("twist from hub to tip", True), "largestCurvature": ("largest curvature", False),
@@ -196,7 +197,7 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         x, y, z, w; "positions1" (k, m+1, 3) of the first catheter, and so on, and what was read off at its hub with
         "hub1." before its key; "curvature" (k, n+1, 3), rad/m; "force" (k, n, 3), N; "contact_forces" (k, n+1, 3), and
         of the first catheter "contact_forces1"; "wall_displacements" (k, n, 3), m, the same; "reaction" (k, 3);
-        "couple" (k, n+1, 3), N m; "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the
+        "couple" (k, n+1, 3), N m; "coreStrain" and "coreShare" (k, n+1); "kineticEnergy", "elasticEnergy" and "potentialEnergy" (k,), J; what a log has of the
         hub, (k,), with "hub." before its key; "lumen" (k, 3), as of `lumen_of`; "inBody" (k,), spheres out of a sheath;
         "step_time" (k,), ms; "real_time" (k,), times faster.
     """
@@ -221,6 +222,9 @@ def make_channels(units: Units, numbers: Mapping[str, np.ndarray | None]) -> lis
         twist = (known["curvature"][..., 2] if "curvature" in known
                  else per_unit * _twist(known["orientations"], lengths))
         channels.append(Channel("twist", "twist", f"rad{units.bend}", "sphere", twist, True))
+    for name, label in CORE.items():
+        if name in known:
+            channels.append(Channel(name, label, "1", "sphere", known[name].reshape(len(positions), -1)))
     if "force" in known:
         axial = np.einsum("kij,kij->ki", known["force"], along)
         channels.append(Channel("axialForce", "axial force", "N", "element", axial, True))
@@ -426,7 +430,7 @@ def _read_more(run: Run, steps: np.ndarray, catheters: int) -> dict[str, np.ndar
     """Return what entries of a log hold beside positions, for the steps that are shown."""
     shown = {"contactForces": "contact_forces", "wallDisplacements": "wall_displacements"}    # also of catheters
     names = {name: shown.get(name, name) for name in (
-        "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *shown)}
+        "orientations", "reaction", "curvature", "force", "couple", "inBody", *ENERGIES, *CORE, *shown)}
     names |= {name: f"hub.{_ROWS[name].key}" for name in _HUB}
     for number in range(catheters):
         names |= {catheter_name(name, number): f"{to}{number + 1}" for name, to in shown.items()}

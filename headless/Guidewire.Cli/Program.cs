@@ -23,6 +23,7 @@ namespace Guidewire.Cli
             + " \"log\": true, \"check\": false}\n"
             + "           -attached: where the input ends, the run under way ends too, as by Ctrl-C\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
+            + "       Guidewire.Cli --mandrel FILE ANGLE [FROM TO]   the mandrel that leaves a bend (rad, units), as JSON\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --warnings  the warnings as a Markdown table\n"
             + "       Guidewire.Cli --quantities  what logs, answers and summaries have, as JSON\n"
@@ -67,6 +68,8 @@ namespace Guidewire.Cli
                         return 0;
                     case "--modes":
                         return PrintModes(arguments);
+                    case "--mandrel":
+                        return PrintMandrel(arguments);
                     case "--lines":
                     case "-lines":
                         return Serve(arguments);
@@ -110,6 +113,40 @@ namespace Guidewire.Cli
             }
             using var requests = new LinesAhead(Console.In, () => Volatile.Write(ref _stopRequested, 1));
             return RequestLoop.Serve(requests, Console.Out, Simulate, () => StopRequested);
+        }
+
+        private static int PrintMandrel(string[] arguments)
+        {
+            double[] numbers = Array.ConvertAll(arguments[Math.Min(2, arguments.Length)..],
+                text => NumberText.TryRead(text, out double number) ? number : double.NaN);
+            if ((numbers.Length != 1 && numbers.Length != 3) || !(Math.Abs(numbers[0]) > 0.0))
+            {
+                throw new ParameterException((arguments.Length > 1 ? arguments[1] : "--mandrel")
+                    + ": --mandrel needs a parameter file, an angle (rad), and perhaps where the bend begins and ends");
+            }
+            SimulationParameters parameters = ParameterHandler.Load(arguments[1], Array.Empty<string>())
+                .Values.Simulation;
+            double end = numbers.Length == 3 ? numbers[2] : parameters.Scene.GuidewireLength - 2.0;
+            var shaped = new Shaping
+            {
+                From = numbers.Length == 3 ? numbers[1] : end - 5.0, To = end, Angle = numbers[0],
+            };
+            double metres = parameters.Scene.MetresPerUnit;
+            if (!(shaped.From >= 0.0) || !(shaped.To > shaped.From) || shaped.To > parameters.Scene.GuidewireLength
+                || !(shaped.Find(parameters.Material, metres) is (double bent, double kept)))
+            {
+                throw new ParameterException(arguments[1] + ": no mandrel leaves that bend there: the core does not"
+                    + " yield (material steel, annealedSteel or platinum, or a yieldStress), or not by so much");
+            }
+            Console.Out.WriteLine(new JObject
+            {
+                ["from"] = shaped.From,
+                ["to"] = shaped.To,
+                ["radius"] = shaped.RadiusOf(bent, parameters.Material, metres),
+                ["bent"] = Math.Abs(numbers[0]) * bent / kept,
+                ["strain"] = shaped.StrainOf(bent, parameters.Material),
+            }.ToString(Formatting.None));
+            return 0;
         }
 
         private static int PrintModes(string[] arguments)

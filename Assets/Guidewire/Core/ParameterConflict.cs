@@ -99,6 +99,11 @@ namespace Guidewire.Core
                 + (section.Material > CoreMaterial.None ? 1 : 0) > 1),
                 "one of material, plateau and yieldStress in a section"),
             new Rule("plateau", p => LawProblem(p) != null, p => LawProblem(p)!),
+            new Rule("shaped", p => p.IsMaterial && p.Material.Shaped is Shaping shaped && HasStiffness(p)
+                && !HasHollowTooWide(p.Material)
+                && (shaped.To > p.Scene.GuidewireLength || shaped.Find(p.Material, p.Scene.MetresPerUnit) == null),
+                "a part of the wire whose core yields (material steel, annealedSteel or platinum, or a yieldStress), and "
+                + "an angle that a mandrel can leave there"),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),
             new Rule("wireSections", p => p.IsMaterial && HasHollowTooWide(p.Material),

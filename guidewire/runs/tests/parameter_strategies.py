@@ -100,6 +100,13 @@ def core_diameters(scene: Mapping[str, Any]) -> st.SearchStrategy:
     return st.one_of(st.none(), st.floats(0.01, 1.0).map(lambda part: part * 2.0 * min(radii)))
 
 
+def materials(scene: Mapping[str, Any]) -> st.SearchStrategy:
+    """Laws of a core, where the rest of the scene allows one."""
+    is_free = scene.get("bendLaw", "rotationVector") != "darboux" and not any(
+        key.startswith("bendingStiffness") for section in scene.get("wireSections") or [] for key in section)
+    return st.sampled_from(["none", "nitinol", "steel", "platinum"] if is_free else ["none"])
+
+
 def stiffness_of(key: str) -> Callable[[Mapping[str, Any]], st.SearchStrategy]:
     """Stiffness or mass of the whole wire, as moduli and densities make them, or none."""
     def fitted(scene: Mapping[str, Any]) -> st.SearchStrategy:
@@ -219,6 +226,9 @@ VALUES: dict[str, st.SearchStrategy] = {
 FITTED: dict[str, Callable[[Mapping[str, Any]], st.SearchStrategy]] = {
     "wireSections": wire_sections, "innerRadius": inner_radii, "coreDiameter": core_diameters,
     **{key: stiffness_of(key) for key in ("bendingStiffness", "torsionalStiffness", "axialStiffness", "massPerLength")},
+    "material": materials, "plateau": lambda scene: st.none(), "yieldStress": lambda scene: st.none(),
+    "hardening": lambda scene: st.one_of(st.none(), log_uniform(1e6, 1e10)),
+    "fibres": lambda scene: st.sampled_from([0, 3, 4, 6]), "shaped": lambda scene: st.none(),
     "loadTables": load_tables, "startFile": start_files, "start": lambda scene: st.just(None),
     "duration": lambda scene: st.just(None),  # takes the place of maxSimulationSteps
     "pointLoads": point_loads, "catheters": lambda scene: st.just(None),  # go with few other keys

@@ -13,6 +13,7 @@
 /** Where the numbers read off at the hub of the wire stand, the first four also of a catheter. */
 const HUB = /** @type {Record<string, number>} */ ({ insertion: 0, turn: 1, force: 2, torque: 3, twist: 10,
   largestCurvature: 11, lengthInBody: 12, inBody: 13 });
+const CORE = [["coreStrain", "strain of the core"], ["coreShare", "share of the core beyond its elastic line"]];
 const ENERGIES = ["kineticEnergy", "elasticEnergy", "potentialEnergy"];
 
 /** Metres of a unit; null with gains, whose forces have no unit. @param {Record<string, any>} parameters */
@@ -72,6 +73,9 @@ export function makeChannels(rules, parameters, state, hasWalls, measured) {
     : atJoints(lengths, (k) => Math.acos(Math.min(1, Math.max(-1, dot(along, 3 * k, 3 * k + 3)))), perUnit));
   add("twist", "twist", bend, "sphere", joints ? rows(joints).map((i) => joints[i + 2])
     : atJoints(lengths, (k) => turnBetween(state.orientations, 4 * k, 4 * k + 4), perUnit), true);
+  for (const [name, label] of CORE) {
+    if (state[name]) add(name, label, "1", "sphere", state[name]);
+  }
   if (state.force) {
     add("axialForce", "axial force", "N", "element", rows(along).map((i) => dot(state.force, i, i, along)), true);
   }

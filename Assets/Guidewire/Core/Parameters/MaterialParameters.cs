@@ -44,6 +44,9 @@ namespace Guidewire.Core
         /// <summary>Rings of fibres in a section that is not linear; 0: as the material needs.</summary>
         public int Fibres { get; set; }
 
+        /// <summary>A bend put into the wire before the run; null: none.</summary>
+        public Shaping? Shaped { get; set; }
+
         /// <summary>A = pi (r^2 - a^2), m^2.</summary>
         public double Area => Math.PI * (WireRadius * WireRadius - InnerRadius * InnerRadius);
 

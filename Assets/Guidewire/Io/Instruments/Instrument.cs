@@ -20,6 +20,9 @@ namespace Guidewire.Io
         /// catheter.</summary>
         public double? CoreDiameter { get; set; }
 
+        /// <summary>What the core is made of, as key material has it; "none": not known, or linear.</summary>
+        public string Material { get; set; } = "none";
+
         /// <summary>The length, m.</summary>
         public double Length { get; set; }
 

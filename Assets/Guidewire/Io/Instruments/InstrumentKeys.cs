@@ -37,6 +37,7 @@ namespace Guidewire.Io
                 ["wireRadius"] = instrument.Radius,
                 ["innerRadius"] = instrument.InnerRadius,
                 ["coreDiameter"] = Core(instrument.CoreDiameter, thickest),
+                ["material"] = instrument.Material,
                 ["shearFactor"] = instrument.InnerRadius > 0.0 ? 0.5 : 0.9,
                 ["bendingStiffness"] = instrument.BendingStiffness,
                 ["torsionalStiffness"] = instrument.TorsionalRatio * instrument.BendingStiffness,
@@ -55,6 +56,10 @@ namespace Guidewire.Io
                 if (CoreOf(instrument, piece, whole) is double core)
                 {
                     section["coreDiameter"] = Core(core, thickest);
+                }
+                if (instrument.Material != "none" && (piece.IsUniform || piece.Curvature != 0.0))
+                {
+                    section["material"] = "none";    // of coils and bent tips nobody knows what core they have
                 }
                 sections.Add(section);
             }
@@ -184,7 +189,9 @@ namespace Guidewire.Io
             if (isUniform)
             {
                 pieces.Add(new Piece
-                    { From = from, To = to, BendingStiffness = a, Curvature = curvature, Elements = count });
+                {
+                    From = from, To = to, BendingStiffness = a, Curvature = curvature, Elements = count, IsUniform = true,
+                });
                 return;
             }
             for (int i = 0; i < count; i++)
@@ -230,6 +237,7 @@ namespace Guidewire.Io
             public double BendingStiffness;
             public double Curvature;
             public int Elements;
+            public bool IsUniform;
         }
     }
 }

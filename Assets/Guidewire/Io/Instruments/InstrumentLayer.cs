@@ -20,8 +20,8 @@ namespace Guidewire.Io
 
         private static readonly string[] WireKeys =
         {
-            "wireRadius", "innerRadius", "coreDiameter", "shearFactor", "bendingStiffness", "torsionalStiffness",
-            "axialStiffness", "density", "restCurvature", "wireSections",
+            "wireRadius", "innerRadius", "coreDiameter", "material", "shearFactor", "bendingStiffness",
+            "torsionalStiffness", "axialStiffness", "density", "restCurvature", "wireSections",
         };
 
         // Keys that state the same property in another form.
@@ -61,7 +61,7 @@ namespace Guidewire.Io
                     given.Take(key, keys[key]!, path);
                 }
             }
-            foreach (string key in WireKeys)
+            foreach (string key in Array.FindAll(WireKeys, key => TakesKey(given, key)))
             {
                 string? other = Array.Find(Alternatives, pair => pair.Own == key).Other;
                 if (!Stands(given, key, replacesFile) && (other == null || !Stands(given, other, replacesFile)))
@@ -73,11 +73,18 @@ namespace Guidewire.Io
             TakeFriction(given, instrument.Friction);
         }
 
-        private static bool IsTaken(GivenParameters given)
+        private static bool IsTaken(GivenParameters given) => TakesKey(given, Key);
+
+        // A plateau or a yield stress that is given takes the place of the instrument's material.
+        private static bool TakesKey(GivenParameters given, string key)
         {
+            if (key == "material" && (given.Has("plateau") || given.Has("yieldStress")))
+            {
+                return false;
+            }
             bool isNamed = given.TryGet(ParameterTable.SolverKey, out (JToken Value, string Source) word);
             return ParameterHandler.TrySolver(isNamed ? word.Value : null, out Solver solver)
-                && ParameterTable.Find(Key)!.IsTakenBy(solver);
+                && ParameterTable.Find(key)!.IsTakenBy(solver);
         }
 
         // Whether what is given of a key counts more than the instrument.
@@ -96,7 +103,7 @@ namespace Guidewire.Io
                     return false;
                 }
             }
-            foreach (string key in WireKeys)
+            foreach (string key in Array.FindAll(WireKeys, key => TakesKey(given, key)))
             {
                 string? other = Array.Find(Alternatives, pair => pair.Own == key).Other;
                 if (!given.Has(key) && (other == null || !given.Has(other)))

@@ -22,7 +22,7 @@ namespace Guidewire.Io
             JObject read = content == null ? JsonText.ReadObject(file)
                 : JsonText.ParseObject(PlainFile.Decode(content), file);
             var fields = new InstrumentFields(file, "", read, "title", "kind", "diameter", "innerDiameter", "length",
-                "coreDiameter", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density", "friction",
+                "coreDiameter", "material", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density", "friction",
                 "distalSections", "tip", "radiopaque");
             fields.Text("title");
             bool isHollow = fields.Word("kind", Kinds) == "catheter";
@@ -49,6 +49,12 @@ namespace Guidewire.Io
                 throw fields.Wrong("length", "100 m at most");
             }
             instrument.CoreDiameter = ReadCore(fields, instrument);
+            if (fields.Has("material"))
+            {
+                InstrumentFields material = fields.Object("material", "value", "basis", "source");
+                material.CheckOrigin();
+                instrument.Material = material.Word("value", ParameterTable.Find("material")!.Choices!);
+            }
             instrument.BendingStiffness = ReadStiffness(fields, instrument);
             ReadSections(fields, instrument);
             ReadTip(fields, instrument);

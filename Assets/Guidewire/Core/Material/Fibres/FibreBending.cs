@@ -356,8 +356,10 @@ namespace Guidewire.Core
                     if (memory.Remembers[slot])
                     {
                         int node = memory.NodeOf(slot);
-                        double kept = memory.Sections[slot]!.Kept(memory.Bent, memory.StartOf(slot),
-                            memory.Profile.Pieces[memory.PieceOf(slot)].BendStiffness1);
+                        FibreSection section = memory.Sections[slot]!;
+                        double stiffness = memory.Profile.Pieces[memory.PieceOf(slot)].BendStiffness1;
+                        double kept = Math.Max(section.Kept(memory.Bent, memory.StartOf(slot), stiffness),
+                            section.Kept(memory.Straight, memory.StartOf(slot), stiffness));
                         largest = kept > largest.Curvature ? (kept, memory.Stations[node]) : largest;
                     }
                 }

@@ -156,6 +156,53 @@ namespace Guidewire.Core
                     ? Math.Max(0.0, 1.0 - Math.Min(growth, _insideBefore[slot]) / Outside[slot]) : 1.0;
         }
 
+        /// <summary>Remembers that the wire was bent over a mandrel, and let go, before the run.</summary>
+        /// <param name="from">m from the hub, as is the other end.</param>
+        /// <param name="curvature">About d1, on the mandrel, rad/m.</param>
+        public void Shape(double from, double to, double curvature)
+        {
+            for (int slot = 0; slot < Sections.Length; slot++)
+            {
+                if (!(Sections[slot] is FibreSection section))
+                {
+                    continue;
+                }
+                int node = _nodeOf[slot];
+                double share = ShareBetween(node, from, to);
+                if (share > 0.0)
+                {
+                    var states = new double[section.StateCount];
+                    section.Shape(curvature, Profile.Pieces[PieceOf(slot)].BendStiffness1, states);
+                    for (int i = 0; i < states.Length; i++)
+                    {
+                        Bent[_start[slot] + i] = Straight[_start[slot] + i] = share * states[i];
+                        Remembers[slot] |= states[i] != 0.0;
+                    }
+                }
+            }
+        }
+
+        // What of a node's length, weighted by its hat function, is between two places.
+        private double ShareBetween(int node, double from, double to)
+        {
+            double whole = 0.0;
+            double part = 0.0;
+            for (int side = -1; side <= 1; side += 2)
+            {
+                int other = node + side;
+                if (other >= 0 && other < Stations.Length)
+                {
+                    double length = Math.Abs(Stations[other] - Stations[node]);
+                    // Distances from the node at which the part begins and ends.
+                    double a = Math.Max(0.0, Math.Min(length, side * ((side > 0 ? from : to) - Stations[node])));
+                    double b = Math.Max(0.0, Math.Min(length, side * ((side > 0 ? to : from) - Stations[node])));
+                    whole += 0.5 * length;
+                    part += (b - a) * (1.0 - 0.5 * (a + b) / length);
+                }
+            }
+            return part / whole;
+        }
+
         /// <summary>Couple of the correction at a node, N m: the mean of the pieces there.</summary>
         /// <param name="curvature">Along its own axes, rad/m.</param>
         public Vector3d CoupleAt(int node, in Vector3d curvature, bool isInside)

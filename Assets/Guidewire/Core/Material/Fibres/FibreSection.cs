@@ -156,6 +156,30 @@ namespace Guidewire.Core
             return beyond / all;
         }
 
+        /// <summary>Bends a section without memory about d1 and lets it go.</summary>
+        /// <param name="curvature">That it is bent to, rad/m.</param>
+        /// <param name="stiffness">EI of all of the wire there, N m^2.</param>
+        /// <param name="states">0; receives e of its fibres.</param>
+        /// <returns>The curvature that is left, rad/m.</returns>
+        public double Shape(double curvature, double stiffness, double[] states)
+        {
+            // Along a path on which no strain turns back one step is exact.
+            var bent = new double[states.Length];
+            AddOwn(curvature, 0.0, states, 0, 1.0, bent, 0);
+            double low = Math.Min(0.0, curvature);
+            double high = Math.Max(0.0, curvature);
+            for (int k = 0; k < 100; k++)
+            {
+                double middle = 0.5 * (low + high);
+                var curve = default(FibreCurve);
+                Add(middle, 0.0, bent, 0, 1.0, ref curve);
+                (low, high) = stiffness * middle + curve.Moment1 > 0.0 ? (low, middle) : (middle, high);
+            }
+            Array.Clear(states, 0, states.Length);
+            AddOwn(0.5 * (low + high), 0.0, bent, 0, 1.0, states, 0);
+            return 0.5 * (low + high);
+        }
+
         /// <summary>Curvature that is left where the couple is gone, in a section that yields, rad/m: as much as its
         /// fibres would bend all of it.</summary>
         /// <param name="stiffness">EI of all of the wire there, N m^2.</param>

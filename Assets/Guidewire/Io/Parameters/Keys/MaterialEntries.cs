@@ -39,6 +39,9 @@ namespace Guidewire.Io
             new IntegerEntry("fibres", "", 0, 16,
                 "rings of fibres in a section with such a law, with 4 (rings - 1) fibres on each; 0: 4 to 7 by material")
                 .OnlyWith(Takers.Only(Solver.Direct)),
+            new ShapedEntry("shaped",
+                "bend put into the wire over a mandrel before the run, towards -d2; spring-back is the core's law")
+                .OnlyWith(Takers.Only(Solver.Direct)),
             new NumberEntry("shearFactor", "", NumberRange.Positive,
                 "shear correction factor of GA: 0.9 for a round wire, about 0.5 for a thin-walled tube"),
             new OptionalNumberEntry("bendingStiffness", "N m^2", NumberRange.Positive,

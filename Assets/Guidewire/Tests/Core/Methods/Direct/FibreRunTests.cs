@@ -97,6 +97,52 @@ namespace Guidewire.Core.Tests
             Row.Holds("angle that a steel wire keeps of 90° over a mandrel, degrees", kept, degrees, 0.1);
         }
 
+        /// <summary>Hubs that go forth and back: their work is the heat of the material and what it stores, but for
+        /// what trapezoids leave, which falls with the step: the memory moves at a step's end.</summary>
+        [TestCase(2, false)]
+        [TestCase(2, true)]
+        [TestCase(3, false)]
+        public void WorkOfHubs_IsHeatAndWhatIsStored(int instruments, bool isSteel)
+        {
+            double Off(double perStep)
+            {
+                SimulationParameters parameters = instruments == 2 ? CoaxialScenes.Pair(Integrator.ImplicitEuler)
+                    : CoaxialScenes.Three(Integrator.ImplicitEuler);
+                parameters.Material.Plateau = isSteel ? null
+                    : new Plateau { Upper = 60e6, Lower = 30e6, Strain = 0.02 };
+                parameters.Material.YieldStress = isSteel ? 60e6 : (double?)null;
+                double work = CoaxialScenes.CycleWork(parameters, perStep, out double peak, out double left);
+                Assert.That(left, Is.GreaterThan(0.1 * peak));
+                return Math.Abs(work - left) / peak;
+            }
+            double one = Off(0.025);
+            double two = Off(0.05);
+            TestContext.WriteLine("off by {0:G3} and {1:G3} of the peak", one, two);
+            Assert.That(one, Is.LessThan(0.05));
+            Assert.That(one, Is.LessThan(0.6 * two));
+        }
+
+        /// <summary>A tip shaped over a mandrel keeps the angle that was asked for.</summary>
+        [Category("Row")]
+        [TestCase(CoreMaterial.Steel, 0.7853981633974483)]
+        [TestCase(CoreMaterial.AnnealedSteel, -0.7853981633974483)]
+        [TestCase(CoreMaterial.Platinum, 1.5)]
+        public void ShapedTip_HasItsAngleAtRest(CoreMaterial material, double angle)
+        {
+            SimulationParameters parameters = Rods.Clamped(60, Solver.Direct, 1e-3, 1);
+            parameters.Scene.GuidewireLength = 30.0;
+            parameters.Material.WireRadius = Radius;
+            parameters.Material.Material = material;
+            parameters.Material.YoungsModulus = 170e9;
+            parameters.Material.Shaped = new Shaping { From = 15.2, To = 20.6, Angle = angle };
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            Simulation run = Simulation.Create(parameters);
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+            Vector3d tip = run.State.Orientations[59].Director3;
+            Row.Holds("angle of a shaped tip of " + material + ", rad", Math.Atan2(tip.Y, tip.Z), angle, 1e-3);
+            Assert.That(run.Report()!.Extremes!.KeptCurvature, Is.EqualTo(Math.Abs(angle) / 5.4e-3).Within(1).Percent);
+        }
+
         private static void Report(string what, RodShape shape, double x, double y)
         {
             Vector3d tip = 1e3 * shape.X[shape.ElementCount];

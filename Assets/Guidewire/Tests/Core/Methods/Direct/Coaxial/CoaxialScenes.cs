@@ -80,7 +80,12 @@ namespace Guidewire.Core.Tests
         /// torques.</summary>
         /// <param name="perStep">Of an element of 10 mm, by which they move in a step.</param>
         /// <param name="peak">The largest that it was, J.</param>
-        public static double CycleWork(SimulationParameters parameters, double perStep, out double peak)
+        public static double CycleWork(SimulationParameters parameters, double perStep, out double peak) =>
+            CycleWork(parameters, perStep, out peak, out _);
+
+        /// <summary>The same, and what of it the material has turned into heat and stores still, J.</summary>
+        public static double CycleWork(SimulationParameters parameters, double perStep, out double peak,
+            out double left)
         {
             double l = 0.01;
             int steps = (int)Math.Round(3.2 / perStep);
@@ -99,6 +104,8 @@ namespace Guidewire.Core.Tests
                 new TimeTable(times, new[] { 0.0, 0.0, 0.0, -0.4, -0.4, 0.0 }));
             Simulation run = Simulation.Create(parameters);
             double work = 0.0;
+            double before = 0.0;
+            double Kept() => run.Stress()!.ElasticEnergy + run.Report()!.Extremes!.MaterialLoss;
             peak = 0.0;
             double[] old = new double[8];
             while (run.Outcome == Outcome.Running)
@@ -108,6 +115,7 @@ namespace Guidewire.Core.Tests
                 HubRecord hub = run.Hub()!;
                 double[] now = { hub.Force, hub.Torque, record.Force, record.Torque, hub.Insertion, hub.Turn,
                     record.Insertion, record.Turn };
+                before = run.StepCount == 5 ? Kept() : before;
                 for (int k = 0; k < 4 && run.StepCount > 5; k++)
                 {
                     work += 0.5 * (now[k] + old[k]) * (now[k + 4] - old[k + 4]);
@@ -116,6 +124,7 @@ namespace Guidewire.Core.Tests
                 peak = Math.Max(peak, Math.Abs(work));
             }
             Assert.That(run.Outcome, Is.EqualTo(Outcome.Finished), run.Reason);
+            left = Kept() - before;
             return work;
         }
     }
