@@ -37,7 +37,8 @@ TOUCH = 1e-3  # N of a wall, from which on it is touched
 # What pbd and walls may do to a wire and its drive; whether they did is checked from the log.
 OF_ENDS = ("points of the wire passed a wall", " goes through itself", "the wire penetrated a wall", "the wire is ",
            material_claims.KINKED, "the drive fell short: ", "over which the wire spreads a load on the wall",
-           "of its softLimit: there it was almost rigid", "which is not simulated: at the tip their axes may differ")
+           "of its softLimit: there it was almost rigid", "leave their elastic line",
+           "which is not simulated: at the tip their axes may differ")
 # A wire that jams may be lost, or its step have no solution, for which it says so.
 CODES = {"finished": 0, "diverged": 4, "failed": 5}
 

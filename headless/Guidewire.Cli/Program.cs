@@ -133,7 +133,7 @@ namespace Guidewire.Cli
             };
             double metres = parameters.Scene.MetresPerUnit;
             if (!(shaped.From >= 0.0) || !(shaped.To > shaped.From) || shaped.To > parameters.Scene.GuidewireLength
-                || !(shaped.Find(parameters.Material, metres) is (double bent, double kept)))
+                || !(Mandrel.Find(shaped, parameters.Material, metres) is (double bent, double kept)))
             {
                 throw new ParameterException(arguments[1] + ": no mandrel leaves that bend there: the core does not"
                     + " yield (material steel, annealedSteel or platinum, or a yieldStress), or not by so much");
@@ -142,9 +142,9 @@ namespace Guidewire.Cli
             {
                 ["from"] = shaped.From,
                 ["to"] = shaped.To,
-                ["radius"] = shaped.RadiusOf(bent, parameters.Material, metres),
+                ["radius"] = Mandrel.RadiusOf(shaped, bent, parameters.Material, metres),
                 ["bent"] = Math.Abs(numbers[0]) * bent / kept,
-                ["strain"] = shaped.StrainOf(bent, parameters.Material),
+                ["strain"] = Mandrel.StrainOf(shaped, bent, parameters.Material),
             }.ToString(Formatting.None));
             return 0;
         }

@@ -101,7 +101,8 @@ namespace Guidewire.Core
             new Rule("plateau", p => LawProblem(p) != null, p => LawProblem(p)!),
             new Rule("shaped", p => p.IsMaterial && p.Material.Shaped is Shaping shaped && HasStiffness(p)
                 && !HasHollowTooWide(p.Material)
-                && (shaped.To > p.Scene.GuidewireLength || shaped.Find(p.Material, p.Scene.MetresPerUnit) == null),
+                && (shaped.To > p.Scene.GuidewireLength
+                    || Mandrel.Find(shaped, p.Material, p.Scene.MetresPerUnit) == null),
                 "a part of the wire whose core yields (material steel, annealedSteel or platinum, or a yieldStress), and "
                 + "an angle that a mandrel can leave there"),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,

@@ -179,7 +179,7 @@ namespace Guidewire.Core
             rod.Fibres = FibreMemory.Create(new InstrumentProfile(profile, metres),
                 System.Array.ConvertAll(positions, position => metres * position));
             if (parameters.Material.Shaped is Shaping shaped && rod.Fibres != null
-                && shaped.Find(parameters.Material, metres) is (double bent, _))
+                && Mandrel.Find(shaped, parameters.Material, metres) is (double bent, _))
             {
                 // As bends of the library's tips: towards -d2.
                 double sense = shaped.Angle < 0.0 ? 1.0 : -1.0;

@@ -237,8 +237,13 @@ namespace Guidewire.Core
         {
             foreach (EnergyTerm term in All)
             {
-                term.Serialize(snapshot);
+                if (term != Fibres)
+                {
+                    term.Serialize(snapshot);
+                }
             }
+            snapshot.OptionalSection(Fibres == null ? "fibres" : Fibres.StateCount + " fibres",
+                Fibres == null ? null : Fibres.Serialize);
             Contact?.SerializeFriction(snapshot);
         }
 

@@ -216,6 +216,19 @@ namespace Guidewire.Core
             Loss += before == 0.0 ? 0.0 : before - All(shape);
         }
 
+        /// <summary>Goes on where another chain of instruments was: those that are the same remember what they did.</summary>
+        public void TakeOver(FibreBending? former, bool[] isOther)
+        {
+            Loss = former?.Loss ?? 0.0;
+            for (int i = 0; i < Memory.Length && former != null; i++)
+            {
+                if (!isOther[i] && former.Memory[i] is FibreMemory was)
+                {
+                    Memory[i]?.CopyFrom(was);
+                }
+            }
+        }
+
         /// <inheritdoc/>
         public override void Serialize(Snapshot snapshot)
         {

@@ -156,6 +156,17 @@ namespace Guidewire.Core
                     ? Math.Max(0.0, 1.0 - Math.Min(growth, _insideBefore[slot]) / Outside[slot]) : 1.0;
         }
 
+        /// <summary>Remembers what another one of the same instrument did.</summary>
+        public void CopyFrom(FibreMemory other)
+        {
+            if (other.Bent.Length == Bent.Length)
+            {
+                Array.Copy(other.Bent, Bent, Bent.Length);
+                Array.Copy(other.Straight, Straight, Straight.Length);
+                Array.Copy(other.Remembers, Remembers, Remembers.Length);
+            }
+        }
+
         /// <summary>Remembers that the wire was bent over a mandrel, and let go, before the run.</summary>
         /// <param name="from">m from the hub, as is the other end.</param>
         /// <param name="curvature">About d1, on the mandrel, rad/m.</param>

@@ -495,9 +495,8 @@ namespace Guidewire.Core
         }
 
         // Between walls more is kept than without.
-        private string SectionKey => (Terms.Walls() == null ? "direct"
-            : Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free")
-            + (Terms.Fibres == null ? "" : ", " + Terms.Fibres.StateCount + " fibres");
+        private string SectionKey => Terms.Walls() == null ? "direct"
+            : Terms.Walls()!.HoldsStart ? "direct, walls" : "direct, walls, free";
 
         private void SerializeOwn(Snapshot snapshot)
         {

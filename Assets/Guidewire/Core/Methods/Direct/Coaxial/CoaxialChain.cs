@@ -190,6 +190,7 @@ namespace Guidewire.Core
                 _nodes.Beyond[i] = isOther[i] ? 0 : former._nodes.Beyond[i];
             }
             _nodes.Find(former.Dynamics.Time, 0.0);
+            Dynamics.Terms.Fibres?.TakeOver(former.Dynamics.Terms.Fibres, isOther);
             Remesh(former, 0, isOther, shift);
             var counts = new Snapshot();
             former.Whole.SerializeCounts(counts);
