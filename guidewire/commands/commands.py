@@ -376,7 +376,8 @@ def _unity_check(arguments: argparse.Namespace) -> int:
 _ACTIONS = {
     "run": _run, "sweep": _sweep, "advise": _advise, "plot": _plot, "anatomy": _anatomy, "steer": _steer,
     "keys": _keys, "render": _render, "export": _export, "view": _view, "site": _site, "stress": _stress, "hub": _hub,
-    "compare": _compare, "identify": _identify, "modes": _modes, "mandrel": _mandrel, "instrument": _instrument, "tasks": _tasks,
+    "compare": _compare, "identify": _identify, "modes": _modes, "mandrel": _mandrel,
+    "instrument": _instrument, "tasks": _tasks,
     "python": _python, "native": _native,
     "scenes": _scenes, "unity-check": _unity_check,
 }

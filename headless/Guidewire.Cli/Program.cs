@@ -23,7 +23,7 @@ namespace Guidewire.Cli
             + " \"log\": true, \"check\": false}\n"
             + "           -attached: where the input ends, the run under way ends too, as by Ctrl-C\n"
             + "       Guidewire.Cli --modes FILE K   the K lowest frequencies and shapes of a material, as JSON\n"
-            + "       Guidewire.Cli --mandrel FILE ANGLE [FROM TO]   the mandrel that leaves a bend (rad, units), as JSON\n"
+            + "       Guidewire.Cli --mandrel FILE ANGLE [FROM TO]   the mandrel that leaves a bend (rad, units)\n"
             + "       Guidewire.Cli --keys      the parameters as a Markdown table\n"
             + "       Guidewire.Cli --warnings  the warnings as a Markdown table\n"
             + "       Guidewire.Cli --quantities  what logs, answers and summaries have, as JSON\n"

@@ -1,7 +1,7 @@
 namespace Guidewire.Core
 {
-    /// <summary>A bend that is put into a wire before the run, over a mandrel: what remains of it is what the core's law
-    /// leaves after spring-back.</summary>
+    /// <summary>A bend that is put into a wire before the run, over a mandrel: what remains of it is what the core's
+    /// law leaves after spring-back.</summary>
     public sealed class Shaping
     {
         /// <summary>Where it begins, units from the hub.</summary>

@@ -82,7 +82,8 @@ namespace Guidewire.Core
         public bool IsMarker => Attenuation.HasValue && !NumberRodElements.HasValue && !RestCurvature.HasValue
             && !(YoungsModulus ?? ShearModulus ?? Density ?? WireRadius ?? InnerRadius ?? ShearFactor ?? AxialStiffness
                 ?? ShearStiffness ?? BendingStiffness1 ?? BendingStiffness2 ?? TorsionalStiffness ?? MassPerLength
-                ?? RotaryInertia ?? CoreDiameter ?? YieldStress ?? Hardening).HasValue && Plateau == null && !Material.HasValue;
+                ?? RotaryInertia ?? CoreDiameter ?? YieldStress ?? Hardening).HasValue && Plateau == null
+            && !Material.HasValue;
 
         /// <summary>The first key of which another section has another value than this one; null where there is
         /// none.</summary>

@@ -190,7 +190,8 @@ namespace Guidewire.Io
             {
                 pieces.Add(new Piece
                 {
-                    From = from, To = to, BendingStiffness = a, Curvature = curvature, Elements = count, IsUniform = true,
+                    From = from, To = to, BendingStiffness = a, Curvature = curvature, Elements = count,
+                    IsUniform = true,
                 });
                 return;
             }

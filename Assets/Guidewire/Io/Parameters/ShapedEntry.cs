@@ -4,8 +4,8 @@ using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
-    /// <summary>A bend over a mandrel {"from": 290, "to": 295, "radius": 2}, or with the angle that remains, or null for
-    /// none.</summary>
+    /// <summary>A bend over a mandrel {"from": 290, "to": 295, "radius": 2}, or with the angle that remains, or null
+    /// for none.</summary>
     internal sealed class ShapedEntry : ValueEntry<Shaping?>
     {
         public ShapedEntry(string key, string help)

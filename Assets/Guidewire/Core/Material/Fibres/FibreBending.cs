@@ -216,7 +216,7 @@ namespace Guidewire.Core
             Loss += before == 0.0 ? 0.0 : before - All(shape);
         }
 
-        /// <summary>Goes on where another chain of instruments was: those that are the same remember what they did.</summary>
+        /// <summary>Goes on where another chain of instruments was: the same ones remember what they did.</summary>
         public void TakeOver(FibreBending? former, bool[] isOther)
         {
             Loss = former?.Loss ?? 0.0;

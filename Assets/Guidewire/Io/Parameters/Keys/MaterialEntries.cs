@@ -37,7 +37,7 @@ namespace Guidewire.Io
                 "slope of the stress over the core's own strain beyond plateau or yield; null: E/1000")
                 .OnlyWith(Takers.Only(Solver.Direct)),
             new IntegerEntry("fibres", "", 0, 16,
-                "rings of fibres in a section with such a law, with 4 (rings - 1) fibres on each; 0: 4 to 7 by material")
+                "rings of fibres in a section with such a law, each of 4 (rings - 1) fibres; 0: 4 to 7 by material")
                 .OnlyWith(Takers.Only(Solver.Direct)),
             new ShapedEntry("shaped",
                 "bend put into the wire over a mandrel before the run, towards -d2; spring-back is the core's law")

@@ -57,8 +57,8 @@ namespace Guidewire.Core.Tests
             }
         }
 
-        /// <summary>Steel of 190 GPa and 1.5 GPa is bent by 90 degrees over a mandrel and let go: it keeps 90 (1 - 4 eta
-        /// g/pi) degrees, by its axis on the mandrel's radius and its own.</summary>
+        /// <summary>Steel of 190 GPa and 1.5 GPa is bent by 90 degrees over a mandrel and let go: it keeps 90 (1 - 4
+        /// eta g/pi) degrees, by its axis on the mandrel's radius and its own.</summary>
         [Category("Row")]
         [TestCase(1.5e-3, 78.660404)]
         [TestCase(3e-3, 68.677399)]

@@ -55,7 +55,8 @@ namespace Guidewire.Core.Tests
             Assert.That(all.Error, Is.LessThan(5e-6));
         }
 
-        // Of cores that give way: at first without memory, then with that of another shape, the exit beside where it was.
+        // Of cores that give way: at first without memory, then with that of another shape, the exit beside where it
+        // was.
         [Test]
         public void ForcesOfCoresThatGiveWay_AreTheSlopesOfTheEnergy([Values(2, 3)] int instruments,
             [Values] bool isSteel, [Values(0.0, 0.027, -0.027)] double moved)
@@ -79,7 +80,8 @@ namespace Guidewire.Core.Tests
                     {
                         // What is in the sheath is stiff.
                         bool isOut = tubes.Coaxial.Joints.Stations[j - 1] >= sheathed + Math.Abs(moved);
-                        tubes.Shape.Q[j] *= Quaterniond.FromAxisAngle(Vector3d.UnitX, (isOut ? 0.01 : 0.0) * Math.Sin(3.0 * j + k));
+                        double by = (isOut ? 0.01 : 0.0) * Math.Sin(3.0 * j + k);
+                        tubes.Shape.Q[j] *= Quaterniond.FromAxisAngle(Vector3d.UnitX, by);
                     }
                 }
                 Assert.That(Math.Abs(tubes.Terms.Fibres!.Loss), moved == 0.0 ? Is.Zero : Is.GreaterThan(0.0));
