@@ -195,7 +195,8 @@ def _settings(effective: Values) -> str:
         words.append(effective["integrator"])
     words.append(f"n = {effective['numberRodElements']}")
     words += [f"of the catheter {one['elements']}" for one in effective.get("catheters") or ()]
-    words += [f"{effective['fibres']} rings of fibres"] * (has_law(effective) and effective["fibres"] > 0)
+    if has_law(effective) and effective["fibres"] > 0:
+        words.append(f"{effective['fibres']} rings of fibres")
     words += [f"dt = {number(1e3 * effective['timeStep'], 3)} ms"]
     if effective["solver"] in ("pbd", "xpbd"):
         words.append(f"m = {effective['constraintSolverSteps']}")
