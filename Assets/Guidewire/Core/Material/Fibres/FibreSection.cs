@@ -185,10 +185,15 @@ namespace Guidewire.Core
         /// <param name="stiffness">EI of all of the wire there, N m^2.</param>
         public double Kept(double[] states, int from, double stiffness)
         {
-            var curve = default(FibreCurve);
-            Add(0.0, 0.0, states, from, 1.0, ref curve);
-            return Law.IsSuperelastic ? 0.0
-                : Math.Sqrt(curve.Moment1 * curve.Moment1 + curve.Moment2 * curve.Moment2) / stiffness;
+            double first = 0.0;
+            double second = 0.0;
+            for (int i = 0; i < _area.Length; i++)
+            {
+                double force = _young * _area[i] * states[from + i];
+                first += force * _y[i];
+                second -= force * _x[i];
+            }
+            return Law.IsSuperelastic ? 0.0 : Math.Sqrt(first * first + second * second) / stiffness;
         }
 
         // The minimiser e. The slope by e, (E + H) e - E eps + c sign(e) + d sign(e - e_n), grows and jumps at 0 and at
