@@ -94,7 +94,7 @@ namespace Guidewire.Core
             get
             {
                 double most = Math.Max(_maxPutIn, _start + _loadWork);
-                return (_start + _loadWork - Motion() - _terms.StoredEnergy(_shape)) / most;
+                return (_start + _loadWork - Motion() - Kept) / most;
             }
         }
 
@@ -102,7 +102,7 @@ namespace Guidewire.Core
         public void Start()
         {
             _before.CopyFrom(_shape);
-            _start = Motion() + _terms.StoredEnergy(_shape);
+            _start = Motion() + Kept;
         }
 
         /// <summary>Writes or restores the energies so far. A reader's wire is placed already; where it is heavier or
@@ -130,6 +130,9 @@ namespace Guidewire.Core
             SerializeSums(snapshot);
             _before.Serialize(snapshot);
         }
+
+        // What the wire stores, and what its material has turned into heat, J.
+        private double Kept => _terms.StoredEnergy(_shape) + (_terms.Fibres?.Loss ?? 0.0);
 
         private void SerializeSums(Snapshot snapshot)
         {
