@@ -151,6 +151,7 @@ namespace Guidewire.Core
         /// <param name="from">m from the hub, as is the other.</param>
         public double SheathWork(RodShape shape, double from, double to)
         {
+            _bending.Fibres?.FollowHubs();     // before the exit is moved for the integral
             double now = _joints.Sheathed;
             double end = Math.Max(from, to);
             double work = 0.0;

@@ -239,6 +239,9 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Its pieces are those of the hubs as they are now.</summary>
+        public void FollowHubs() => Update();
+
         /// <summary>Begins the derivative of a joint by the place of a hub.</summary>
         public void BeginRate()
         {
