@@ -66,7 +66,8 @@ namespace Guidewire.Core
 
         private static WallTerms? Walls(SimulationParameters parameters, MaterialScene scene)
         {
-            if (scene.Walls.Length == 0)
+            bool hasBarriers = MethodTable.Of(parameters.Method.Solver).HasBarriers;
+            if (scene.Walls.Length == 0 && !(hasBarriers && parameters.Contact.TouchesItself(0)))
             {
                 return null;
             }
@@ -75,14 +76,16 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(outside);
             }
-            if (!MethodTable.Of(parameters.Method.Solver).HasBarriers)
+            if (!hasBarriers)
             {
                 return null;
             }
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             Barrier barrier = BarrierDefaults.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
-            return DirectSetup.WallTermsOf(parameters, scene, barrier,
+            WallTerms walls = DirectSetup.WallTermsOf(parameters, scene, barrier,
                 new SupportSpring(scene.Rod, HubLimit.Of(parameters.Drive, parameters.Material)));
+            string? overlap = walls.Self?.FindOverlap(scene.Shape);
+            return overlap == null ? walls : throw new ArgumentException(overlap);
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>
@@ -112,7 +115,7 @@ namespace Guidewire.Core
 
         private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene)
         {
-            return parameters.Method.StatesReactions || scene.Walls.Length > 0
+            return parameters.Method.StatesReactions || scene.Walls.Length > 0 || scene.Supports.HasSpring
                 ? new ContactRecord(scene.Shape.X.Length) : null;
         }
     }

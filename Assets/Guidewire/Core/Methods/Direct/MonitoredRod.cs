@@ -283,7 +283,7 @@ namespace Guidewire.Core
 
         private double Time => _dynamics.Time;
 
-        private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
+        private double Dissipated => Terms.Walls()?.Dissipated ?? 0.0;
 
         private void TakeExtremes(double length)
         {
@@ -303,7 +303,7 @@ namespace Guidewire.Core
             {
                 _extremes.WallWork = 0.0 - Terms.Walls()!.Barrier.Lag!.Dissipated;
             }
-            if (Terms.Walls()!.Friction != null)
+            if (Terms.Walls()!.HasFriction)
             {
                 _extremes.TakeFriction(Dissipated - _dissipated, length);
             }

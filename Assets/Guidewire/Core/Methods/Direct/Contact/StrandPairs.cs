@@ -1,0 +1,244 @@
+using System;
+
+namespace Guidewire.Core
+{
+    /// <summary>The pairs of a wire's elements that may come within range of each other: a list that holds while the
+    /// nodes stay near where they were when it was made.</summary>
+    /// <remarks>A piece of a curve of length s that turns by less than pi has a chord of at least s cos(turn/2) (Schur).
+    /// So most of a wire needs no look: neither neighbouring blocks of elements that turn little, nor those farther apart
+    /// between which it does not turn back. Whether a whole wire turns by less than pi says little: its tip may be a J.
+    /// Other blocks have their boxes compared. With d the displacement of a node since the list was made, two elements
+    /// with k others between them come nearer by no more than 2 max|d|, nor by more than k + 2 times the largest
+    /// difference of d between neighbouring nodes: a wire that slides along itself has the latter small.</remarks>
+    internal sealed class StrandPairs
+    {
+        private const int BlockSize = 8;           // elements
+        private const double WindowTurn = 2.0;     // radians, of a window between blocks
+        private const double ExcludedArc = 1.15 * Math.PI;    // radii between facing ends, of no pair
+        private const double Skin = 2.0;           // of the thickest radius
+        private const double Stretch = 0.2;        // of the thinnest radius or the shortest element, between neighbours
+        private const double Wide = 4.0;           // times the skin, of a list that serves one motion alone
+
+        private readonly MaterialRod _rod;
+        private readonly double _range;            // of the barrier, m
+        private readonly Vector3d[] _origin;       // the nodes when the list was made, m
+        private readonly double[] _turn;           // of elements, summed up from the first on, bounds, radians
+        private readonly double[] _arc;            // of nodes, from the first on, m
+        private readonly double[] _restArc;
+        private readonly (Vector3d Low, Vector3d High)[] _box;     // of blocks
+        private readonly StructList<Pair> _pairs = new StructList<Pair>(64);
+        private double _thickest;
+        private double _thinnest;
+        private double _shortest;                  // element at rest
+        private int _between;                      // elements of no pair, at least
+        private double _skin;                      // of this list, m
+        private double _stretch;
+        private bool _isKnown;
+
+        /// <summary>Of a rod whose surfaces act on each other from a distance on, m.</summary>
+        public StrandPairs(MaterialRod rod, double range)
+        {
+            _rod = rod;
+            _range = range;
+            int n = rod.Capacity;
+            _origin = new Vector3d[n + 1];
+            _turn = new double[n];
+            _arc = new double[n + 1];
+            _restArc = new double[n + 1];
+            _box = new (Vector3d, Vector3d)[(n + BlockSize - 1) / BlockSize];
+            Remesh();
+        }
+
+        /// <summary>The pairs in order, the lower element first.</summary>
+        public StructList<Pair> Pairs => _pairs;
+
+        /// <summary>The rod has other elements.</summary>
+        public void Remesh()
+        {
+            (_thickest, _thinnest, _shortest) = (0.0, double.PositiveInfinity, double.PositiveInfinity);
+            double longest = 0.0;
+            for (int j = 0; j < _rod.ElementCount; j++)
+            {
+                _thickest = Math.Max(_thickest, _rod.Radius[j]);
+                _thinnest = Math.Min(_thinnest, _rod.Radius[j]);
+                _shortest = Math.Min(_shortest, _rod.Length[j]);
+                longest = Math.Max(longest, _rod.Length[j]);
+                _restArc[j + 1] = _restArc[j] + _rod.Length[j];
+            }
+            _between = Math.Max(1, (int)(ExcludedArc * _thinnest / longest));
+            _isKnown = false;
+        }
+
+        /// <summary>Whether two elements are far enough from each other along the wire to count as a pair.</summary>
+        public bool IsPair(int j, int k) =>
+            k > j + 1 && _restArc[k] - _restArc[j + 1] >= 0.5 * ExcludedArc * (_rod.Radius[j] + _rod.Radius[k]);
+
+        /// <summary>Makes the list anew where it does not hold for a shape.</summary>
+        public void Follow(Vector3d[] x)
+        {
+            if (!_isKnown || _skin > Wide * Skin * _thickest || !Holds(x))
+            {
+                Array.Copy(x, _origin, _rod.ElementCount + 1);
+                Find(0.0, 0.0);
+            }
+        }
+
+        /// <summary>The same for a motion on straight lines.</summary>
+        public void Follow(Vector3d[] x, Vector3d[] to)
+        {
+            if (Holds(to))
+            {
+                return;
+            }
+            double moved = 0.0;
+            double stretch = 0.0;
+            Vector3d before = to[0] - x[0];
+            for (int i = 0; i <= _rod.ElementCount; i++)
+            {
+                Vector3d move = to[i] - x[i];
+                moved = Math.Max(moved, move.LengthSquared);
+                stretch = Math.Max(stretch, (move - before).LengthSquared);
+                before = move;
+                _origin[i] = Vector3d.Lerp(x[i], to[i], 0.5);
+            }
+            Find(Math.Sqrt(moved), 0.5 * Math.Sqrt(stretch));
+        }
+
+        // Along a straight path both displacements are largest at its ends.
+        private bool Holds(Vector3d[] x)
+        {
+            double moved = 0.0;
+            double stretch = 0.0;
+            Vector3d before = x[0] - _origin[0];
+            for (int i = 0; i <= _rod.ElementCount; i++)
+            {
+                Vector3d move = x[i] - _origin[i];
+                moved = Math.Max(moved, move.LengthSquared);
+                stretch = Math.Max(stretch, (move - before).LengthSquared);
+                before = move;
+            }
+            return 4.0 * moved <= _skin * _skin && stretch <= _stretch * _stretch;
+        }
+
+        private void Find(double moved, double stretch)
+        {
+            _isKnown = true;
+            _skin = Skin * _thickest + moved;
+            _stretch = Stretch * Math.Min(_thinnest, _shortest) + stretch;
+            _pairs.Clear();
+            SetTurns();
+            int blocks = (_rod.ElementCount + BlockSize - 1) / BlockSize;
+            double reach = 2.0 * _thickest + _range + _skin;
+            double window = Math.Cos(0.5 * WindowTurn);
+            for (int a = 0; a < blocks; a++)
+            {
+                if (MayBend(a))
+                {
+                    AddPairs(a, a);
+                    AddPairs(a, a + 1);
+                }
+                int b = a + 2;
+                for (; b < blocks && _turn[LastOf(b)] - _turn[BlockSize * a] <= WindowTurn; b++)
+                {
+                    if ((_arc[BlockSize * b] - _arc[LastOf(a) + 1]) * window < reach)
+                    {
+                        AddPairs(a, b);
+                    }
+                }
+                for (; b < blocks; b++)
+                {
+                    if (AreNear(_box[a], _box[b], reach))
+                    {
+                        AddPairs(a, b);
+                    }
+                }
+            }
+            _pairs.Sort(0);
+        }
+
+        private int LastOf(int block) => Math.Min(BlockSize * (block + 1), _rod.ElementCount) - 1;
+
+        // Of an angle, |e - e'| (1 + 0.143 |e - e'|^2) is a bound: the angle itself at 0 and at pi.
+        private void SetTurns()
+        {
+            Vector3d before = default;
+            for (int j = 0; j < _rod.ElementCount; j++)
+            {
+                Vector3d chord = _origin[j + 1] - _origin[j];
+                double length = chord.Length;
+                Vector3d along = (1.0 / length) * chord;
+                double squared = j == 0 ? 0.0 : (along - before).LengthSquared;
+                _turn[j] = (j == 0 ? 0.0 : _turn[j - 1]) + Math.Sqrt(squared) * (1.0 + 0.143 * squared);
+                _arc[j + 1] = _arc[j] + length;
+                before = along;
+                ref (Vector3d Low, Vector3d High) box = ref _box[j / BlockSize];
+                if (j % BlockSize == 0)
+                {
+                    box = (_origin[j], _origin[j]);
+                }
+                box = (Min(box.Low, _origin[j + 1]), Max(box.High, _origin[j + 1]));
+            }
+        }
+
+        private static Vector3d Min(in Vector3d a, in Vector3d b) =>
+            new Vector3d(Math.Min(a.X, b.X), Math.Min(a.Y, b.Y), Math.Min(a.Z, b.Z));
+
+        private static Vector3d Max(in Vector3d a, in Vector3d b) =>
+            new Vector3d(Math.Max(a.X, b.X), Math.Max(a.Y, b.Y), Math.Max(a.Z, b.Z));
+
+        private static bool AreNear(in (Vector3d Low, Vector3d High) a, in (Vector3d Low, Vector3d High) b, double reach) =>
+            a.Low.X - b.High.X < reach && b.Low.X - a.High.X < reach && a.Low.Y - b.High.Y < reach
+            && b.Low.Y - a.High.Y < reach && a.Low.Z - b.High.Z < reach && b.Low.Z - a.High.Z < reach;
+
+        // Whether a block and the next may turn so much that two of their elements meet.
+        private bool MayBend(int block)
+        {
+            double turn = _turn[LastOf(Math.Min(block + 1, (_rod.ElementCount - 1) / BlockSize))]
+                - _turn[BlockSize * block];
+            double chord = turn < Math.PI ? _shortest * Math.Cos(0.5 * turn) - _stretch : 0.0;
+            return !(chord > 0.0 && _between * chord >= 2.0 * _thickest + _range + 2.0 * _stretch);
+        }
+
+        private void AddPairs(int a, int b)
+        {
+            if (BlockSize * b >= _rod.ElementCount)
+            {
+                return;
+            }
+            for (int j = BlockSize * a; j <= LastOf(a); j++)
+            {
+                Vector3d middle = Vector3d.Lerp(_origin[j], _origin[j + 1], 0.5);
+                double half = 0.5 * (_arc[j + 1] - _arc[j]);
+                for (int k = Math.Max(BlockSize * b, j + 2); k <= LastOf(b); k++)
+                {
+                    double reach = _rod.Radius[j] + _rod.Radius[k] + _range
+                        + Math.Min(_skin, (k - j + 1) * _stretch);
+                    double near = reach + half + 0.5 * (_arc[k + 1] - _arc[k]);
+                    if ((middle - Vector3d.Lerp(_origin[k], _origin[k + 1], 0.5)).LengthSquared < near * near
+                        && IsPair(j, k) && ClosestPoints.SegmentSegment(_origin[j], _origin[j + 1], _origin[k],
+                            _origin[k + 1], out _, out _) < reach * reach)
+                    {
+                        _pairs.Add(new Pair(j, k));
+                    }
+                }
+            }
+        }
+
+        /// <summary>Two elements.</summary>
+        internal readonly struct Pair : IComparable<Pair>
+        {
+            /// <summary>The lower one.</summary>
+            public readonly int First;
+
+            /// <summary>The higher one.</summary>
+            public readonly int Second;
+
+            /// <summary>Makes a pair.</summary>
+            public Pair(int first, int second) => (First, Second) = (first, second);
+
+            /// <inheritdoc/>
+            public int CompareTo(Pair other) =>
+                First != other.First ? First.CompareTo(other.First) : Second.CompareTo(other.Second);
+        }
+    }
+}
