@@ -51,6 +51,17 @@ namespace Guidewire.Core
             _columns.Add(column);
         }
 
+        /// <summary>Gives each column as a vector of the whole rod, with its c.</summary>
+        public void ForEach(Action<RodVector[], double> take)
+        {
+            for (int k = 0; k < _columns.Count; k++)
+            {
+                Array.Clear(_work, 0, _work.Length);
+                _columns[k].AddTo(_work, 1.0);
+                take(_work, _columns[k].IsNegative ? -1.0 : 1.0);
+            }
+        }
+
         /// <summary>Removes the columns with a negative c.</summary>
         public void KeepPositive()
         {
