@@ -145,6 +145,7 @@ namespace Guidewire.Core
             {
                 return most;
             }
+            _inside = Place(_nodes, _x);    // of a list that was empty until now, too
             int inside = Place(_to, _to);
             for (int k = 0; k < _near.Pairs.Count; k++)
             {
