@@ -14,7 +14,7 @@ namespace Guidewire.Core
     /// In a sheath a wire does not touch itself: an element that leaves it begins at the exit.</remarks>
     internal sealed class SelfContact : EnergyTerm
     {
-        private const double OfRadius = 0.25;      // the largest distance of the barrier, of the thinnest radius
+        private const double OfRadius = 0.2;      // the largest distance of the barrier, of the thinnest radius
         private const double OfGap = 0.3;          // what a step leaves of a gap, or
         private const double OfDistance = 0.2;     // of the barrier's distance
 
@@ -38,13 +38,15 @@ namespace Guidewire.Core
             _rod = rod;
             _sheath = sheath;
             double thinnest = double.PositiveInfinity;
+            double thickest = 0.0;
             for (int j = 0; j < rod.ElementCount; j++)
             {
                 thinnest = Math.Min(thinnest, rod.Radius[j]);
+                thickest = Math.Max(thickest, rod.Radius[j]);
             }
             double distance = Math.Min(walls.Distance, OfRadius * thinnest);
             Barrier = new Barrier(distance, walls.Stiffness * walls.Distance / distance);
-            _near = new StrandPairs(rod, distance);
+            _near = new StrandPairs(rod, distance + CapsulePair.Contact(2.0 * thickest) - 2.0 * thickest);
             _nodes = new Vector3d[rod.Capacity + 1];
             _x = new Vector3d[rod.Capacity + 1];
             _to = new Vector3d[rod.Capacity + 1];
@@ -78,7 +80,7 @@ namespace Guidewire.Core
             for (int k = 0; k < _near.Pairs.Count; k++)
             {
                 StrandPairs.Pair pair = _near.Pairs[k];
-                if (pair.Second >= _inside && PairOf(pair).Distance <= RadiiOf(pair))
+                if (pair.Second >= _inside && PairOf(pair).Distance <= ContactOf(pair))
                 {
                     return string.Format(CultureInfo.InvariantCulture,
                         "the wire overlaps itself at the start: elements {0} and {1}", pair.First, pair.Second);
@@ -111,7 +113,7 @@ namespace Guidewire.Core
                     int i = contact.NodeOf(end);
                     if (i >= from && i < to && i >= _inside)
                     {
-                        gradient[i].AddX((-contact.Force * contact.Pair.Weight(end)) * contact.Pair.Normal);
+                        gradient[i].AddX((-contact.Push * contact.Pair.Weight(end)) * contact.Pair.Slope);
                     }
                 }
             }
@@ -124,7 +126,7 @@ namespace Guidewire.Core
             for (int k = 0; k < _contacts.Count; k++)
             {
                 ref StrandContact contact = ref _contacts[k];
-                contact.Pair.AddColumns(columns, contact.First, contact.Second, -contact.Force, contact.Stiffness,
+                contact.Pair.AddColumns(columns, contact.First, contact.Second, -contact.Push, contact.Stiffness,
                     contact.First < _inside, _hasGeometric);
             }
         }
@@ -155,21 +157,25 @@ namespace Guidewire.Core
                     continue;
                 }
                 double distance = PairOf(pair).Distance;
-                double gap = distance - RadiiOf(pair);
+                double least = ContactOf(pair);
+                double gap = distance - least;
                 if (!(gap > 0.0))
                 {
                     return 0.0;
                 }
                 double left = Math.Min(OfGap * gap, OfDistance * Barrier.Distance);
-                most = CapsulePair.MaxMotion(_x, _to, pair.First, pair.Second, distance, RadiiOf(pair) + left, most);
+                most = CapsulePair.MaxMotion(_x, _to, pair.First, pair.Second, RadiiOf(pair), distance, least + left,
+                    most);
             }
             return most;
         }
 
         private double RadiiOf(in StrandPairs.Pair pair) => _rod.Radius[pair.First] + _rod.Radius[pair.Second];
 
-        private CapsulePair PairOf(in StrandPairs.Pair pair) =>
-            new CapsulePair(_x[pair.First], _x[pair.First + 1], _x[pair.Second], _x[pair.Second + 1]);
+        private double ContactOf(in StrandPairs.Pair pair) => CapsulePair.Contact(RadiiOf(pair));
+
+        private CapsulePair PairOf(in StrandPairs.Pair pair) => new CapsulePair(_x[pair.First], _x[pair.First + 1],
+            _x[pair.Second], _x[pair.Second + 1], RadiiOf(pair));
 
         // Nodes in the sheath at its exit; how many there are.
         private int Place(Vector3d[] nodes, Vector3d[] x)
@@ -210,14 +216,12 @@ namespace Guidewire.Core
             for (int k = 0; k < _near.Pairs.Count; k++)
             {
                 StrandPairs.Pair pair = _near.Pairs[k];
-                double reach = RadiiOf(pair) + Barrier.Distance;
-                if (pair.First + 1 < _inside || ClosestPoints.SegmentSegment(_x[pair.First], _x[pair.First + 1],
-                    _x[pair.Second], _x[pair.Second + 1], out _, out _) >= reach * reach)
+                if (pair.First + 1 < _inside)
                 {
                     continue;
                 }
                 CapsulePair capsules = PairOf(pair);
-                double value = Barrier.At(capsules.Distance - RadiiOf(pair), out double slope, out double curvature);
+                double value = Barrier.At(capsules.Distance - ContactOf(pair), out double slope, out double curvature);
                 _value += value;
                 if (double.IsPositiveInfinity(value))
                 {
@@ -243,21 +247,24 @@ namespace Guidewire.Core
         /// <summary>Their distance; its normal leads from the higher to the lower one.</summary>
         public readonly CapsulePair Pair;
 
-        /// <summary>The normal force, N.</summary>
-        public readonly double Force;
+        /// <summary>Minus the barrier's first derivative, N.</summary>
+        public readonly double Push;
 
         /// <summary>The barrier's second derivative, N/m.</summary>
         public readonly double Stiffness;
 
         /// <summary>Makes a contact with these values.</summary>
-        public StrandContact(in StrandPairs.Pair elements, in CapsulePair pair, double force, double stiffness)
+        public StrandContact(in StrandPairs.Pair elements, in CapsulePair pair, double push, double stiffness)
         {
             First = elements.First;
             Second = elements.Second;
             Pair = pair;
-            Force = force;
+            Push = push;
             Stiffness = stiffness;
         }
+
+        /// <summary>The normal force, N.</summary>
+        public double Force => Push * Pair.Slope.Length;
 
         /// <summary>The node of one of the four ends, as <see cref="CapsulePair.Weight"/> counts them.</summary>
         public int NodeOf(int end) => end < 2 ? First + end : Second + end - 2;
