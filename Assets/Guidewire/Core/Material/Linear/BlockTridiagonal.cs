@@ -265,10 +265,9 @@ namespace Guidewire.Core
                 Reflect(ref b.C22, ref v.T2);
                 Reflect(ref b.C33, ref v.T3);
             }
-            if (_columns.Count > 0 && _columns.Factorise(this) > 0)
+            if (_columns.Count > 0)
             {
-                _columns.KeepPositive();
-                _columns.Factorise(this);
+                _columns.Reflect(this);
             }
         }
 

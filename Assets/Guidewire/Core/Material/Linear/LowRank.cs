@@ -11,6 +11,7 @@ namespace Guidewire.Core
     /// the rod. A column costs a forward and a backward elimination, from its first node on.</remarks>
     internal sealed class LowRank
     {
+        private const double LeastLeft = 1e-3;     // of a part of the matrix
         private const int Lanes = 4;    // columns that are eliminated at once
 
         private readonly StructList<Column> _columns = new StructList<Column>(16);
@@ -62,20 +63,6 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>Removes the columns with a negative c.</summary>
-        public void KeepPositive()
-        {
-            int kept = 0;
-            for (int k = 0; k < _columns.Count; k++)
-            {
-                if (!_columns[k].IsNegative)
-                {
-                    _columns[kept++] = _columns[k];
-                }
-            }
-            _columns.Truncate(kept);
-        }
-
         /// <summary>Factorises S for a matrix that is factorised.</summary>
         /// <returns>By how many eigenvalues more the sum is not positive than the matrix.</returns>
         public int Factorise(BlockTridiagonal system)
@@ -94,7 +81,70 @@ namespace Guidewire.Core
             {
                 SolveGroup(system, g, lowest);
             }
-            return AssembleSum(groups) - CountPositive();
+            AssembleSum(groups);
+            return _s.Factorise() - CountPositive();
+        }
+
+        /// <summary>The same of a positive matrix, with which the sum becomes positive too. With the positive columns in
+        /// the matrix B, the negative ones take parts m of it away along the eigenvectors v of U^T B^-1 U: 1 - m becomes
+        /// |1 - m| there.</summary>
+        public void Reflect(BlockTridiagonal system)
+        {
+            if (Factorise(system) <= 0)
+            {
+                return;
+            }
+            AssembleSum((_columns.Count + Lanes - 1) / Lanes);
+            int[] positive = Indices(false);
+            int[] negative = Indices(true);
+            int n = negative.Length;
+            var plus = new IndefiniteMatrix();
+            plus.Resize(positive.Length);
+            for (int i = 0; i < positive.Length; i++)
+            {
+                for (int j = 0; j <= i; j++)
+                {
+                    plus[i, j] = _s[positive[i], positive[j]];
+                }
+            }
+            plus.Factorise();
+            var taken = new double[n, n];
+            var right = new double[positive.Length];
+            for (int b = 0; b < n; b++)
+            {
+                for (int i = 0; i < positive.Length; i++)
+                {
+                    right[i] = Sum(positive[i], negative[b]);
+                }
+                plus.Solve(right);
+                for (int a = 0; a < n; a++)
+                {
+                    taken[a, b] = Sum(negative[a], negative[b]) + (a == b ? 1.0 : 0.0);
+                    for (int i = 0; i < positive.Length; i++)
+                    {
+                        taken[a, b] -= Sum(positive[i], negative[a]) * right[i];
+                    }
+                }
+            }
+            double[] part = SymmetricEigenvalues.Find(taken, out double[,] vectors);
+            for (int k = 0; k < n; k++)
+            {
+                if (part[k] < 1.0)
+                {
+                    continue;
+                }
+                // c^-1 of the part that is left, less what it was.
+                double left = 1.0 - Math.Max(part[k] - 1.0, LeastLeft);
+                double more = part[k] / (Math.Abs(left) > LeastLeft ? left : LeastLeft) - 1.0;
+                for (int a = 0; a < n; a++)
+                {
+                    for (int b = 0; b <= a; b++)
+                    {
+                        _s[negative[a], negative[b]] -= more * vectors[a, k] * vectors[b, k];
+                    }
+                }
+            }
+            _s.Factorise();
         }
 
         /// <summary>Turns y = A^-1 b into (A + U C U^T)^-1 b.</summary>
@@ -174,8 +224,24 @@ namespace Guidewire.Core
             }
         }
 
-        // S, factorised: how many of its eigenvalues are not negative.
-        private int AssembleSum(int groups)
+        private double Sum(int i, int j) => i > j ? _s[i, j] : _s[j, i];
+
+        private int[] Indices(bool isNegative)
+        {
+            var indices = new int[isNegative ? _columns.Count - CountPositive() : CountPositive()];
+            int count = 0;
+            for (int k = 0; k < _columns.Count; k++)
+            {
+                if (_columns[k].IsNegative == isNegative)
+                {
+                    indices[count++] = k;
+                }
+            }
+            return indices;
+        }
+
+        // S.
+        private void AssembleSum(int groups)
         {
             _s.Resize(_columns.Count);
             for (int k = 0; k < _columns.Count; k++)
@@ -194,7 +260,6 @@ namespace Guidewire.Core
                 }
                 _s[k, k] += column.IsNegative ? -1.0 : 1.0;
             }
-            return _s.Factorise();
         }
 
         private static RodVector4 InLane(in RodVector v, int lane) => new RodVector4(lane == 0 ? v : default,

@@ -363,7 +363,7 @@ namespace Guidewire.Core
         // first these leave the terms of forces that may vanish out; then only those of walls.
         private void FindOtherDirection(RodShape shape, bool dropsGeometricStiffness)
         {
-            if (_hasFriction)
+            if (_hasFriction || _walls?.Self?.Touches == true)
             {
                 System.ReflectNegativePivots(Direction);
                 System.Back(Direction);
