@@ -18,11 +18,14 @@ namespace Guidewire.Core
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
         private readonly SelfOverlap _overlap;
+        private readonly SimulationParameters _parameters;
+        private readonly List<StrandPassages> _strands = new List<StrandPassages>();   // of the wire, then of catheters
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
         /// <param name="isCovered">As in <see cref="RimMonitor"/>.</param>
         public RunWarnings(SimulationParameters parameters, Func<ContactShape, bool> isCovered)
         {
+            _parameters = parameters;
             _length = parameters.Scene.GuidewireLength;
             _overlap = new SelfOverlap(parameters);
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
@@ -47,6 +50,11 @@ namespace Guidewire.Core
             if (contacts != null && contacts.MaxPenetration > _depth)
             {
                 yield return WarningTable.Penetration.With(contacts.MaxPenetration, _depth);
+            }
+            TakeStrands(state, coaxial, true);
+            if (StrandPassages > 0)
+            {
+                yield return WarningTable.StrandPassages.With(StrandPassages);
             }
             double change = LengthOf(state) / _length - 1.0;
             if (Math.Abs(change) > OddStretch)
@@ -84,6 +92,17 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>How often instruments have passed through themselves so far.</summary>
+        public long StrandPassages
+        {
+            get
+            {
+                long sum = 0;
+                _strands.ForEach(one => sum += one.Total);
+                return sum;
+            }
+        }
+
         /// <summary>The wire starts in this state.</summary>
         /// <param name="coaxial">Null without a catheter.</param>
         public void Begin(RodState state, CoaxialRecord? coaxial)
@@ -92,6 +111,15 @@ namespace Guidewire.Core
             if (_isMaterial)    // with gains the first sphere has moved ahead of the wire
             {
                 TakeOverlap(state, coaxial, 0.0);
+            }
+            _strands.Add(new StrandPassages(_isMaterial
+                ? _parameters.Material.WireRadius / _parameters.Scene.MetresPerUnit : _parameters.Contact.SphereRadius,
+                state.Positions));
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                Catheter catheter = _parameters.Scene.Catheters[_strands.Count - 1];
+                _strands.Add(new StrandPassages(
+                    catheter.Material.WireRadius / _parameters.Scene.MetresPerUnit, one.Positions));
             }
         }
 
@@ -102,6 +130,7 @@ namespace Guidewire.Core
         {
             _rims.Update(state, contacts, time);
             TakeOverlap(state, coaxial, time);
+            TakeStrands(state, coaxial, false);
         }
 
         private void TakeOverlap(RodState state, CoaxialRecord? coaxial, double time)
@@ -114,12 +143,24 @@ namespace Guidewire.Core
             }
         }
 
+        private void TakeStrands(RodState state, CoaxialRecord? coaxial, bool isLast)
+        {
+            _strands[0].Take(state.Positions, isLast);
+            int k = 1;
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                _strands[k++].Take(one.Positions, isLast);
+            }
+        }
+
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
         public void Serialize(Snapshot snapshot, RodState state)
         {
             _rims.Serialize(snapshot, state);
             _overlap.Serialize(snapshot);
+            snapshot.Section(string.Join(", ", _strands.ConvertAll(one => one.NodeCount)) + " nodes",
+                part => _strands.ForEach(one => one.Serialize(part)));
         }
 
         private static double LengthOf(RodState state)
