@@ -66,6 +66,9 @@ namespace Guidewire.Core
             _isKnown = false;
         }
 
+        /// <inheritdoc/>
+        public override void BeginStep(RodShape shape, double dt) => _isKnown &= !_near.FollowLengths();
+
         /// <summary>The contacts in a shape, in the order of their elements.</summary>
         public StructList<StrandContact> ContactsOf(RodShape shape)
         {

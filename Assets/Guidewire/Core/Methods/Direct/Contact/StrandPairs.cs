@@ -29,7 +29,7 @@ namespace Guidewire.Core
         private readonly StructList<Pair> _pairs = new StructList<Pair>(64);
         private double _thickest;
         private double _thinnest;
-        private double _shortest;                  // element at rest
+        private double _shortest;                  // element when the list was made
         private int _between;                      // elements of no pair, at least
         private double _skin;                      // of this list, m
         private double _stretch;
@@ -55,18 +55,32 @@ namespace Guidewire.Core
         /// <summary>The rod has other elements.</summary>
         public void Remesh()
         {
-            (_thickest, _thinnest, _shortest) = (0.0, double.PositiveInfinity, double.PositiveInfinity);
+            (_thickest, _thinnest) = (0.0, double.PositiveInfinity);
             double longest = 0.0;
             for (int j = 0; j < _rod.ElementCount; j++)
             {
                 _thickest = Math.Max(_thickest, _rod.Radius[j]);
                 _thinnest = Math.Min(_thinnest, _rod.Radius[j]);
-                _shortest = Math.Min(_shortest, _rod.Length[j]);
                 longest = Math.Max(longest, _rod.Length[j]);
                 _restArc[j + 1] = _restArc[j] + _rod.Length[j];
             }
             _between = Math.Max(1, (int)(ExcludedArc * _thinnest / longest));
             _isKnown = false;
+        }
+
+        /// <summary>Follows the lengths of elements, which slide over the tips of instruments.</summary>
+        /// <returns>Whether any has changed.</returns>
+        public bool FollowLengths()
+        {
+            for (int j = 0; j < _rod.ElementCount; j++)
+            {
+                if (_restArc[j + 1] != _restArc[j] + _rod.Length[j])
+                {
+                    Remesh();
+                    return true;
+                }
+            }
+            return false;
         }
 
         /// <summary>Whether two elements are far enough from each other along the wire to count as a pair.</summary>
@@ -123,10 +137,10 @@ namespace Guidewire.Core
         private void Find(double moved, double stretch)
         {
             _isKnown = true;
+            SetTurns();
             _skin = Skin * _thickest + moved;
             _stretch = Stretch * Math.Min(_thinnest, _shortest) + stretch;
             _pairs.Clear();
-            SetTurns();
             int blocks = (_rod.ElementCount + BlockSize - 1) / BlockSize;
             double reach = 2.0 * _thickest + _range + _skin;
             double window = Math.Cos(0.5 * WindowTurn);
@@ -161,6 +175,7 @@ namespace Guidewire.Core
         // Of an angle, |e - e'| (1 + 0.143 |e - e'|^2) is a bound: the angle itself at 0 and at pi.
         private void SetTurns()
         {
+            _shortest = double.PositiveInfinity;
             Vector3d before = default;
             for (int j = 0; j < _rod.ElementCount; j++)
             {
@@ -170,6 +185,7 @@ namespace Guidewire.Core
                 double squared = j == 0 ? 0.0 : (along - before).LengthSquared;
                 _turn[j] = (j == 0 ? 0.0 : _turn[j - 1]) + Math.Sqrt(squared) * (1.0 + 0.143 * squared);
                 _arc[j + 1] = _arc[j] + length;
+                _shortest = Math.Min(_shortest, length);
                 before = along;
                 ref (Vector3d Low, Vector3d High) box = ref _box[j / BlockSize];
                 if (j % BlockSize == 0)
