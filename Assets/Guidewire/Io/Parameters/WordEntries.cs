@@ -33,7 +33,7 @@ namespace Guidewire.Io
         {
         }
 
-        public override string Allowed => "true, false or null";
+        public override string Allowed => "null, true or false";
 
         internal override bool TryRead(RunParameters target, JToken value)
         {
