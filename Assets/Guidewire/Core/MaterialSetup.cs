@@ -93,7 +93,7 @@ namespace Guidewire.Core
             SolverReport report)
         {
             var rod = new MonitoredRod(scene, DirectSetup.DynamicsOf(parameters, scene, terms), parameters.Method,
-                report, Reactions(parameters, scene));
+                report, Reactions(parameters, scene, terms));
             return new DirectStep(rod, parameters.Method.TimeStep);
         }
 
@@ -110,12 +110,12 @@ namespace Guidewire.Core
             SolverReport report)
         {
             return new ExplicitStep(scene, terms, parameters.Method, report,
-                Reactions(parameters, scene));
+                Reactions(parameters, scene, terms));
         }
 
-        private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene)
+        private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene, RodTerms terms)
         {
-            return parameters.Method.StatesReactions || scene.Walls.Length > 0 || scene.Supports.HasSpring
+            return parameters.Method.StatesReactions || scene.Walls.Length > 0 || terms.Contact != null
                 ? new ContactRecord(scene.Shape.X.Length) : null;
         }
     }

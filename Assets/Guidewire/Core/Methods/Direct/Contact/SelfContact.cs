@@ -67,7 +67,7 @@ namespace Guidewire.Core
         }
 
         /// <inheritdoc/>
-        public override void BeginStep(RodShape shape, double dt) => _isKnown &= !_near.FollowLengths();
+        public override void SetTime(double time) => _isKnown &= !_near.FollowLengths();
 
         /// <summary>The contacts in a shape, in the order of their elements.</summary>
         public StructList<StrandContact> ContactsOf(RodShape shape)

@@ -24,7 +24,8 @@ namespace Guidewire.Core
         private readonly Vector3d[] _origin;       // the nodes when the list was made, m
         private readonly double[] _turn;           // of elements, summed up from the first on, bounds, radians
         private readonly double[] _arc;            // of nodes, from the first on, m
-        private readonly double[] _restArc;
+        private readonly double[] _length;         // of elements at rest, m
+        private readonly double[] _restArc;        // of these, or of those before where they were shorter
         private readonly (Vector3d Low, Vector3d High)[] _box;     // of blocks
         private readonly StructList<Pair> _pairs = new StructList<Pair>(64);
         private double _thickest;
@@ -44,6 +45,7 @@ namespace Guidewire.Core
             _origin = new Vector3d[n + 1];
             _turn = new double[n];
             _arc = new double[n + 1];
+            _length = new double[n];
             _restArc = new double[n + 1];
             _box = new (Vector3d, Vector3d)[(n + BlockSize - 1) / BlockSize];
             Remesh();
@@ -55,14 +57,22 @@ namespace Guidewire.Core
         /// <summary>The rod has other elements.</summary>
         public void Remesh()
         {
+            Array.Copy(_rod.Length, _length, _rod.ElementCount);
+            Measure();
+        }
+
+        private void Measure()
+        {
             (_thickest, _thinnest) = (0.0, double.PositiveInfinity);
             double longest = 0.0;
             for (int j = 0; j < _rod.ElementCount; j++)
             {
                 _thickest = Math.Max(_thickest, _rod.Radius[j]);
                 _thinnest = Math.Min(_thinnest, _rod.Radius[j]);
-                longest = Math.Max(longest, _rod.Length[j]);
-                _restArc[j + 1] = _restArc[j] + _rod.Length[j];
+                double length = Math.Min(_length[j], _rod.Length[j]);
+                longest = Math.Max(longest, length);
+                _restArc[j + 1] = _restArc[j] + length;
+                _length[j] = _rod.Length[j];
             }
             _between = Math.Max(1, (int)(ExcludedArc * _thinnest / longest));
             _isKnown = false;
@@ -74,9 +84,9 @@ namespace Guidewire.Core
         {
             for (int j = 0; j < _rod.ElementCount; j++)
             {
-                if (_restArc[j + 1] != _restArc[j] + _rod.Length[j])
+                if (_length[j] != _rod.Length[j])
                 {
-                    Remesh();
+                    Measure();
                     return true;
                 }
             }
