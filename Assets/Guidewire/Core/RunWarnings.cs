@@ -19,6 +19,7 @@ namespace Guidewire.Core
         private readonly RimMonitor _rims;
         private readonly SelfOverlap _overlap;
         private readonly SimulationParameters _parameters;
+        private readonly bool _keepsApart;          // strands of an instrument
         private readonly List<StrandPassages> _strands = new List<StrandPassages>();   // of the wire, then of catheters
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
@@ -32,6 +33,7 @@ namespace Guidewire.Core
                 wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), isCovered);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _isMaterial = method.TakesMaterial;
+            _keepsApart = method.HasBarriers && parameters.Contact.TouchesItself(parameters.Scene.Walls.Length);
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
@@ -126,11 +128,22 @@ namespace Guidewire.Core
         /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="coaxial">Null without a catheter.</param>
         /// <param name="time">s.</param>
-        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time)
+        /// <param name="mayTouch">Whether strands may have come near one another.</param>
+        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time, bool mayTouch)
         {
             _rims.Update(state, contacts, time);
             TakeOverlap(state, coaxial, time);
-            TakeStrands(state, coaxial, false);
+            if (mayTouch)
+            {
+                TakeStrands(state, coaxial, false);
+                return;
+            }
+            _strands[0].Begin(state.Positions);
+            int k = 1;
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                _strands[k++].Begin(one.Positions);
+            }
         }
 
         private void TakeOverlap(RodState state, CoaxialRecord? coaxial, double time)
@@ -145,11 +158,11 @@ namespace Guidewire.Core
 
         private void TakeStrands(RodState state, CoaxialRecord? coaxial, bool isLast)
         {
-            _strands[0].Take(state.Positions, isLast);
+            _strands[0].Take(state.Positions, _keepsApart, isLast);
             int k = 1;
             for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
             {
-                _strands[k++].Take(one.Positions, isLast);
+                _strands[k++].Take(one.Positions, _keepsApart, isLast);
             }
         }
 

@@ -202,7 +202,7 @@ namespace Guidewire.Core
             {
                 _clock.Advance();
             }
-            _warnings.Update(State, Contacts, Coaxial(), Time);
+            _warnings.Update(State, Contacts, Coaxial(), Time, _stepper.MayTouchItself);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {

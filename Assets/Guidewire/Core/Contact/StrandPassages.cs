@@ -6,20 +6,26 @@ namespace Guidewire.Core
     /// two of its elements, which are no neighbours, cross between one look and the next, every node on a straight
     /// line.</summary>
     /// <remarks>Two elements a0 + s u and b0 + t v can meet only where (a0 - b0) . (u x v) is 0, a cubic in the time.
-    /// A look is due where a node has moved by the instrument's radius, or at the end of a longer step.</remarks>
+    /// A look is due where a node has moved by the instrument's radius, or at the end of a longer step. With a method
+    /// that keeps strands apart a straight line may still cut a strand round which a wire snapped in one step: there a
+    /// passage also has to change the writhe, by 2 (Fuller 1971).</remarks>
     internal sealed class StrandPassages
     {
         private const double Touching = 1e-8;    // of the elements' lengths: a distance that is rounding
+        private const double Jump = 1.4;         // of the writhe, 2 less what a motion of some diameters may take away
         private const int Halvings = 60;
 
         private readonly double _radius;
         private readonly Vector3d[] _from;
+        private readonly StrandPairs _pairs;
 
         /// <summary>Of an instrument of this radius that starts here, both in one unit.</summary>
         public StrandPassages(double radius, Vector3d[] start)
         {
+            int n = start.Length - 1;
             _radius = radius;
             _from = (Vector3d[])start.Clone();
+            _pairs = new StrandPairs(new double[n], new double[n], n, 0.0);
         }
 
         /// <summary>How many nodes the instrument has.</summary>
@@ -29,8 +35,9 @@ namespace Guidewire.Core
         public long Total { get; private set; }
 
         /// <summary>Takes where the nodes are.</summary>
+        /// <param name="keepsApart">Whether the method keeps strands apart.</param>
         /// <param name="isLast">Whether a look is due, however little they have moved.</param>
-        public void Take(Vector3d[] x, bool isLast = false)
+        public void Take(Vector3d[] x, bool keepsApart = false, bool isLast = false)
         {
             int n = _from.Length - 1;
             double moved = 0.0;
@@ -42,22 +49,50 @@ namespace Guidewire.Core
             {
                 return;
             }
-            double longest = 0.0;
-            for (int j = 0; j < n; j++)
+            _pairs.Find(_from, x);
+            long crossed = 0;
+            for (int k = 0; k < _pairs.Pairs.Count; k++)
             {
-                longest = Math.Max(longest, Vector3d.Distance(x[j], x[j + 1]));
-                longest = Math.Max(longest, Vector3d.Distance(_from[j], _from[j + 1]));
+                crossed += Crosses(_from, x, _pairs.Pairs[k].First, _pairs.Pairs[k].Second) ? 1 : 0;
             }
-            double reach = longest + 2.0 * Math.Sqrt(moved);
-            for (int j = 0; j < n; j++)
+            if (crossed > 0 && keepsApart)
             {
-                for (int k = NearPairs.Next(x, n, j, j + 2, reach, longest); k < n;
-                    k = NearPairs.Next(x, n, j, k + 1, reach, longest))
+                crossed = Math.Abs(Writhe(x) - Writhe(_from)) > Jump ? 1 : 0;
+            }
+            Total += crossed;
+            Begin(x);
+        }
+
+        /// <summary>Takes where the nodes are when none has come near another strand.</summary>
+        public void Begin(Vector3d[] x) => Array.Copy(x, _from, _from.Length);
+
+        // The double integral of Gauss over the polyline: the signed solid angles of all pairs of its elements.
+        private static double Writhe(Vector3d[] x)
+        {
+            double sum = 0.0;
+            for (int i = 0; i + 1 < x.Length; i++)
+            {
+                for (int j = i + 2; j + 1 < x.Length; j++)
                 {
-                    Total += Crosses(_from, x, j, k) ? 1 : 0;
+                    Vector3d[] normal =
+                    {
+                        Vector3d.Cross(x[j] - x[i], x[j + 1] - x[i]),
+                        Vector3d.Cross(x[j + 1] - x[i], x[j + 1] - x[i + 1]),
+                        Vector3d.Cross(x[j + 1] - x[i + 1], x[j] - x[i + 1]),
+                        Vector3d.Cross(x[j] - x[i + 1], x[j] - x[i]),
+                    };
+                    double angle = 0.0;
+                    for (int k = 0; k < 4; k++)
+                    {
+                        double size = Math.Sqrt(normal[k].LengthSquared * normal[(k + 1) % 4].LengthSquared);
+                        double cosine = size > 0.0 ? Vector3d.Dot(normal[k], normal[(k + 1) % 4]) / size : 0.0;
+                        angle += Math.Asin(Math.Max(-1.0, Math.Min(1.0, cosine)));
+                    }
+                    double side = Vector3d.Dot(Vector3d.Cross(x[j + 1] - x[j], x[i + 1] - x[i]), x[j] - x[i]);
+                    sum += Math.Sign(side) * angle;
                 }
             }
-            Array.Copy(x, _from, n + 1);
+            return sum / (2.0 * Math.PI);
         }
 
         /// <summary>Writes or restores what was counted.</summary>

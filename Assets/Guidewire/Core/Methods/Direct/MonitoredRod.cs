@@ -115,6 +115,21 @@ namespace Guidewire.Core
             _energy.Remesh();
         }
 
+        /// <summary>Whether strands may have come near one another since this was asked last.</summary>
+        public bool MayTouchItself
+        {
+            get
+            {
+                SelfContact? self = Terms.Walls()?.Self;
+                bool may = self == null || self.HadPairs;
+                if (self != null)
+                {
+                    self.HadPairs = false;
+                }
+                return may;
+            }
+        }
+
         /// <summary>The motion.</summary>
         public RodDynamics Dynamics => _dynamics;
 

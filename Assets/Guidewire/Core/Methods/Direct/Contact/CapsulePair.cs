@@ -17,7 +17,7 @@ namespace Guidewire.Core
     {
         private const double Rounding = 0.1;      // p, of the sum of the radii
         private const double Approach = 0.9;      // of what may be advanced at once
-        private const double Remaining = 0.05;    // of the way to the least distance, at which an advance ends
+        private const double Remaining = 0.05;    // of the way to the least distance, or of the range, at which an advance ends
         private const int MaxAdvances = 200;
 
         private readonly Vector3d _u;
@@ -142,9 +142,10 @@ namespace Guidewire.Core
         /// <param name="radii">The sum of their radii.</param>
         /// <param name="distance">d at the start, above the least one.</param>
         /// <param name="least">The least one.</param>
+        /// <param name="range">Farther than a twentieth of it from the least one the motion goes on.</param>
         /// <param name="most">A fraction beyond which is not asked.</param>
         public static double MaxMotion(Vector3d[] x, Vector3d[] to, int j, int k, double radii, double distance,
-            double least, double most)
+            double least, double range, double most)
         {
             Vector3d a0 = to[j] - x[j];
             Vector3d a1 = to[j + 1] - x[j + 1];
@@ -153,7 +154,7 @@ namespace Guidewire.Core
             Vector3d mean = 0.25 * (a0 + a1 + b0 + b1);
             double speed = Math.Sqrt(Math.Max((a0 - mean).LengthSquared, (a1 - mean).LengthSquared))
                 + Math.Sqrt(Math.Max((b0 - mean).LengthSquared, (b1 - mean).LengthSquared));
-            double end = Remaining * (distance - least);
+            double end = Remaining * Math.Min(distance - least, range);
             double time = 0.0;
             for (int advance = 0; advance < MaxAdvances; advance++)
             {

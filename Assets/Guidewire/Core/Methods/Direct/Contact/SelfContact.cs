@@ -46,7 +46,8 @@ namespace Guidewire.Core
             }
             double distance = Math.Min(walls.Distance, OfRadius * thinnest);
             Barrier = new Barrier(distance, walls.Stiffness * walls.Distance / distance);
-            _near = new StrandPairs(rod, distance + CapsulePair.Contact(2.0 * thickest) - 2.0 * thickest);
+            _near = new StrandPairs(rod.Length, rod.Radius, rod.ElementCount,
+                distance + CapsulePair.Contact(2.0 * thickest) - 2.0 * thickest);
             _nodes = new Vector3d[rod.Capacity + 1];
             _x = new Vector3d[rod.Capacity + 1];
             _to = new Vector3d[rod.Capacity + 1];
@@ -58,10 +59,13 @@ namespace Guidewire.Core
         /// <summary>Whether the wire touches itself in the shape evaluated last.</summary>
         public bool Touches => _contacts.Count > 0;
 
+        /// <summary>Whether any two elements may have come near each other since this was set to false.</summary>
+        public bool HadPairs { get; set; } = true;
+
         /// <inheritdoc/>
         public override void Remesh()
         {
-            _near.Remesh();
+            _near.Remesh(_rod.ElementCount);
             _contacts.Clear();
             _isKnown = false;
         }
@@ -145,6 +149,7 @@ namespace Guidewire.Core
                 _to[i] = shape.X[i] + scale * direction[i].X;
             }
             _near.Follow(shape.X, _to);
+            HadPairs |= _near.Pairs.Count > 0;
             double most = 1.0;
             if (_near.Pairs.Count == 0)
             {
@@ -168,7 +173,7 @@ namespace Guidewire.Core
                 }
                 double left = Math.Min(OfGap * gap, OfDistance * Barrier.Distance);
                 most = CapsulePair.MaxMotion(_x, _to, pair.First, pair.Second, RadiiOf(pair), distance, least + left,
-                    most);
+                    Barrier.Distance, most);
             }
             return most;
         }
@@ -211,6 +216,7 @@ namespace Guidewire.Core
             _contacts.Clear();
             _value = 0.0;
             _near.Follow(_nodes);
+            HadPairs |= _near.Pairs.Count > 0;
             if (_near.Pairs.Count == 0)
             {
                 return;

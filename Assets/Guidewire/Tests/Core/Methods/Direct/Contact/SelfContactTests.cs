@@ -137,7 +137,7 @@ namespace Guidewire.Core.Tests
             const double Least = 0.2;
             const double Radii = 0.2;
             double distance = new CapsulePair(x[0], x[1], x[2], x[3], Radii).Distance;
-            double most = CapsulePair.MaxMotion(x, to, 0, 2, Radii, distance, Least, 1.0);
+            double most = CapsulePair.MaxMotion(x, to, 0, 2, Radii, distance, Least, 1.0, 1.0);
             double DistanceAt(double time)
             {
                 Vector3d P(int i) => Vector3d.Lerp(x[i], to[i], time);
@@ -166,7 +166,7 @@ namespace Guidewire.Core.Tests
                 shape.X[i] = coil * new Vector3d(Math.Cos(i / coil), Math.Sin(i / coil), 0.0)
                     + (2.1 * radius * i / (2.0 * Math.PI * coil)) * Vector3d.UnitZ + 0.1 * radius * Any(random);
             }
-            var pairs = new StrandPairs(rod, 0.25 * radius);
+            var pairs = new StrandPairs(rod.Length, rod.Radius, n, 0.25 * radius);
             int found = 0;
             for (int step = 0; step < 30; step++)
             {

@@ -19,12 +19,14 @@ namespace Guidewire.Core
         private const double Stretch = 0.2;        // of the thinnest radius or the shortest element, between neighbours
         private const double Wide = 4.0;           // times the skin, of a list that serves one motion alone
 
-        private readonly MaterialRod _rod;
+        private readonly double[] _ownLength;      // of elements at rest, m
+        private readonly double[] _radius;
+        private int _count;                        // of elements
         private readonly double _range;            // of the barrier, m
         private readonly Vector3d[] _origin;       // the nodes when the list was made, m
         private readonly double[] _turn;           // of elements, summed up from the first on, bounds, radians
         private readonly double[] _arc;            // of nodes, from the first on, m
-        private readonly double[] _length;         // of elements at rest, m
+        private readonly double[] _length;         // as they were taken last
         private readonly double[] _restArc;        // of these, or of those before where they were shorter
         private readonly (Vector3d Low, Vector3d High)[] _box;     // of blocks
         private readonly StructList<Pair> _pairs = new StructList<Pair>(64);
@@ -36,28 +38,33 @@ namespace Guidewire.Core
         private double _stretch;
         private bool _isKnown;
 
-        /// <summary>Of a rod whose surfaces act on each other from a distance on, m.</summary>
-        public StrandPairs(MaterialRod rod, double range)
+        /// <summary>Of a wire whose surfaces act on each other from a distance on.</summary>
+        /// <param name="length">Of its elements at rest, which may change, m.</param>
+        /// <param name="radius">Of its elements, the same.</param>
+        /// <param name="count">How many elements there are.</param>
+        public StrandPairs(double[] length, double[] radius, int count, double range)
         {
-            _rod = rod;
+            _ownLength = length;
+            _radius = radius;
             _range = range;
-            int n = rod.Capacity;
+            int n = length.Length;
             _origin = new Vector3d[n + 1];
             _turn = new double[n];
             _arc = new double[n + 1];
             _length = new double[n];
             _restArc = new double[n + 1];
             _box = new (Vector3d, Vector3d)[(n + BlockSize - 1) / BlockSize];
-            Remesh();
+            Remesh(count);
         }
 
         /// <summary>The pairs in order, the lower element first.</summary>
         public StructList<Pair> Pairs => _pairs;
 
-        /// <summary>The rod has other elements.</summary>
-        public void Remesh()
+        /// <summary>The wire has so many elements, which may be others.</summary>
+        public void Remesh(int count)
         {
-            Array.Copy(_rod.Length, _length, _rod.ElementCount);
+            _count = count;
+            Array.Copy(_ownLength, _length, _count);
             Measure();
         }
 
@@ -65,14 +72,14 @@ namespace Guidewire.Core
         {
             (_thickest, _thinnest) = (0.0, double.PositiveInfinity);
             double longest = 0.0;
-            for (int j = 0; j < _rod.ElementCount; j++)
+            for (int j = 0; j < _count; j++)
             {
-                _thickest = Math.Max(_thickest, _rod.Radius[j]);
-                _thinnest = Math.Min(_thinnest, _rod.Radius[j]);
-                double length = Math.Min(_length[j], _rod.Length[j]);
+                _thickest = Math.Max(_thickest, _radius[j]);
+                _thinnest = Math.Min(_thinnest, _radius[j]);
+                double length = Math.Min(_length[j], _ownLength[j]);
                 longest = Math.Max(longest, length);
                 _restArc[j + 1] = _restArc[j] + length;
-                _length[j] = _rod.Length[j];
+                _length[j] = _ownLength[j];
             }
             _between = Math.Max(1, (int)(ExcludedArc * _thinnest / longest));
             _isKnown = false;
@@ -82,9 +89,9 @@ namespace Guidewire.Core
         /// <returns>Whether any has changed.</returns>
         public bool FollowLengths()
         {
-            for (int j = 0; j < _rod.ElementCount; j++)
+            for (int j = 0; j < _count; j++)
             {
-                if (_length[j] != _rod.Length[j])
+                if (_length[j] != _ownLength[j])
                 {
                     Measure();
                     return true;
@@ -95,29 +102,34 @@ namespace Guidewire.Core
 
         /// <summary>Whether two elements are far enough from each other along the wire to count as a pair.</summary>
         public bool IsPair(int j, int k) =>
-            k > j + 1 && _restArc[k] - _restArc[j + 1] >= 0.5 * ExcludedArc * (_rod.Radius[j] + _rod.Radius[k]);
+            k > j + 1 && _restArc[k] - _restArc[j + 1] >= 0.5 * ExcludedArc * (_radius[j] + _radius[k]);
 
         /// <summary>Makes the list anew where it does not hold for a shape.</summary>
         public void Follow(Vector3d[] x)
         {
             if (!_isKnown || _skin > Wide * Skin * _thickest || !Holds(x))
             {
-                Array.Copy(x, _origin, _rod.ElementCount + 1);
+                Array.Copy(x, _origin, _count + 1);
                 Find(0.0, 0.0);
             }
         }
 
-        /// <summary>The same for a motion on straight lines.</summary>
+        /// <summary>The same for a motion on straight lines from a shape for which the list holds.</summary>
         public void Follow(Vector3d[] x, Vector3d[] to)
         {
-            if (Holds(to))
+            if (!Holds(to))
             {
-                return;
+                Find(x, to);
             }
+        }
+
+        /// <summary>Makes the list of a motion on straight lines.</summary>
+        public void Find(Vector3d[] x, Vector3d[] to)
+        {
             double moved = 0.0;
             double stretch = 0.0;
             Vector3d before = to[0] - x[0];
-            for (int i = 0; i <= _rod.ElementCount; i++)
+            for (int i = 0; i <= _count; i++)
             {
                 Vector3d move = to[i] - x[i];
                 moved = Math.Max(moved, move.LengthSquared);
@@ -134,7 +146,7 @@ namespace Guidewire.Core
             double moved = 0.0;
             double stretch = 0.0;
             Vector3d before = x[0] - _origin[0];
-            for (int i = 0; i <= _rod.ElementCount; i++)
+            for (int i = 0; i <= _count; i++)
             {
                 Vector3d move = x[i] - _origin[i];
                 moved = Math.Max(moved, move.LengthSquared);
@@ -151,7 +163,7 @@ namespace Guidewire.Core
             _skin = Skin * _thickest + moved;
             _stretch = Stretch * Math.Min(_thinnest, _shortest) + stretch;
             _pairs.Clear();
-            int blocks = (_rod.ElementCount + BlockSize - 1) / BlockSize;
+            int blocks = (_count + BlockSize - 1) / BlockSize;
             double reach = 2.0 * _thickest + _range + _skin;
             double window = Math.Cos(0.5 * WindowTurn);
             for (int a = 0; a < blocks; a++)
@@ -180,14 +192,14 @@ namespace Guidewire.Core
             _pairs.Sort(0);
         }
 
-        private int LastOf(int block) => Math.Min(BlockSize * (block + 1), _rod.ElementCount) - 1;
+        private int LastOf(int block) => Math.Min(BlockSize * (block + 1), _count) - 1;
 
         // Of an angle, |e - e'| (1 + 0.143 |e - e'|^2) is a bound: the angle itself at 0 and at pi.
         private void SetTurns()
         {
             _shortest = double.PositiveInfinity;
             Vector3d before = default;
-            for (int j = 0; j < _rod.ElementCount; j++)
+            for (int j = 0; j < _count; j++)
             {
                 Vector3d chord = _origin[j + 1] - _origin[j];
                 double length = chord.Length;
@@ -219,7 +231,7 @@ namespace Guidewire.Core
         // Whether a block and the next may turn so much that two of their elements meet.
         private bool MayBend(int block)
         {
-            double turn = _turn[LastOf(Math.Min(block + 1, (_rod.ElementCount - 1) / BlockSize))]
+            double turn = _turn[LastOf(Math.Min(block + 1, (_count - 1) / BlockSize))]
                 - _turn[BlockSize * block];
             double chord = turn < Math.PI ? _shortest * Math.Cos(0.5 * turn) - _stretch : 0.0;
             return !(chord > 0.0 && _between * chord >= 2.0 * _thickest + _range + 2.0 * _stretch);
@@ -227,7 +239,7 @@ namespace Guidewire.Core
 
         private void AddPairs(int a, int b)
         {
-            if (BlockSize * b >= _rod.ElementCount)
+            if (BlockSize * b >= _count)
             {
                 return;
             }
@@ -237,7 +249,7 @@ namespace Guidewire.Core
                 double half = 0.5 * (_arc[j + 1] - _arc[j]);
                 for (int k = Math.Max(BlockSize * b, j + 2); k <= LastOf(b); k++)
                 {
-                    double reach = _rod.Radius[j] + _rod.Radius[k] + _range
+                    double reach = _radius[j] + _radius[k] + _range
                         + Math.Min(_skin, (k - j + 1) * _stretch);
                     double near = reach + half + 0.5 * (_arc[k + 1] - _arc[k]);
                     if ((middle - Vector3d.Lerp(_origin[k], _origin[k + 1], 0.5)).LengthSquared < near * near
