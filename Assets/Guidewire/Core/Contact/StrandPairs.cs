@@ -17,6 +17,8 @@ namespace Guidewire.Core
         private const double ExcludedArc = 1.15 * Math.PI;    // radii between facing ends, of no pair
         private const double Skin = 2.0;           // of the thickest radius
         private const double Stretch = 0.2;        // of the thinnest radius or the shortest element, between neighbours
+        private const double LongSkin = 20.0;      // of the thickest radius, more, of a list without pairs
+        private const double LongStretch = 0.2;    // of the shortest element, the same
         private const double Wide = 4.0;           // times the skin, of a list that serves one motion alone
 
         private readonly double[] _ownLength;      // of elements at rest, m
@@ -107,17 +109,35 @@ namespace Guidewire.Core
         /// <summary>Makes the list anew where it does not hold for a shape.</summary>
         public void Follow(Vector3d[] x)
         {
-            if (!_isKnown || _skin > Wide * Skin * _thickest || !Holds(x))
+            if (!_isKnown || (_pairs.Count > 0 && _skin > Wide * Skin * _thickest) || !Holds(x))
             {
                 Array.Copy(x, _origin, _count + 1);
-                Find(0.0, 0.0);
+                // Where nothing is near, the list is to hold long.
+                bool isNear = _pairs.Count > 0;
+                if (!isNear)
+                {
+                    Find(LongSkin * _thickest, LongStretch);
+                }
+                if (isNear || _pairs.Count > 0)
+                {
+                    Find(0.0, 0.0);
+                }
             }
         }
 
         /// <summary>The same for a motion on straight lines from a shape for which the list holds.</summary>
         public void Follow(Vector3d[] x, Vector3d[] to)
         {
-            if (!Holds(to))
+            if (Holds(to))
+            {
+                return;
+            }
+            if (_pairs.Count == 0)
+            {
+                Array.Copy(x, _origin, _count + 1);
+                Find(LongSkin * _thickest, LongStretch);
+            }
+            if (_pairs.Count > 0 || !Holds(to))
             {
                 Find(x, to);
             }
@@ -137,7 +157,7 @@ namespace Guidewire.Core
                 before = move;
                 _origin[i] = Vector3d.Lerp(x[i], to[i], 0.5);
             }
-            Find(Math.Sqrt(moved), 0.5 * Math.Sqrt(stretch));
+            Find(Math.Sqrt(moved), 0.0, 0.5 * Math.Sqrt(stretch));
         }
 
         // Along a straight path both displacements are largest at its ends.
@@ -156,12 +176,13 @@ namespace Guidewire.Core
             return 4.0 * moved <= _skin * _skin && stretch <= _stretch * _stretch;
         }
 
-        private void Find(double moved, double stretch)
+        // With a skin and a stretch, as a fraction of the shortest element, more than the least.
+        private void Find(double skin, double stretch, double moved = 0.0)
         {
             _isKnown = true;
             SetTurns();
-            _skin = Skin * _thickest + moved;
-            _stretch = Stretch * Math.Min(_thinnest, _shortest) + stretch;
+            _skin = Skin * _thickest + skin;
+            _stretch = Stretch * Math.Min(_thinnest, _shortest) + stretch * _shortest + moved;
             _pairs.Clear();
             int blocks = (_count + BlockSize - 1) / BlockSize;
             double reach = 2.0 * _thickest + _range + _skin;
