@@ -23,11 +23,13 @@ namespace Guidewire.Core.Tests
             Assert.That(simulation.Warnings, Has.Some.Contains("passed through itself"));
         }
 
-        [Test]
+        [TestCase(true, 0.0)]
+        [TestCase(true, 0.2)]
+        [TestCase(false, 0.0)]
         [Category("Long")]
-        public void Restored_WithFrictionOnItself_GoesOnWithTheSameBits()
+        public void Restored_GoesOnWithTheSameBits(bool hasContact, double friction)
         {
-            Simulation simulation = Wires.RunAndRestore(Sac(true, 0.2, 118), 114, out Simulation restored);
+            Simulation simulation = Wires.RunAndRestore(Sac(hasContact, friction, 118), 114, out Simulation restored);
             while (restored.Outcome == Outcome.Running)
             {
                 restored.Step();
