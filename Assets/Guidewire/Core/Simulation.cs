@@ -80,7 +80,8 @@ namespace Guidewire.Core
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
-        /// <summary>Points of the wire that passed a wall, and pairs of elements of an instrument that crossed.</summary>
+        /// <summary>Points of the wire that passed a wall, and pairs of elements of an instrument that
+        /// crossed.</summary>
         public long Passages => (Contacts?.Passages ?? 0) + _warnings.StrandPassages;
 
         /// <summary>What contact with walls came to, and the force at the first sphere; null in a scene without walls

@@ -4,8 +4,10 @@ namespace Guidewire.Core
 {
     /// <summary>The pairs of a wire's elements that may come within range of each other: a list that holds while the
     /// nodes stay near where they were when it was made.</summary>
-    /// <remarks>A piece of a curve of length s that turns by less than pi has a chord of at least s cos(turn/2) (Schur).
-    /// So most of a wire needs no look: neither neighbouring blocks of elements that turn little, nor those farther apart
+    /// <remarks>A piece of a curve of length s that turns by less than pi has a chord of at least s cos(turn/2)
+    /// (Schur).
+    /// So most of a wire needs no look: neither neighbouring blocks of elements that turn little, nor those farther
+    /// apart
     /// between which it does not turn back. Whether a whole wire turns by less than pi says little: its tip may be a J.
     /// Other blocks have their boxes compared. With d the displacement of a node since the list was made, two elements
     /// with k others between them come nearer by no more than 2 max|d|, nor by more than k + 2 times the largest
@@ -245,7 +247,8 @@ namespace Guidewire.Core
         private static Vector3d Max(in Vector3d a, in Vector3d b) =>
             new Vector3d(Math.Max(a.X, b.X), Math.Max(a.Y, b.Y), Math.Max(a.Z, b.Z));
 
-        private static bool AreNear(in (Vector3d Low, Vector3d High) a, in (Vector3d Low, Vector3d High) b, double reach) =>
+        private static bool AreNear(in (Vector3d Low, Vector3d High) a, in (Vector3d Low, Vector3d High) b,
+            double reach) =>
             a.Low.X - b.High.X < reach && b.Low.X - a.High.X < reach && a.Low.Y - b.High.Y < reach
             && b.Low.Y - a.High.Y < reach && a.Low.Z - b.High.Z < reach && b.Low.Z - a.High.Z < reach;
 

@@ -3,7 +3,8 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>A dense symmetric matrix that need not be definite: P A P^T = L D L^T with pivots of one or two rows
-    /// (Bunch and Kaufman 1977, Math. Comp. 31), by which it is solved and its eigenvalues' signs are counted.</summary>
+    /// (Bunch and Kaufman 1977, Math. Comp. 31), by which it is solved and its eigenvalues' signs are
+    /// counted.</summary>
     internal sealed class IndefiniteMatrix
     {
         private static readonly double MaxGrowth = (1.0 + Math.Sqrt(17.0)) / 8.0;

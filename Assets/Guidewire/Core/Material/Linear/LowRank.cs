@@ -7,7 +7,8 @@ namespace Guidewire.Core
     /// (A + U C U^T)^-1 = A^-1 - A^-1 U S^-1 U^T A^-1 (Woodbury 1950).</summary>
     /// <remarks>S is small and dense, and not definite where any c is negative or A is not. Both ways to eliminate
     /// [A, U; U^T, -C^-1] have the same inertia (Haynsworth 1968): A + U C U^T has as many negative eigenvalues as A,
-    /// and those of S that are positive, less the c that are positive. So A itself may be indefinite where contact holds
+    /// and those of S that are positive, less the c that are positive. So A itself may be indefinite where contact
+    /// holds
     /// the rod. A column costs a forward and a backward elimination, from its first node on.</remarks>
     internal sealed class LowRank
     {
@@ -85,8 +86,10 @@ namespace Guidewire.Core
             return _s.Factorise() - CountPositive();
         }
 
-        /// <summary>The same of a positive matrix, with which the sum becomes positive too. With the positive columns in
-        /// the matrix B, the negative ones take parts m of it away along the eigenvectors v of U^T B^-1 U: 1 - m becomes
+        /// <summary>The same of a positive matrix, with which the sum becomes positive too. With the positive columns
+        /// in
+        /// the matrix B, the negative ones take parts m of it away along the eigenvectors v of U^T B^-1 U: 1 - m
+        /// becomes
         /// |1 - m| there.</summary>
         public void Reflect(BlockTridiagonal system)
         {

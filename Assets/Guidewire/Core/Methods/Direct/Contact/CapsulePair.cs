@@ -5,7 +5,8 @@ namespace Guidewire.Core
     /// <summary>The distance d of two segments, a0 + s u and b0 + t v, rounded where they are parallel, with its first
     /// and second derivatives by their four ends.</summary>
     /// <remarks>With D between two points, d^2 is the least of |D|^2 + p^2 ((s - 1/2)^2 + (t - 1/2)^2). Without p the
-    /// closest points of two parallel elements would jump from one end to the other. The force would jump with them, and
+    /// closest points of two parallel elements would jump from one end to the other. The force would jump with them,
+    /// and
     /// strands pressed flat together had no balance. p is a tenth of the sum of both radii; d exceeds the
     /// distance of the segments by at most p^2/(4 d), at the ends of both, which the radii take into account.
     ///
@@ -17,7 +18,7 @@ namespace Guidewire.Core
     {
         private const double Rounding = 0.1;      // p, of the sum of the radii
         private const double Approach = 0.9;      // of what may be advanced at once
-        private const double Remaining = 0.05;    // of the way to the least distance, or of the range, at which an advance ends
+        private const double Remaining = 0.05;    // of the way to the least distance, or of the range, at the end
         private const int MaxAdvances = 200;
 
         private readonly Vector3d _u;

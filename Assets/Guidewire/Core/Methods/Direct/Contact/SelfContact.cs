@@ -5,7 +5,8 @@ using System.Runtime.InteropServices;
 namespace Guidewire.Core
 {
     /// <summary>Contact of a wire with itself: the <see cref="Barrier"/> of the gap between the surfaces of two
-    /// elements, capsules of each element's own radius, over all pairs that are far enough apart along the wire.</summary>
+    /// elements, capsules of each element's own radius, over all pairs that are far enough apart along the
+    /// wire.</summary>
     /// <remarks>Which elements are pairs does not depend on the shape, and where the closest point is at an end of an
     /// element the pair still counts: so the energy is continuous. Between facing ends a pair has at least 1.15 pi r of
     /// wire, which a bend of radius 2 r keeps apart. The second derivative is exact, with its negative part: without it

@@ -14,7 +14,8 @@ namespace Guidewire.Core
         /// <param name="friction">Null where no wall has friction.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
         /// <param name="advice">See <see cref="Advice"/>.</param>
-        /// <param name="self">Contact of the wire with itself, with or without friction; null where it has none.</param>
+        /// <param name="self">Contact of the wire with itself, with or without friction; null where it has
+        /// none.</param>
         public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart,
             Func<string?>? advice = null, (SelfContact Contact, SelfFriction? Friction)? self = null)
         {

@@ -4,7 +4,8 @@ using NUnit.Framework;
 
 namespace Guidewire.Core.Tests
 {
-    /// <summary>A wire under constant tension T whose ends are turned against each other: it goes from a helix to a loop,
+    /// <summary>A wire under constant tension T whose ends are turned against each other: it goes from a helix to a
+    /// loop,
     /// touches itself and winds up as a plectoneme.</summary>
     /// <remarks>With x = sqrt(B/T), L = 24 x, GJ = 48 B, the couples in sqrt(BT) at given turns are those of an
     /// independent solution of the boundary-value problem, with contact by forces between pairs of nodes. The plateau
@@ -61,7 +62,8 @@ namespace Guidewire.Core.Tests
         }
 
         // The couple in sqrt(BT) and the distance of the ends, m, after each step.
-        private static List<(double Turn, double Couple, double End)> Wind(double radius, int n, double turn, double last)
+        private static List<(double Turn, double Couple, double End)> Wind(double radius, int n, double turn,
+            double last)
         {
             double r = radius * Scale;
             double young = 1e9 * Math.Pow(1e-3 / r, 4);
