@@ -61,15 +61,38 @@ namespace Guidewire.Core.Tests
             Assert.That(perTurn, Is.EqualTo(2.37).Within(0.04 * 2.37));
         }
 
+        [TestCase(0.0)]
+        [TestCase(0.2)]
+        public void Restored_GoesOnWithTheSameBits(double friction)
+        {
+            SimulationParameters parameters = Of(0.2, 120, 0.1, 6.0, out _, out _);
+            parameters.Contact.SelfFriction = friction;
+            Simulation simulation = Wires.RunAndRestore(parameters, 57, out Simulation restored);
+            Wires.Run(restored);
+            Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
+        }
+
         // The couple in sqrt(BT) and the distance of the ends, m, after each step.
         private static List<(double Turn, double Couple, double End)> Wind(double radius, int n, double turn,
             double last)
         {
+            var curve = new List<(double Turn, double Couple, double End)>();
+            Simulation simulation = Simulation.Create(Of(radius, n, turn, last, out double bend, out double tension));
+            Wires.Finish(simulation, () => curve.Add((simulation.Hub()!.Turn,
+                Math.Abs(simulation.Hub()!.Torque) / Math.Sqrt(bend * tension),
+                1e-3 * (simulation.State.Positions[n].Z - simulation.State.Positions[0].Z))));
+            Assert.That(simulation.Passages, Is.Zero);
+            return curve;
+        }
+
+        private static SimulationParameters Of(double radius, int n, double turn, double last, out double bend,
+            out double tension)
+        {
             double r = radius * Scale;
             double young = 1e9 * Math.Pow(1e-3 / r, 4);
-            double bend = 0.25 * Math.PI * Math.Pow(r, 4) * young;
-            double tension = bend / (Scale * Scale);
-            var parameters = new SimulationParameters
+            bend = 0.25 * Math.PI * Math.Pow(r, 4) * young;
+            tension = bend / (Scale * Scale);
+            return new SimulationParameters
             {
                 Method =
                 {
@@ -100,13 +123,6 @@ namespace Guidewire.Core.Tests
                 },
                 Contact = { SelfContact = true },
             };
-            var curve = new List<(double Turn, double Couple, double End)>();
-            Simulation simulation = Simulation.Create(parameters);
-            Wires.Finish(simulation, () => curve.Add((simulation.Hub()!.Turn,
-                Math.Abs(simulation.Hub()!.Torque) / Math.Sqrt(bend * tension),
-                1e-3 * (simulation.State.Positions[n].Z - simulation.State.Positions[0].Z))));
-            Assert.That(simulation.Passages, Is.Zero);
-            return curve;
         }
 
         private static double Largest(List<(double Turn, double Couple, double End)> curve, double from)

@@ -23,20 +23,6 @@ namespace Guidewire.Core.Tests
             Assert.That(simulation.Warnings, Has.Some.Contains("passed through itself"));
         }
 
-        [TestCase(true, 0.0)]
-        [TestCase(true, 0.2)]
-        [TestCase(false, 0.0)]
-        [Category("Long")]
-        public void Restored_GoesOnWithTheSameBits(bool hasContact, double friction)
-        {
-            Simulation simulation = Wires.RunAndRestore(Sac(hasContact, friction, 118), 114, out Simulation restored);
-            while (restored.Outcome == Outcome.Running)
-            {
-                restored.Step();
-            }
-            Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
-        }
-
         [Test]
         public void StartThatOverlaps_IsSaid()
         {
