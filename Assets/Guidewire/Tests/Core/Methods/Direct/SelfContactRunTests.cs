@@ -11,7 +11,7 @@ namespace Guidewire.Core.Tests
         [TestCase(false, 0.0, Category = "Long")]
         public void FedIntoASac_TheWirePassesItselfOnlyWithoutContact(bool hasContact, double friction)
         {
-            SimulationParameters parameters = Sac(hasContact, friction, 120);
+            SimulationParameters parameters = Sac(hasContact, friction, hasContact ? 120 : 150);
             Simulation simulation = Wires.Finish(parameters);
             if (hasContact)
             {
