@@ -66,7 +66,8 @@ namespace Guidewire.Core
 
         private static WallTerms? Walls(SimulationParameters parameters, MaterialScene scene)
         {
-            if (scene.Walls.Length == 0)
+            bool hasBarriers = MethodTable.Of(parameters.Method.Solver).HasBarriers;
+            if (scene.Walls.Length == 0 && !(hasBarriers && parameters.Contact.TouchesItself(0)))
             {
                 return null;
             }
@@ -75,14 +76,16 @@ namespace Guidewire.Core
             {
                 throw new ArgumentException(outside);
             }
-            if (!MethodTable.Of(parameters.Method.Solver).HasBarriers)
+            if (!hasBarriers)
             {
                 return null;
             }
             double move = parameters.Drive.LargestMove(parameters.Method.TimeStep, scene.Metres);
             Barrier barrier = BarrierDefaults.Of(scene.Rod, parameters.Contact, scene.Walls, scene.Metres, move);
-            return DirectSetup.WallTermsOf(parameters, scene, barrier,
+            WallTerms walls = DirectSetup.WallTermsOf(parameters, scene, barrier,
                 new SupportSpring(scene.Rod, HubLimit.Of(parameters.Drive, parameters.Material)));
+            string? overlap = walls.Self?.FindOverlap(scene.Shape);
+            return overlap == null ? walls : throw new ArgumentException(overlap);
         }
 
         /// <summary>Implicit steps by the direct solver.</summary>
@@ -90,7 +93,7 @@ namespace Guidewire.Core
             SolverReport report)
         {
             var rod = new MonitoredRod(scene, DirectSetup.DynamicsOf(parameters, scene, terms), parameters.Method,
-                report, Reactions(parameters, scene));
+                report, Reactions(parameters, scene, terms));
             return new DirectStep(rod, parameters.Method.TimeStep);
         }
 
@@ -107,12 +110,12 @@ namespace Guidewire.Core
             SolverReport report)
         {
             return new ExplicitStep(scene, terms, parameters.Method, report,
-                Reactions(parameters, scene));
+                Reactions(parameters, scene, terms));
         }
 
-        private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene)
+        private static ContactRecord? Reactions(SimulationParameters parameters, MaterialScene scene, RodTerms terms)
         {
-            return parameters.Method.StatesReactions || scene.Walls.Length > 0
+            return parameters.Method.StatesReactions || scene.Walls.Length > 0 || terms.Contact != null
                 ? new ContactRecord(scene.Shape.X.Length) : null;
         }
     }

@@ -19,7 +19,7 @@ namespace Guidewire.Core
                 "\"straight\" between walls: the search for rest shapes does not support them"),
             new Rule("integrator",
                 p => p.HasFriction && p.Traits.HasBarriers && p.Method.Integrator != Integrator.ImplicitEuler,
-                "implicitEuler where a wall has a frictionCoefficient"),
+                "implicitEuler where a wall has a frictionCoefficient, or the wire selfFriction"),
             new Rule("elementContact",
                 p => p.HasFriction && !p.IsMaterial && p.Contact.ElementContact == ElementContact.Thesis,
                 "\"barycentric\" or \"none\" where a wall has a frictionCoefficient"),
@@ -396,7 +396,8 @@ namespace Guidewire.Core
 
             public bool HasWalls => Scene.Walls.Length > 0;
 
-            public bool HasFriction => Array.Exists(Scene.Walls, wall => wall.FrictionCoefficient > 0.0);
+            public bool HasFriction => Array.Exists(Scene.Walls, wall => wall.FrictionCoefficient > 0.0)
+                || (Traits.HasBarriers && Contact.SelfFriction > 0.0 && Contact.TouchesItself(Scene.Walls.Length));
 
             public bool IsClamped => Scene.ProximalEnd == ProximalEnd.Clamped && Drive.Kind != Core.Drive.Force;
 

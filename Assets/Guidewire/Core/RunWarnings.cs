@@ -20,17 +20,22 @@ namespace Guidewire.Core
         private readonly double _depth;             // that contact allows, units
         private readonly RimMonitor _rims;
         private readonly SelfOverlap _overlap;
+        private readonly SimulationParameters _parameters;
+        private readonly bool _keepsApart;          // strands of an instrument
+        private readonly List<StrandPassages> _strands = new List<StrandPassages>();   // of the wire, then of catheters
 
         /// <summary>Collects the warnings of a run of these parameters.</summary>
         /// <param name="isCovered">As in <see cref="RimMonitor"/>.</param>
         public RunWarnings(SimulationParameters parameters, Func<ContactShape, bool> isCovered)
         {
+            _parameters = parameters;
             _length = parameters.Scene.GuidewireLength;
             _overlap = new SelfOverlap(parameters);
             _rims = new RimMonitor(Array.ConvertAll(parameters.Scene.Walls,
                 wall => wall.AtLimit(1.0 / parameters.Scene.MetresPerUnit)), isCovered);
             MethodTraits method = MethodTable.Of(parameters.Method.Solver);
             _isMaterial = method.TakesMaterial;
+            _keepsApart = method.HasBarriers && parameters.Contact.TouchesItself(parameters.Scene.Walls.Length);
             _depth = method.DepthInRadii * (method.TakesMaterial
                 ? parameters.Material.WireRadius / parameters.Scene.MetresPerUnit : parameters.Contact.SphereRadius);
         }
@@ -49,6 +54,11 @@ namespace Guidewire.Core
             if (contacts != null && contacts.MaxPenetration > _depth)
             {
                 yield return WarningTable.Penetration.With(contacts.MaxPenetration, _depth);
+            }
+            TakeStrands(state, coaxial, true);
+            if (StrandPassages > 0)
+            {
+                yield return WarningTable.StrandPassages.With(StrandPassages);
             }
             double change = LengthOf(state) / _length - 1.0;
             if (Math.Abs(change) > OddStretch)
@@ -94,6 +104,17 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>How often instruments have passed through themselves so far.</summary>
+        public long StrandPassages
+        {
+            get
+            {
+                long sum = 0;
+                _strands.ForEach(one => sum += one.Total);
+                return sum;
+            }
+        }
+
         /// <summary>The wire starts in this state.</summary>
         /// <param name="coaxial">Null without a catheter.</param>
         public void Begin(RodState state, CoaxialRecord? coaxial)
@@ -103,15 +124,36 @@ namespace Guidewire.Core
             {
                 TakeOverlap(state, coaxial, 0.0);
             }
+            _strands.Add(new StrandPassages(_isMaterial
+                ? _parameters.Material.WireRadius / _parameters.Scene.MetresPerUnit : _parameters.Contact.SphereRadius,
+                state.Positions));
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                Catheter catheter = _parameters.Scene.Catheters[_strands.Count - 1];
+                _strands.Add(new StrandPassages(
+                    catheter.Material.WireRadius / _parameters.Scene.MetresPerUnit, one.Positions));
+            }
         }
 
         /// <summary>Takes the state at the end of a step.</summary>
         /// <param name="coaxial">Null without a catheter.</param>
         /// <param name="time">s.</param>
-        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time)
+        /// <param name="mayTouch">Whether strands may have come near one another.</param>
+        public void Update(RodState state, ContactRecord? contacts, CoaxialRecord? coaxial, double time, bool mayTouch)
         {
             _rims.Update(state, contacts, time);
             TakeOverlap(state, coaxial, time);
+            if (mayTouch)
+            {
+                TakeStrands(state, coaxial, false);
+                return;
+            }
+            _strands[0].Begin(state.Positions);
+            int k = 1;
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                _strands[k++].Begin(one.Positions);
+            }
         }
 
         private void TakeOverlap(RodState state, CoaxialRecord? coaxial, double time)
@@ -124,12 +166,24 @@ namespace Guidewire.Core
             }
         }
 
+        private void TakeStrands(RodState state, CoaxialRecord? coaxial, bool isLast)
+        {
+            _strands[0].Take(state.Positions, _keepsApart, isLast);
+            int k = 1;
+            for (CoaxialRecord? one = coaxial; one != null; one = one.Inside)
+            {
+                _strands[k++].Take(one.Positions, _keepsApart, isLast);
+            }
+        }
+
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>
         public void Serialize(Snapshot snapshot, RodState state)
         {
             _rims.Serialize(snapshot, state);
             _overlap.Serialize(snapshot);
+            snapshot.Section(string.Join(", ", _strands.ConvertAll(one => one.NodeCount)) + " nodes",
+                part => _strands.ForEach(one => one.Serialize(part)));
         }
 
         private static double LengthOf(RodState state)

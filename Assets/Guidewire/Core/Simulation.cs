@@ -80,6 +80,10 @@ namespace Guidewire.Core
         /// <summary>First step of the steady state, or -1.</summary>
         public int SteadyStateStep => _stopRule.SteadyStateStep;
 
+        /// <summary>Points of the wire that passed a wall, and pairs of elements of an instrument that
+        /// crossed.</summary>
+        public long Passages => (Contacts?.Passages ?? 0) + _warnings.StrandPassages;
+
         /// <summary>What contact with walls came to, and the force at the first sphere; null in a scene without walls
         /// whose parameters do not ask for reactions.</summary>
         public ContactRecord? Contacts => _stepper.Contacts;
@@ -199,7 +203,7 @@ namespace Guidewire.Core
             {
                 _clock.Advance();
             }
-            _warnings.Update(State, Contacts, Coaxial(), Time);
+            _warnings.Update(State, Contacts, Coaxial(), Time, _stepper.MayTouchItself);
             Outcome = _stopRule.Check(State, _stepper, StepCount);
             if (Outcome == Outcome.Finished || Outcome == Outcome.Converged)
             {

@@ -16,7 +16,8 @@ def wrong(key: Key) -> st.SearchStrategy:
         no_number = no_number.filter(lambda value: value is not None)
     number = st.floats(-1.0, 1.0)
     if key.kind == "switch":
-        return st.one_of(whole(0, 1), st.text(max_size=5), st.none(), st.just("true"))
+        null = [] if key.may_be_null else [st.none()]
+        return st.one_of(whole(0, 1), st.text(max_size=5), st.just("true"), *null)
     if key.kind == "word":
         return st.one_of(st.text(max_size=8), whole(-2, 5), st.none(), st.booleans()).filter(
             lambda value: value not in key.words)

@@ -24,7 +24,8 @@ namespace Guidewire.Core
             };
             SetFrames(parameters.Scene.Start?.Hub == null ? parameters.Scene.Start : null);
             Supports.SlidingAxis = Shape.DistalFrame.Director3;
-            Supports.HasSpring = scene.Walls.Length > 0 && Supports.Proximal != ProximalEnd.Free
+            bool hasContact = scene.Walls.Length > 0 || parameters.Contact.TouchesItself(0);
+            Supports.HasSpring = hasContact && Supports.Proximal != ProximalEnd.Free
                 && MethodTable.Of(parameters.Method.Solver).HasBarriers;
             Schedule = scene.Schedule;
             Schedule.Hub.Shift(scene.Displacement);

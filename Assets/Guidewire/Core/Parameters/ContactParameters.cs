@@ -26,6 +26,15 @@ namespace Guidewire.Core
         /// rule (<see cref="FrictionEnergy"/>).</summary>
         public double ElasticSlip { get; set; }
 
+        /// <summary>Whether a wire with a material touches itself; null: where it has walls.</summary>
+        public bool? SelfContact { get; set; }
+
+        /// <summary>Friction coefficient of the wire on itself, dimensionless.</summary>
+        public double SelfFriction { get; set; }
+
+        /// <summary>Whether a wire between so many walls touches itself, with a method that has barriers.</summary>
+        internal bool TouchesItself(int wallCount) => SelfContact ?? wallCount > 0;
+
         /// <summary>The same values; lists and walls are shared.</summary>
         internal ContactParameters Copy() => (ContactParameters)MemberwiseClone();
     }

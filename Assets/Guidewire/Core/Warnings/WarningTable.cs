@@ -169,6 +169,11 @@ namespace Guidewire.Core
             "the substep of *h:G4* s is above *s:G4* s, where explicit steps become unstable; raise substeps",
             "explicit: above 2 over the wire's highest angular frequency");
 
+        /// <summary>Strands that passed one another.</summary>
+        public static readonly WarningKind StrandPassages = AtEnd("strandPassages",
+            "an instrument passed through itself *k* times",
+            "pairs of elements that crossed between steps; direct has contact of a wire with itself (`selfContact`)");
+
         /// <summary>Points that passed a wall.</summary>
         public static readonly WarningKind Passages = AtEnd("passages", "*k* points of the wire passed a wall",
             "`passages`");

@@ -28,8 +28,7 @@ namespace Guidewire.Io
         private static readonly Dictionary<string, string> Absent =
             new Dictionary<string, string>(StringComparer.OrdinalIgnoreCase)
             {
-                ["selfContact"] = "there is no self-contact, and no such key",
-                ["selfCollision"] = "there is no self-contact, and no such key",
+                ["selfCollision"] = "it is 'selfContact'",
                 [JsonText.NoteKey] = "a note needs to be one text",
                 ["comment"] = Note,
                 ["_comment"] = Note,

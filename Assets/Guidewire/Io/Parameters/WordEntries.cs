@@ -25,6 +25,28 @@ namespace Guidewire.Io
         }
     }
 
+    /// <summary>Takes true, false, or null for what other values make of it.</summary>
+    internal sealed class OptionalSwitchEntry : ValueEntry<bool?>
+    {
+        public OptionalSwitchEntry(string key, string help)
+            : base(key, "", help)
+        {
+        }
+
+        public override string Allowed => "null, true or false";
+
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            bool isNull = value.Type == JTokenType.Null;
+            if (!isNull && value.Type != JTokenType.Boolean)
+            {
+                return false;
+            }
+            Set(target, isNull ? (bool?)null : (bool)value);
+            return true;
+        }
+    }
+
     /// <summary>One of a few words, in camelCase.</summary>
     internal sealed class ChoiceEntry<T> : ValueEntry<T>
         where T : struct, Enum

@@ -49,7 +49,7 @@ namespace Guidewire.Io
                 ["medianStepTime"] = times.Median(),
                 ["predictionError"] = Finite(simulation.PredictionError),
                 ["steadyStateStep"] = simulation.SteadyStateStep,
-                ["passages"] = simulation.Contacts?.Passages ?? 0,
+                ["passages"] = simulation.Passages,
                 ["maxPenetration"] = Finite(simulation.Contacts?.MaxPenetration ?? 0.0),
                 ["driveAsked"] = Finite(simulation.Contacts?.DriveAsked ?? double.NaN),
                 ["driveShortfall"] = Finite(simulation.Contacts?.DriveShortfall ?? 0.0),

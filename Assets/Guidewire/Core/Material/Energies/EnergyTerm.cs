@@ -50,6 +50,12 @@ namespace Guidewire.Core
         {
         }
 
+        /// <summary>Adds second derivatives between elements that are not neighbours, as columns. Called before
+        /// <see cref="AddBlocks"/>.</summary>
+        public virtual void AddColumns(RodShape shape, LowRank columns)
+        {
+        }
+
         /// <summary>The value in the shape in which the term was anchored last, J, after it was asked for the value
         /// there.</summary>
         /// <param name="before">That value.</param>

@@ -25,6 +25,7 @@ namespace Guidewire.Core
         private readonly bool _isPair;      // whether there are second ones
         private int _entryCount;            // of vectors, behind the placeholder
         private int _twistCount;            // elements with an angle that is unknown
+        private readonly LowRank _columns;  // what couples elements that are not neighbours
 
         /// <summary>Makes a system for this rod between these supports.</summary>
         public BlockTridiagonal(MaterialRod rod, RodSupports supports)
@@ -41,6 +42,7 @@ namespace Guidewire.Core
                 _isPair = _coaxial.InnerCount > 1;
                 _twist = new TwistRow[_coaxial.InnerCount * (rod.Capacity + 1)];
             }
+            _columns = new LowRank(VectorCapacity);
             Remesh();
         }
 
@@ -57,6 +59,12 @@ namespace Guidewire.Core
         // How far rows of second angles are behind those of the first ones; 0: there are none.
         private int Second => _isPair ? _count : 0;
 
+        /// <summary>Number of blocks: one more than the rod has elements.</summary>
+        public int BlockCount => _count;
+
+        /// <summary>Whether instruments inside have angles of their own.</summary>
+        public bool HasTwistAngles => _twistCount > 0;
+
         /// <summary>Number of vectors that a right-hand side must hold: one more than there are blocks, and as many as
         /// blocks again where there are twist angles.</summary>
         public int VectorCount => _count + 1 + _entryCount;
@@ -66,12 +74,19 @@ namespace Guidewire.Core
 
         /// <summary>Assembles gradient and blocks of all terms, adds shift times the metric (l on theta, l/L^2 on x),
         /// and factorises; with it goes the right-hand side -gradient.</summary>
-        /// <param name="onlyPositive">Ends at the first eigenvalue that is not: gradient and y are incomplete.</param>
+        /// <param name="onlyPositive">Ends at the first eigenvalue that is not, unless pieces that are not neighbours
+        /// are coupled: gradient and y are incomplete.</param>
         /// <returns>The number of eigenvalues that are not positive: 0 when the energy is convex here.</returns>
         public int Factorise(EnergyTerm[] terms, RodShape shape, RodVector[] gradient, RodVector[] y, double shift,
             bool onlyPositive = false)
         {
             int last = _count - 1;
+            _columns.Clear();
+            foreach (EnergyTerm term in terms)
+            {
+                term.AddColumns(shape, _columns);
+            }
+            onlyPositive &= _columns.Count == 0;
             y[0] = default;
             gradient[0] = default;
             _block[0] = default;
@@ -122,7 +137,7 @@ namespace Guidewire.Core
                 }
                 from = to;
             }
-            return negative;
+            return _columns.Count == 0 ? negative : negative + _columns.Factorise(this);
         }
 
         private int Eliminate(RodVector[] y, int from, int to)
@@ -168,6 +183,13 @@ namespace Guidewire.Core
         /// <summary>Computes y := A^-1 y with the current factorisation.</summary>
         public void Solve(RodVector[] y)
         {
+            SolveWithout(y);
+            Correct(y);
+        }
+
+        /// <summary>The same without what couples pieces that are not neighbours.</summary>
+        public void SolveWithout(RodVector[] y)
+        {
             y[_count] = default;
             for (int i = 0; i < _count; i++)
             {
@@ -178,12 +200,42 @@ namespace Guidewire.Core
                         ref y[_count + 2 + i]);
                 }
             }
-            Back(y);
+            BackWithout(y);
+        }
+
+        /// <summary>The same of four right-hand sides, which begin at a block, without twist angles.</summary>
+        /// <param name="from">The first block that is not 0.</param>
+        /// <param name="lowest">The first one whose solution counts.</param>
+        public void SolveWithout(RodVector4[] y, int from, int lowest)
+        {
+            for (int i = from; i < _count; i++)
+            {
+                RodVector4.Forward(_block[i], ref y[i], ref y[i + 1]);
+            }
+            y[_count] = default;
+            for (int i = _count - 1; i >= lowest; i--)
+            {
+                RodVector4.Backward(_block[i], ref y[i], y[i + 1]);
+            }
         }
 
         /// <summary>Does the second half of <see cref="Solve"/>, after a <see cref="Factorise"/> that took y
         /// along.</summary>
         public void Back(RodVector[] y)
+        {
+            BackWithout(y);
+            Correct(y);
+        }
+
+        private void Correct(RodVector[] y)
+        {
+            if (_columns.Count > 0)
+            {
+                _columns.Correct(this, y);
+            }
+        }
+
+        private void BackWithout(RodVector[] y)
         {
             y[_count] = default;
             for (int i = _count - 1; i >= 0; i--)
@@ -213,6 +265,10 @@ namespace Guidewire.Core
                 Reflect(ref b.C22, ref v.T2);
                 Reflect(ref b.C33, ref v.T3);
             }
+            if (_columns.Count > 0)
+            {
+                _columns.Reflect(this);
+            }
         }
 
         private static void Reflect(ref double inverse, ref double value)
@@ -221,6 +277,19 @@ namespace Guidewire.Core
             {
                 inverse = -inverse;
                 value = -value;
+            }
+        }
+
+        /// <summary>Takes the fixed directions out of the vectors of an element's two nodes.</summary>
+        public void Hold(int j, ref RodVector node, ref RodVector next)
+        {
+            if (j == 0)
+            {
+                ProjectStart(ref node);
+            }
+            if (j == _count - 2)
+            {
+                ProjectEnd(ref next);
             }
         }
 

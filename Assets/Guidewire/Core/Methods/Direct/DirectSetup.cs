@@ -48,8 +48,25 @@ namespace Guidewire.Core
                 advice = () => BarrierDefaults.Advice(barrier, BarrierDefaults.Of(scene.Rod, new ContactParameters(),
                     scene.Walls, scene.Metres, move));
             }
-            return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice);
+            return new WallTerms(contact, friction, spring, scene.Supports.HasSpring, advice,
+                SelfContactOf(parameters, scene, barrier));
         }
+
+        private static (SelfContact Contact, SelfFriction? Friction)? SelfContactOf(SimulationParameters parameters,
+            MaterialScene scene, in Barrier barrier)
+        {
+            ContactParameters given = parameters.Contact;
+            if (!given.TouchesItself(scene.Walls.Length))
+            {
+                return null;
+            }
+            var contact = new SelfContact(scene.Rod, barrier, scene.Supports.SheathEnd);
+            return (contact, given.SelfFriction > 0.0
+                ? new SelfFriction(contact, scene.Rod, given.SelfFriction, SlipOf(given, scene.Rod)) : null);
+        }
+
+        private static double SlipOf(ContactParameters contact, MaterialRod rod) =>
+            contact.ElasticSlip > 0.0 ? contact.ElasticSlip : FrictionEnergy.ElasticSlipOf(rod);
 
         /// <summary>Sets the coefficients of instruments, and the elastic slip by the rule.</summary>
         /// <param name="friction">Null: there is none.</param>
@@ -59,8 +76,7 @@ namespace Guidewire.Core
             {
                 return;
             }
-            friction.ElasticSlip = parameters.Contact.ElasticSlip > 0.0 ? parameters.Contact.ElasticSlip
-                : FrictionEnergy.ElasticSlipOf(scene.Rod);
+            friction.ElasticSlip = SlipOf(parameters.Contact, scene.Rod);
             CoaxialJoints? coaxial = scene.Supports.Coaxial?.Joints;
             IReadOnlyList<Catheter> catheters = parameters.Scene.Catheters;
             for (int i = 0; coaxial != null && i < catheters.Count; i++)

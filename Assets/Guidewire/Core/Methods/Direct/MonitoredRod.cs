@@ -116,6 +116,21 @@ namespace Guidewire.Core
             _energy.Remesh();
         }
 
+        /// <summary>Whether strands may have come near one another since this was asked last.</summary>
+        public bool MayTouchItself
+        {
+            get
+            {
+                SelfContact? self = Terms.Walls()?.Self;
+                bool may = self == null || self.HadPairs;
+                if (self != null)
+                {
+                    self.HadPairs = false;
+                }
+                return may;
+            }
+        }
+
         /// <summary>The motion.</summary>
         public RodDynamics Dynamics => _dynamics;
 
@@ -284,7 +299,7 @@ namespace Guidewire.Core
 
         private double Time => _dynamics.Time;
 
-        private double Dissipated => Terms.Walls()?.Friction?.Anchors.Dissipated ?? 0.0;
+        private double Dissipated => Terms.Walls()?.Dissipated ?? 0.0;
 
         private void TakeExtremes(double length)
         {
@@ -305,7 +320,7 @@ namespace Guidewire.Core
             {
                 _extremes.WallWork = 0.0 - Terms.Walls()!.Barrier.Lag!.Dissipated;
             }
-            if (Terms.Walls()!.Friction != null)
+            if (Terms.Walls()!.HasFriction)
             {
                 _extremes.TakeFriction(Dissipated - _dissipated, length);
             }

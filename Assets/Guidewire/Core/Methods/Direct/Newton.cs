@@ -56,7 +56,7 @@ namespace Guidewire.Core
         private readonly MaterialRod _rod;
         private readonly RodSupports _supports;
         private readonly EnergyTerm[] _terms;
-        private readonly BarrierEnergy? _barrier;
+        private readonly WallTerms? _walls;
         private readonly ContactMultipliers? _multipliers;
         private readonly bool _hasFriction;
         private readonly int _maxReused;
@@ -76,13 +76,13 @@ namespace Guidewire.Core
             _rod = rodTerms.Rod;
             _supports = rodTerms.Supports;
             _terms = terms;
-            _barrier = rodTerms.Walls()?.Barrier;
-            _multipliers = _barrier?.Multipliers;
-            _hasFriction = rodTerms.Walls()?.Friction != null;
-            _maxReused = _barrier != null ? MaxReusedWithWalls : MaxReusedWithout;
+            _walls = rodTerms.Walls();
+            _multipliers = _walls?.Barrier.Multipliers;
+            _hasFriction = _walls?.HasFriction == true;
+            _maxReused = _walls != null ? MaxReusedWithWalls : MaxReusedWithout;
             _values = new double[terms.Length];
             BalanceRounding = new BalanceRounding(_rod, _supports, rodTerms.Mass,
-                _barrier != null ? OfSpring : 1.0);
+                _walls != null ? OfSpring : 1.0);
             System = new BlockTridiagonal(_rod, _supports);
             Gradient = new RodVector[System.VectorCapacity];
             Direction = new RodVector[System.VectorCapacity];
@@ -96,7 +96,7 @@ namespace Guidewire.Core
             BalanceRounding.Remesh();
             System.Remesh();
             Trial.ElementCount = _rod.ElementCount;
-            _shift = _barrier == null ? 0.0 : _shift;
+            _shift = _walls == null ? 0.0 : _shift;
             SetScales();
         }
 
@@ -165,7 +165,7 @@ namespace Guidewire.Core
         {
             double rounding = BalanceRounding.BeginStage(shape, stageLength);
             _shift = JudgesStep ? FirstShift * _bendForce : _shift;
-            Searches += isSearched && _barrier == null ? 1 : 0;
+            Searches += isSearched && _walls == null ? 1 : 0;
             _multipliers?.Forget();
             double left = double.PositiveInfinity;
             double least = double.PositiveInfinity;
@@ -268,7 +268,7 @@ namespace Guidewire.Core
         /// <summary>Sets another shape, or the same, to a shape moved along the direction.</summary>
         public void Apply(RodShape shape, double scale, RodShape to)
         {
-            if (_barrier != null)
+            if (_walls != null)
             {
                 RodStep.ApplyStraight(shape, Direction, scale, to);
             }
@@ -293,7 +293,7 @@ namespace Guidewire.Core
             Factorisations = snapshot.Serialize(Factorisations);
             KeptSolutions = snapshot.Serialize(KeptSolutions);
             Searches = snapshot.Serialize(Searches);
-            if (_barrier != null)
+            if (_walls != null)
             {
                 SerializeShift(snapshot);
                 Iterations = snapshot.Serialize(Iterations);
@@ -315,7 +315,7 @@ namespace Guidewire.Core
                 left = Math.Max(force, couples / _totalLength);
             }
             // A wire that touches walls has a shorter free length.
-            double parts = _barrier != null && _barrier.Touches ? FreeParts : 1.0;
+            double parts = _walls != null && _walls.Touches ? FreeParts : 1.0;
             return Math.Min(Balance * Math.Max(largest, loads), parts * parts * Tolerance * _softestForce);
         }
 
@@ -363,7 +363,7 @@ namespace Guidewire.Core
         // first these leave the terms of forces that may vanish out; then only those of walls.
         private void FindOtherDirection(RodShape shape, bool dropsGeometricStiffness)
         {
-            if (_hasFriction)
+            if (_hasFriction || _walls?.Self?.Touches == true)
             {
                 System.ReflectNegativePivots(Direction);
                 System.Back(Direction);
@@ -373,7 +373,7 @@ namespace Guidewire.Core
                 }
             }
             DropGeometricStiffness(dropsGeometricStiffness, true);
-            if (_barrier == null || !TryFactorise(shape, 0.0))
+            if (_walls == null || !TryFactorise(shape, 0.0))
             {
                 _shift = Math.Max(0.25 * _shift, MinShift * _bendForce);
                 while (!TryFactorise(shape, _shift) && _shift <= double.MaxValue)
@@ -395,11 +395,11 @@ namespace Guidewire.Core
 
         private void DropGeometricStiffness(bool isAll, bool isOn)
         {
-            if (isAll && _barrier != null)
+            if (isAll && _walls != null)
             {
                 EnergySum.DropGeometricStiffness(_terms, isOn);
             }
-            _barrier?.DropGeometricStiffness(isOn);
+            _walls?.DropGeometricStiffness(isOn);
         }
 
         // The largest step along the direction, at most 1; the turn of an instrument against the one whose tip it

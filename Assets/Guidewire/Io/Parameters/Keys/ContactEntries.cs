@@ -25,6 +25,14 @@ namespace Guidewire.Io
             {
                 Methods = Takers.Only(Solver.Direct),
             },
+            new OptionalSwitchEntry("selfContact", "whether the wire touches itself; null: where it has walls")
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
+            new NumberEntry("selfFriction", "", NumberRange.NotNegative, "friction coefficient of the wire on itself")
+            {
+                Methods = Takers.Only(Solver.Direct),
+            },
             new NumberEntry("collisionMargin", "units", NumberRange.NotNegative, "gap kept beyond the radius")
             {
                 Methods = Takers.Pbd,

@@ -87,7 +87,7 @@ namespace Guidewire.Core.Tests
         [TestCase("{\"obstacles\": [{\"shape\": \"cylinder\", \"point\": [0, 0, 0], \"axis\": [0, 0, 0],"
             + " \"radius\": 1}]}", "axis of length other than 0")]
         [TestCase("{\"endTime\": 5}", "unknown key 'endTime': a run lasts 'maxSimulationSteps' steps of 'timeStep'")]
-        [TestCase("{\"selfContact\": true}", "unknown key 'selfContact': there is no self-contact")]
+        [TestCase("{\"selfCollision\": true}", "unknown key 'selfCollision': it is 'selfContact'")]
         [TestCase("{\"length\": 5}", "did you mean 'guidewireLength'?")]
         [TestCase("{\"radius\": 5}", "did you mean 'sphereRadius'?")]
         [TestCase("{\"radius\": 5, \"solver\": \"xpbd\"}", "did you mean 'wireRadius'?")]

@@ -105,6 +105,10 @@ namespace Guidewire.Core.Tests
                 + " 'startShape': 'helix', 'startRadius': 12, 'integrator': 'esdirk3', 'maxSimulationSteps': 100",
             ["substepUnstable"] = Wire.Replace("direct", "explicit") + ", 'numberRodElements': 10, 'substeps': 1,"
                 + " 'maxSimulationSteps': 1",
+            ["strandPassages"] = "'guidewireLength': 100, 'numberRodElements': 6, 'sphereRadius': 0.1, 'start':"
+                + " {'positions': [[3, -9, 1], [3, 10, 1], [10, 20, 1], [20, 10, 0], [10, 0, 0], [1, 0, 0],"
+                + " [-10, 0, 0]]}, 'displacement': 0, 'drive': 'displace', 'displacementDirection': [0, 0, -1],"
+                + " 'displacementPerStep': 6, 'maxSimulationSteps': 2, 'deltaThreshold': 0",
             ["passages"] = Plane + ", 'displacementPerStep': 20, 'maxSimulationSteps': 3",
             ["penetration"] = Plane + ", 'displacementPerStep': 0.9, 'maxSimulationSteps': 12",
             ["length"] = "'stretchStiffness': 0.001, 'displacement': 30, 'maxSimulationSteps': 3, 'deltaThreshold': 0",

@@ -56,7 +56,7 @@ namespace Guidewire.Core
                 _starts = start.Catheters.Append(start).ToArray();
                 TakeStarts();
             }
-            if (Wire.Walls.Length > 0)
+            if (HasContact)
             {
                 _barrier = FindBarrier();
             }
@@ -186,7 +186,7 @@ namespace Guidewire.Core
         {
             var hub = new SupportSpring(scene.Rod, _limit) { Axis = Axis };
             Hold(scene, hub);
-            WallTerms? walls = Wire.Walls.Length == 0 ? null
+            WallTerms? walls = !HasContact ? null
                 : DirectSetup.WallTermsOf(_parameters, scene, _barrier, hub);
             var terms = new RodTerms(scene.Rod, scene.Supports, _parameters.Scene, walls, Array.Empty<EnergyTerm>());
             terms.CoaxialLoads = Scenes.Length == 1 ? null : new CoaxialLoads(scene.Supports.Coaxial!, Instruments,
@@ -339,6 +339,8 @@ namespace Guidewire.Core
                 throw new ArgumentException(misfit);
             }
         }
+
+        private bool HasContact => Wire.Walls.Length > 0 || _parameters.Contact.TouchesItself(0);
 
         // The nearest and the stiffest of those of all.
         private Barrier FindBarrier()

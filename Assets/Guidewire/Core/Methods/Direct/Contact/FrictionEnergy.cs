@@ -297,7 +297,7 @@ namespace Guidewire.Core
         }
 
         // J^-1(phi) v: how phi changes with a turn v along the element's own axes; the transpose with -phi.
-        private static Vector3d InverseTangent(in Vector3d turn, in Vector3d v)
+        internal static Vector3d InverseTangent(in Vector3d turn, in Vector3d v)
         {
             Vector3d across = Vector3d.Cross(turn, v);
             return v + 0.5 * across

@@ -14,14 +14,18 @@ namespace Guidewire.Core
         /// <param name="friction">Null where no wall has friction.</param>
         /// <param name="holdsStart">Whether a support holds node 0.</param>
         /// <param name="advice">See <see cref="Advice"/>.</param>
+        /// <param name="self">Contact of the wire with itself, with or without friction; null where it has
+        /// none.</param>
         public WallTerms(BarrierEnergy barrier, FrictionEnergy? friction, SupportSpring spring, bool holdsStart,
-            Func<string?>? advice = null)
+            Func<string?>? advice = null, (SelfContact Contact, SelfFriction? Friction)? self = null)
         {
             _advice = advice;
             Barrier = barrier;
             Friction = friction;
             Spring = spring;
             HoldsStart = holdsStart;
+            Self = self?.Contact;
+            SelfFriction = self?.Friction;
             var all = new List<EnergyTerm> { barrier };
             if (friction != null)
             {
@@ -30,6 +34,14 @@ namespace Guidewire.Core
             if (holdsStart)
             {
                 all.Add(spring);
+            }
+            if (Self != null)
+            {
+                all.Add(Self);
+            }
+            if (SelfFriction != null)
+            {
+                all.Add(SelfFriction);
             }
             All = all.ToArray();
         }
@@ -42,6 +54,10 @@ namespace Guidewire.Core
             if (former.Friction != null)
             {
                 Friction?.Anchors.Take(former.Friction.Anchors, node, elementCount);
+            }
+            if (former.SelfFriction != null)
+            {
+                SelfFriction?.Take(former.SelfFriction, node, elementCount);
             }
             if (former.Barrier.Lag != null)
             {
@@ -58,6 +74,44 @@ namespace Guidewire.Core
         /// <summary>Friction; null where no wall has friction.</summary>
         public FrictionEnergy? Friction { get; }
 
+        /// <summary>Contact of the wire with itself; null where it has none.</summary>
+        public SelfContact? Self { get; }
+
+        /// <summary>Friction between the wire's strands; null where it has none.</summary>
+        public SelfFriction? SelfFriction { get; }
+
+        /// <summary>Whether any contact has friction.</summary>
+        public bool HasFriction => Friction != null || SelfFriction != null;
+
+        /// <summary>Whether the wire touches anything in the shape last evaluated.</summary>
+        public bool Touches => Barrier.Touches || Self?.Touches == true;
+
+        /// <summary>What friction has turned into heat so far, J.</summary>
+        public double Dissipated => (Friction?.Anchors.Dissipated ?? 0.0) + (SelfFriction?.Dissipated ?? 0.0);
+
+        /// <summary>Friction takes over normal forces and normals from a shape.</summary>
+        public void Lag(RodShape shape)
+        {
+            Friction?.Lag(shape);
+            SelfFriction?.Lag(shape);
+        }
+
+        /// <summary>Contacts leave out the part of their second derivatives that is proportional to their
+        /// force.</summary>
+        public void DropGeometricStiffness(bool isOn)
+        {
+            Barrier.DropGeometricStiffness(isOn);
+            Self?.DropGeometricStiffness(isOn);
+        }
+
+        /// <summary>Writes or restores what contacts keep from step to step, for a <see cref="StepStart"/>.</summary>
+        public void SerializeStep(Snapshot snapshot)
+        {
+            Friction?.Anchors.Serialize(snapshot);
+            SelfFriction?.SerializeAnchors(snapshot);
+            Barrier.Lag?.Serialize(snapshot);
+        }
+
         /// <summary>The spring; without effect where nothing holds node 0.</summary>
         public SupportSpring Spring { get; }
 
@@ -68,17 +122,19 @@ namespace Guidewire.Core
         public override EnergyTerm[] All { get; }
 
         /// <inheritdoc/>
-        public override double FrictionStored => Friction == null ? 0.0 : Friction.Anchors.StoredEnergy;
+        public override double FrictionStored => (Friction == null ? 0.0 : Friction.Anchors.StoredEnergy)
+            + (SelfFriction?.StoredEnergy ?? 0.0);
 
         /// <inheritdoc/>
         public override void AddFriction(RodShape shape, RodVector[] gradient)
         {
             var measured = default(GradientMeasures);
             Friction?.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
+            SelfFriction?.AddGradient(shape, gradient, 0, shape.ElementCount + 1, ref measured);
         }
 
         /// <inheritdoc/>
-        public override double StoredEnergy(RodShape shape) => Barrier.Stored(shape);
+        public override double StoredEnergy(RodShape shape) => Barrier.Stored(shape) + (Self?.Value(shape) ?? 0.0);
 
         /// <inheritdoc/>
         public override Vector3d SupportForce(RodShape shape) => HoldsStart ? Spring.Force(shape) : Vector3d.Zero;
@@ -87,12 +143,15 @@ namespace Guidewire.Core
         /// how far walls lag behind, where both have such walls and as many elements.</summary>
         public override void SerializeFriction(Snapshot snapshot)
         {
-            snapshot.Section(Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count,
+            string key = Friction == null ? "no friction" : "friction at " + Friction.Anchors.Count;
+            snapshot.Section(SelfFriction == null ? key : key + " and of the wire on itself",
                 snapshot =>
                 {
                     Friction?.Anchors.Serialize(snapshot);
+                    SelfFriction?.SerializeAnchors(snapshot);
                     WallLag.SerializeOptional(Barrier.Lag, snapshot);
                 });
+
         }
 
         /// <summary>Adds minus the force of the walls on the wire.</summary>

@@ -221,14 +221,14 @@ namespace Guidewire.Core
                 failure = _walls.Begin(_shape, _predicted, start, end);
             }
             // Friction has the normal forces of a first solution.
-            FrictionEnergy? friction = _terms.Walls()?.Friction;
-            for (int left = friction == null ? 0 : 1; left >= 0 && failure == null; left--)
+            WallTerms? contact = _terms.Walls();
+            for (int left = contact?.HasFriction == true ? 1 : 0; left >= 0 && failure == null; left--)
             {
                 double first = Math.Min(FirstTolerances, Math.Max(1.0, FirstAccuracy / Newton.Tolerance));
                 failure = Newton.Minimise(_shape, h, _loads, isSearched: _walls != null, left > 0 ? first : 1.0);
                 if (left > 0 && failure == null)
                 {
-                    friction!.Lag(_shape);
+                    contact!.Lag(_shape);
                 }
             }
             if (failure != null && _walls == null)
@@ -262,8 +262,7 @@ namespace Guidewire.Core
             {
                 term.Serialize(snapshot);
             }
-            _terms.Walls()?.Friction?.Anchors.Serialize(snapshot);
-            _terms.Walls()?.Barrier.Lag?.Serialize(snapshot);
+            _terms.Walls()?.SerializeStep(snapshot);
             SerializePast(snapshot);
             Damping?.Serialize(snapshot);
             Reactions.SerializeStep(snapshot);

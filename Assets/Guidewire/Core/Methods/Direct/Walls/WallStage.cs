@@ -44,7 +44,7 @@ namespace Guidewire.Core
             Vector3d lag = spring.LagOf(shape);
             spring.Position = start;
             spring.ReleaseForce = _terms.Release?.SheathForceAtStart ?? 0.0;
-            _terms.Walls()!.Friction?.Lag(shape);
+            _terms.Walls()!.Lag(shape);
             PlaceEnd(shape, end);
             int parts = _prediction.Begin(shape, start - lag);
             for (int k = 1; k <= parts; k++)
@@ -55,7 +55,7 @@ namespace Guidewire.Core
                 double fraction = EnergySum.MaxStep(_all, shape, _direction, 1.0);
                 if (!(fraction > 0.0) && k == 1)
                 {
-                    return "the wire's surface touches a wall at the start of the step";
+                    return "the wire's surface touches a wall or itself at the start of the step";
                 }
                 RodStep.ApplyStraight(shape, _direction, fraction, shape);
                 if (fraction < 1.0)

@@ -129,28 +129,29 @@ namespace Guidewire.Core.Tests
             inertia.BeginStep(shape, 1.0);
         }
 
-        private static double[,] Assembled(EnergyTerm[] terms, RodShape shape, MaterialRod rod, double shift)
+        internal static double[,] Assembled(EnergyTerm[] terms, RodShape shape, MaterialRod rod, double shift,
+            int n = N)
         {
-            var blocks = new RodBlock[N + 2];
+            var blocks = new RodBlock[n + 2];
             foreach (EnergyTerm term in terms)
             {
-                term.AddBlocks(shape, blocks, new RodVector[N + 2], 0, N + 1);
+                term.AddBlocks(shape, blocks, new RodVector[n + 2], 0, n + 1);
             }
-            double[,] h = DenseMatrix.From(blocks, N + 1);
-            for (int i = 0; i < 6 * (N + 1); i++)
+            double[,] h = DenseMatrix.From(blocks, n + 1);
+            for (int i = 0; i < 6 * (n + 1); i++)
             {
-                double l = rod.Length[Math.Min(i / 6, N - 1)];
+                double l = rod.Length[Math.Min(i / 6, n - 1)];
                 h[i, i] += shift * (i % 6 < 3 ? l / (rod.TotalLength * rod.TotalLength) : l);
             }
             return h;
         }
 
         /// <summary>Columns: the unit vectors of all unknowns that the supports leave free.</summary>
-        private static double[,] FreeDirections(RodSupports supports)
+        internal static double[,] FreeDirections(RodSupports supports, int n = N)
         {
-            int order = 6 * (N + 1);
+            int order = 6 * (n + 1);
             int end = supports.Distal == DistalEnd.Free ? 3 : supports.Distal == DistalEnd.Sliding ? 1 : 0;
-            int inner = 6 * N - 3;
+            int inner = 6 * n - 3;
             var basis = new double[order, inner + end];
             for (int k = 0; k < inner; k++)
             {
@@ -160,19 +161,19 @@ namespace Guidewire.Core.Tests
             {
                 for (int k = 0; k < 3; k++)
                 {
-                    basis[6 * N + k, inner + k] = 1.0;
+                    basis[6 * n + k, inner + k] = 1.0;
                 }
             }
             else if (end == 1)
             {
-                basis[6 * N, inner] = supports.SlidingAxis.X;
-                basis[6 * N + 1, inner] = supports.SlidingAxis.Y;
-                basis[6 * N + 2, inner] = supports.SlidingAxis.Z;
+                basis[6 * n, inner] = supports.SlidingAxis.X;
+                basis[6 * n + 1, inner] = supports.SlidingAxis.Y;
+                basis[6 * n + 2, inner] = supports.SlidingAxis.Z;
             }
             return basis;
         }
 
-        private static double[,] Congruent(double[,] h, double[,] basis)
+        internal static double[,] Congruent(double[,] h, double[,] basis)
         {
             int order = basis.GetLength(0);
             int free = basis.GetLength(1);
@@ -201,7 +202,7 @@ namespace Guidewire.Core.Tests
             return result;
         }
 
-        private static double[] Project(double[,] basis, double[] v, double sign)
+        internal static double[] Project(double[,] basis, double[] v, double sign)
         {
             var result = new double[basis.GetLength(1)];
             for (int j = 0; j < result.Length; j++)
