@@ -128,7 +128,7 @@ RECORDED = sorted(file.name.removesuffix("-demonstration.json") for file in DATA
 @pytest.mark.parametrize("task", RECORDED if FULL else ["artery"])
 def test_demonstrations_reach_their_targets_to_the_same_bits(task):
     drives = RecordedDrive.load_all(DATA / f"{task}-demonstration.json")
-    assert len(drives) >= 9
+    assert len(drives) >= (6 if task == "carotid" else 10)
     with Environment(task) as own:
         for drive in drives if FULL else drives[:2]:
             assert drive.source.startswith(("by keys", "by the policy retry")) and len(drive.calls) > 10
