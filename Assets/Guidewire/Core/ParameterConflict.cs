@@ -103,7 +103,8 @@ namespace Guidewire.Core
                 && !HasHollowTooWide(p.Material)
                 && (shaped.To > p.Scene.GuidewireLength
                     || Mandrel.Find(shaped, p.Material, p.Scene.MetresPerUnit) == null),
-                "a part of the wire whose core yields (material steel, annealedSteel or platinum, or a yieldStress), and "
+                "a part of the wire whose core yields (material steel, annealedSteel or platinum, or a "
+                + "yieldStress), and "
                 + "an angle that a mandrel can leave there"),
             new Rule("innerRadius", p => p.IsMaterial && p.Material.InnerRadius >= p.Material.WireRadius,
                 "less than wireRadius"),

@@ -66,7 +66,8 @@ namespace Guidewire.Core
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "of {0:G4} turns between its clamps the wire has lost {1}: it has formed loops and passed through "
-                + "itself; selfContact keeps strands apart; fewer turns (distalRotation, twistPerStep, those of a start) "
+                + "itself; selfContact keeps strands apart; fewer turns (distalRotation, twistPerStep, "
+                + "those of a start) "
                 + "or a pull (axialForce, distalDisplacement) keep it straight",
                 Math.Abs(turn + _start) / (2.0 * Math.PI), Math.Abs(lost));
         }

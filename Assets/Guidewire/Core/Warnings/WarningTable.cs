@@ -204,7 +204,8 @@ namespace Guidewire.Core
         /// <summary>A core strained beyond its law.</summary>
         public static readonly WarningKind BeyondLaw = AtEnd("beyondLaw",
             "the core was strained by up to *p:0.0* %, *d:G4* mm from the hub: beyond the range of its material's law",
-            "`coreStrain` of `extremes`: nitinol beyond its plateau, steel near fracture ([materials.md](materials.md))");
+            "`coreStrain` of `extremes`: nitinol beyond its plateau, steel near fracture "
+            + "([materials.md](materials.md))");
 
         /// <summary>A linear core strained beyond the elastic range of metals.</summary>
         public static readonly WarningKind BeyondElastic = Add("beyondElastic", WarningPlace.End, true,

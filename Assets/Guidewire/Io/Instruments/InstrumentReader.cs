@@ -22,7 +22,8 @@ namespace Guidewire.Io
             JObject read = content == null ? JsonText.ReadObject(file)
                 : JsonText.ParseObject(PlainFile.Decode(content), file);
             var fields = new InstrumentFields(file, "", read, "title", "kind", "diameter", "innerDiameter", "length",
-                "coreDiameter", "material", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density", "friction",
+                "coreDiameter", "material", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density",
+                    "friction",
                 "distalSections", "tip", "radiopaque");
             fields.Text("title");
             bool isHollow = fields.Word("kind", Kinds) == "catheter";

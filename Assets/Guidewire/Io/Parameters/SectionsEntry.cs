@@ -49,7 +49,8 @@ namespace Guidewire.Io
                         + (number.MayBeZero ? " >= 0" : ""));
                 }
                 return "a list of {\"from\", \"to\" (units, from < to), and any of \"numberRodElements\" (a whole"
-                    + " number from 1 to 1000000), \"restCurvature\" (rad/m), \"material\" (a word), \"plateau\", and, > 0, "
+                    + " number from 1 to 1000000), \"restCurvature\" (rad/m), \"material\" (a word), "
+                    + "\"plateau\", and, > 0, "
                     + string.Join(", ", words) + "}";
             }
         }
@@ -58,7 +59,8 @@ namespace Guidewire.Io
         {
             get
             {
-                var names = new List<string> { "from", "to", "numberRodElements", "restCurvature", "material", "plateau" };
+                var names = new List<string> { "from", "to", "numberRodElements", "restCurvature", "material",
+                    "plateau" };
                 names.AddRange(Array.ConvertAll(Numbers, number => number.Key));
                 return names;
             }

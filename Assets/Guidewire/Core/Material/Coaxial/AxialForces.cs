@@ -58,7 +58,8 @@ namespace Guidewire.Core
         private int N => _joints.ElementCount;
 
         /// <summary>The chain has other elements, without loads, and no tip bears anything until the next
-        /// <see cref="BeginStep"/>: masses and what else is taken of their lengths does not depend on the past.</summary>
+        /// <see cref="BeginStep"/>: masses and what else is taken of their lengths does not depend on the
+        /// past.</summary>
         public void Remesh()
         {
             ClearLoads();
