@@ -57,9 +57,8 @@ namespace Guidewire.Core
         // Elements.
         private int N => _joints.ElementCount;
 
-        /// <summary>The chain has other elements, without loads, and no tip bears anything until the next
-        /// <see cref="BeginStep"/>: masses and what else is taken of their lengths does not depend on the
-        /// past.</summary>
+        /// <summary>The chain has other elements, without loads, and no tip bears anything until <see
+        /// cref="BeginStep"/>: so masses, and what else is taken of the lengths, do not depend on the past.</summary>
         public void Remesh()
         {
             ClearLoads();

@@ -16,7 +16,7 @@ namespace Guidewire.Core
     {
         private const double Close = 0.02;      // of the limit
         private const int MaxTrials = 24;
-        private const int MaxRefined = 6;       // of them while what has no more than the limit lies beyond a jump
+        private const int MaxRefined = 6;       // of them next to a jump, beyond which the force is allowed
         private const double Near = 1.0 / 64.0; // of the shortest displacement: the first one from what was found last
         private const double Growth = 4.0;      // of it from one trial to the next
         private const double Same = 1e-6;       // of what is asked: it is as before
@@ -110,7 +110,9 @@ namespace Guidewire.Core
                 _beyond = _allowed.IsMade ? _beyond : _asked > moved ? _thrust : _tension;
                 _allowed = trial;
             }
-            _refined += _allowed.IsMade && _allowed.Force * (_asked - _allowed.Moved) < 0.0 ? 1 : 0;
+            // Wider apart the two may have a steep force between them, such as that of friction that turns.
+            _refined += _allowed.IsMade && _beyond.IsMade && Math.Abs(_beyond.Moved - _allowed.Moved) <= _shortest
+                && _allowed.Force * (_asked - _allowed.Moved) < 0.0 ? 1 : 0;
             if (_trials++ >= MaxTrials || _refined > MaxRefined || isOver)
             {
                 return EndAtBest(moved, around);

@@ -59,6 +59,26 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void RecordsThatAreRead_LeaveTheNextStepsTheirBits([Values] Kind kind)
+        {
+            SimulationParameters parameters = Scene(kind);
+            Simulation read = Simulation.Create(parameters);
+            SimulationParameters same = Scene(kind);
+            Simulation unread = Simulation.Create(same);
+            for (int k = 0; k < Before; k++)
+            {
+                Move(read, parameters, 1, 0.3, 0.1);
+                Move(unread, same, 1, 0.3, 0.1);
+                read.Hub();
+                read.Coaxial();
+                read.Stress();
+                Assert.That(ForceDifference(read, Simulation.Restore(parameters, read.Save())), Is.Zero, "restored");
+            }
+            Assert.That(Distance(read, unread), Is.Zero);
+            Assert.That(ForceDifference(read, unread), Is.Zero);
+        }
+
+        [Test]
         public void RunAtRest_StaysWhereItIs([Values] Kind kind)
         {
             SimulationParameters parameters = Scene(kind);
