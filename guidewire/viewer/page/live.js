@@ -352,6 +352,7 @@ export class Live {
     const answer = await this.report();
     if (answer === "start anew") this.send({ do: "reset" });
     else if (answer === "go on") this.pause(false);
+    else if (answer === "all missions") byId("gallery").click();
   }
 
   /** Shows what the case came to. @returns {Promise<string>} what is to be done then */
@@ -365,7 +366,8 @@ export class Live {
     const judged = this.mission && isDone ? judge(this.mission, score, seconds, this.injector.injected) : null;
     if (this.mission && judged) keepBest(this.mission.file, judged.result);
     return showReport(rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,
-      contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }), isDone ? `${name} reached` : "report", isDone ? ["start anew", "go on"] : ["close"]);
+      contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }), isDone ? `${name} reached` : "report", isDone
+      ? ["start anew", "go on", ...(this.mission ? ["all missions"] : [])] : ["close"]);
   }
 
   /** The case as it is called. */

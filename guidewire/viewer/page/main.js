@@ -59,6 +59,7 @@ const showHelp = (/** @type {boolean} */ isShown) => {
     hasPaused = isShown && !shown.status?.isPaused;
   }
   byId("help").setAttribute("aria-expanded", String(isShown));
+  if (isShown) /** @type {HTMLElement} */ (keys.lastElementChild).focus();
 };
 keys.replaceChildren(
   make("h2", {}, what.isLive ? "You steer the wire at its hub" : "A replay"),
