@@ -43,6 +43,7 @@ _TEXTS = (".json", ".csv")
 _PIXELS = 320
 _PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what belongs to the vessel of a scene
 _GROUND, _TISSUE, _METAL, _GOAL = (10, 14, 19), (196, 62, 52), (255, 226, 160), (62, 230, 160)
+_TURNS = (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)    # of the C-arm, degrees
 _BACKGROUND = 0.75    # of a picture, as of Session.picture
 _SEEN = 0.8    # part of its file's drive after which a scene is pictured
 _POLICY = ("default-src 'self'; script-src 'self' blob: 'wasm-unsafe-eval'; img-src 'self' data:; object-src 'none'; "
@@ -179,8 +180,8 @@ def _picture(session: Session) -> Image.Image:
         low, high = places.min(axis=0), places.max(axis=0)
         unit = 1e3 * session.parameters.get("metresPerUnit", 1e-3)
         axes = described.get("patient") or {"left": [0.0, 1.0, 0.0], "chest": [1.0, 0.0, 0.0], "head": [0.0, 0.0, 1.0]}
-        turns = {lao: math.cos(math.radians(lao)) * np.array(axes["left"])
-                 - math.sin(math.radians(lao)) * np.array(axes["chest"]) for lao in (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)}
+        left, chest = np.array(axes["left"]), np.array(axes["chest"])
+        turns = {lao: math.cos(math.radians(lao)) * left - math.sin(math.radians(lao)) * chest for lao in _TURNS}
         lao, right = max(turns.items(), key=lambda turn: np.ptp(places @ turn[1]))
         view |= {"centre": (0.5 * (low + high)).tolist(), "lao": lao,
                  "field_of_view": float(1.7 * unit * np.max(high - low))}
