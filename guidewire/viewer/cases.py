@@ -5,10 +5,12 @@ from __future__ import annotations
 from dataclasses import dataclass
 from pathlib import Path
 
+from guidewire.prepare import ROOT
+
 
 @dataclass(frozen=True)
 class Mission:
-    """A scene of params/missions with something to achieve. Its own drive reaches the target, as a test says.
+    """A scene with something to achieve. Its own drive reaches the target, as a test says.
 
     Attributes
     ----------
@@ -21,13 +23,19 @@ class Mission:
     par: int
 
 
-MISSIONS = {    # in the order of their difficulty
-    "first-branch": Mission("Into the artery", "Push the wire past the fork and into the ring.", 12),
-    "other-branch": Mission("The other branch", "Turn the bent tip before the fork, then push.", 15),
-    "left-arm": Mission("To the left arm", "Bring an angled catheter up the aorta into the left subclavian artery.", 12),
-    "siphon-wire": Mission("Through the siphon", "Lead a thin wire through the bends of a carotid siphon.", 20),
-    "siphon-catheter": Mission("With a microcatheter", "Wire first, microcatheter after it: the key I changes hands.", 20),
-    "carotid": Mission("Catheter, then wire", "Point the catheter at the left carotid, and send the wire into it.", 45),
+MISSIONS = {    # by their files in the repository, in the order of their difficulty
+    "params/missions/first-branch.json": Mission(
+        "Into the artery", "Push the wire past the fork and into the ring.", 12),
+    "params/missions/other-branch.json": Mission(
+        "The other branch", "Turn the bent tip before the fork, then push.", 15),
+    "guidewire/env/data/missions/left-arm.json": Mission(
+        "To the left arm", "Bring an angled catheter up the aorta into the left subclavian artery.", 12),
+    "guidewire/env/data/missions/siphon-wire.json": Mission(
+        "Through the siphon", "Lead a thin wire through the bends of a carotid siphon.", 20),
+    "guidewire/env/data/missions/siphon-catheter.json": Mission(
+        "With a microcatheter", "Wire first, microcatheter after it: the key I changes hands.", 20),
+    "guidewire/env/data/missions/carotid.json": Mission(
+        "Catheter, then wire", "Point the catheter at the left carotid, and send the wire into it.", 45),
 }
 
 SCENES = {    # of params: title and sentence
@@ -42,10 +50,15 @@ SCENES = {    # of params: title and sentence
 }
 
 
+def mission_of(file: Path) -> Mission | None:
+    """Return what there is to achieve in a shipped scene, or None."""
+    return next((mission for path, mission in MISSIONS.items() if (ROOT / path).resolve() == file.resolve()), None)
+
+
 def title_of(file: Path) -> str:
     """Return a parameter file as a case is called: by its place where its own name says nothing."""
-    if file.stem in MISSIONS:
-        return MISSIONS[file.stem].title
+    if mission := mission_of(file):
+        return mission.title
     if file.stem in SCENES:
         return SCENES[file.stem][0]
     name = file.resolve().parent.name if file.stem == "scene" else file.stem

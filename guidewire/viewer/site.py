@@ -29,7 +29,7 @@ from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building, checking
 from guidewire.runs.key_table import read_key_table
 from guidewire.sessions.session import Session, SessionError, session_of
-from guidewire.viewer.cases import MISSIONS, SCENES, Mission, title_of
+from guidewire.viewer.cases import MISSIONS, SCENES, Mission, mission_of, title_of
 from guidewire.viewer.export import modules_of, pack, page_of_packed
 from guidewire.viewer.live import rules
 from guidewire.viewer.parts import PAGE, three
@@ -43,6 +43,7 @@ _TEXTS = (".json", ".csv")
 _PIXELS = 320
 _PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what belongs to the vessel of a scene
 _GROUND, _TISSUE, _METAL, _GOAL = (10, 14, 19), (196, 62, 52), (255, 226, 160), (62, 230, 160)
+_TURNS = (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)    # of the C-arm, degrees
 _BACKGROUND = 0.75    # of a picture, as of Session.picture
 _SEEN = 0.8    # part of its file's drive after which a scene is pictured
 _POLICY = ("default-src 'self'; script-src 'self' blob: 'wasm-unsafe-eval'; img-src 'self' data:; object-src 'none'; "
@@ -83,7 +84,7 @@ def write_site(out: Path, scenes: Sequence[Path], is_compiled_ahead: bool, build
         raise PreparationError(f"{out}: is there already and no site: give another folder")
     checking.check_out(out.parent)
     keys = read_key_table(build_runner())
-    shipped = [ROOT / "params" / f"{name}.json" for name in (*(f"missions/{name}" for name in MISSIONS), *SCENES)]
+    shipped = [ROOT / name for name in (*MISSIONS, *(f"params/{name}.json" for name in SCENES))]
     found = [_read(file) for file in scenes or shipped]
     framework = building.build_browser(is_compiled_ahead, _say)
     partial = out.with_name(out.name + ".partial")
@@ -155,7 +156,8 @@ def _read(file: Path) -> _Scene:
     except SessionError as error:
         raise PreparationError(str(error)) from error
     files = {}
-    is_shipped = (ROOT / "params") in file.resolve().parents
+    mission = mission_of(file)
+    is_shipped = mission is not None or (ROOT / "params") in file.resolve().parents
     base, above = (ROOT, "") if is_shipped else (file.resolve().parent, "params/")
     own = (file.parent / "instruments").glob("*.json")
     for one in (*named, *own):
@@ -164,7 +166,7 @@ def _read(file: Path) -> _Scene:
             raise PreparationError(f"{file}: names {name}: a site takes files of the scene's own folder and below")
         files[above + Path(name).as_posix()] = Path(one)
     _, sentence = SCENES.get(file.stem, ("", ""))
-    return _Scene(next(iter(files)), title_of(file), sentence, files, picture, MISSIONS.get(file.stem))
+    return _Scene(next(iter(files)), title_of(file), sentence, files, picture, mission)
 
 
 def _picture(session: Session) -> Image.Image:
@@ -178,13 +180,15 @@ def _picture(session: Session) -> Image.Image:
         low, high = places.min(axis=0), places.max(axis=0)
         unit = 1e3 * session.parameters.get("metresPerUnit", 1e-3)
         axes = described.get("patient") or {"left": [0.0, 1.0, 0.0], "chest": [1.0, 0.0, 0.0], "head": [0.0, 0.0, 1.0]}
-        turns = {lao: math.cos(math.radians(lao)) * np.array(axes["left"])
-                 - math.sin(math.radians(lao)) * np.array(axes["chest"]) for lao in (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)}
+        left, chest = np.array(axes["left"]), np.array(axes["chest"])
+        turns = {lao: math.cos(math.radians(lao)) * left - math.sin(math.radians(lao)) * chest for lao in _TURNS}
         lao, right = max(turns.items(), key=lambda turn: np.ptp(places @ turn[1]))
-        view |= {"centre": (0.5 * (low + high)).tolist(), "field_of_view": float(1.7 * unit * np.max(high - low)), "lao": lao}
+        view |= {"centre": (0.5 * (low + high)).tolist(), "lao": lao,
+                 "field_of_view": float(1.7 * unit * np.max(high - low))}
     shade = session.picture(**view, vessel="contrast", attenuation=0.0) / (255.0 * _BACKGROUND)
     metal = Image.fromarray(session.picture(**view, vessel="none", attenuation=20.0)).filter(ImageFilter.MinFilter(5))
-    tissue, wire = 1.0 - np.clip(shade, 0.0, 1.0) ** 1.5, 1.0 - np.clip(np.asarray(metal) / (255.0 * _BACKGROUND), 0.0, 1.0)
+    tissue = 1.0 - np.clip(shade, 0.0, 1.0) ** 1.5
+    wire = 1.0 - np.clip(np.asarray(metal) / (255.0 * _BACKGROUND), 0.0, 1.0)
     rgb = np.full((*tissue.shape, 3), _GROUND, dtype=float)
     for part, colour in ((tissue, _TISSUE), (wire, _METAL)):
         rgb += part[..., None] * (np.array(colour) - rgb)

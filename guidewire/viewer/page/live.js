@@ -435,7 +435,7 @@ export class Live {
     const note = byId("note");
     note.classList.toggle("loud", Boolean(isReminded));
     note.textContent = this._back !== null ? "looking back" : outcome ? "ended"
-      : !hand ? "" : isWaiting ? "ready: time runs from the first push" : isReminded ? "paused: nothing moves until \"go on\" (space)" : isPaused ? "paused"
+      : !hand ? "" : isWaiting ? "ready: push to begin" : isReminded ? "paused: nothing moves until \"go on\" (space)" : isPaused ? "paused"
       : isSlow ? `slower than real time: ${brief(rate, 2)} x` : isSteered ? "" : "moved by the recorded drive";
   }
 

@@ -24,6 +24,7 @@ const AT_REST = 200; // ms after which it does not
 const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
 const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
 const STEEPEST = Math.PI / 6; // of the view from the head's side: as far as a C-arm tilts
+const FARTHEST = 1e9; // units: a tip beyond has diverged, and nobody follows it
 const SPREAD = 0.8; // of the half of a picture: so far from its middle the tips of two runs are shown
 const EASE = 0.2; // of the distance that the camera follows in a picture
 
@@ -212,7 +213,8 @@ export class Stage {
 
   /** The middle of the tips of all runs, which every pane shows, and how far they are from it, units. */
   get _tips() {
-    const tips = this._models.map(({ watchedTip }) => new Vector3().fromArray(watchedTip)).filter(({ x }) => Number.isFinite(x));
+    const tips = this._models.map(({ watchedTip }) => new Vector3().fromArray(watchedTip))
+      .filter((tip) => tip.length() < FARTHEST);
     const middle = tips.reduce((sum, tip) => sum.addScaledVector(tip, 1 / tips.length), new Vector3());
     return { middle: tips.length ? middle : new Vector3(NaN, NaN, NaN), spread: Math.max(0, ...tips.map((tip) => tip.distanceTo(middle))) };
   }

@@ -247,7 +247,7 @@ export class Xray {
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
     byId("arm").textContent = `${this.fluoroscopy.angles.join("  ")}\n${Math.round(field ?? 0)} mm${
-      this._patient ? "" : "\nseen as if facing you"}${
+      this._patient ? "" : "\nfront assumed"}${
       this.fluoroscopy.look.vessel === "map" && !this.fluoroscopy.hasMap ? "\nno injection seen from here" : ""}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
       this.beam.seconds.toFixed(1)} s`;
     this._measure(field ?? 1);

@@ -259,7 +259,7 @@ def test_picture_dials_and_buttons_are_where_hands_and_eyes_are(browse, runner_c
     rows = "[...document.querySelectorAll('#keys tr')].filter((one) => one.offsetHeight).map((one) => one.textContent)"
     with serving(tmp_path, SHEATH, with_three=True) as (address, _):
         boxes, labels, helps, wide = browse(["open", address], DRAWN, ["see", BOXES], ["see", text("#pad")],
-                                            ["see", rows],
+                                            ["press", "h"], ["see", rows], ["press", "h"],
                                             ["see", "document.documentElement.scrollWidth"],
                                             ["picture", str(tmp_path / "desk.png")], size=size)["seen"]
     width, height = size

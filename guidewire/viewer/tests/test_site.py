@@ -228,8 +228,7 @@ def test_what_an_address_names_and_is_not_there_is_said_in_the_gallery_and_loadi
 
 @pytest.mark.parametrize("name", MISSIONS)
 def test_each_mission_is_won_by_its_own_drive_within_its_par_time(runner_command, tmp_path, name):
-    file = ROOT / "params" / "missions" / f"{name}.json"
-    subprocess.run([*runner_command, "-parameters", str(file), "-out", str(tmp_path / "run")], check=True,
+    subprocess.run([*runner_command, "-parameters", str(ROOT / name), "-out", str(tmp_path / "run")], check=True,
                    capture_output=True)
     summary = json.loads((tmp_path / "run" / "summary.json").read_text())
     assert summary["outcome"] == "finished" and summary["reliable"]

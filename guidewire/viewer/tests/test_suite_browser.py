@@ -50,7 +50,7 @@ def test_contrast_in_the_shader_is_that_of_the_core(browse, runner_command, tmp_
             " noise: 0, blur: 0}, look);"
             f" viewer.shown.model.recording.at('positions', 0).set({wire.ravel().tolist()}); return {GREY}; }}")
     with serving(tmp_path, scene, with_three=True) as (address, _):
-        seen = browse(["open", address], DRAWN, ["press", " "], PAUSED,
+        seen = browse(["open", address], DRAWN,
                       *(["see", f"({take})({json.dumps(look)})"] for look in LOOKS))["seen"]
     for look, grey, core in zip(LOOKS, seen, cores, strict=True):
         assert np.ptp(core) > 60 and core.min() < 110, "agent is seen, and markers darker"

@@ -142,7 +142,8 @@ def test_a_refused_value_goes_from_its_field_and_axes_tell_their_ends_apart(brow
             "roundUp(0), roundUp(0.0473)])")
     with serving(tmp_path, str(ROOT / "params/insertion.json"), with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["see", "document.getElementById('hint').textContent"],
+            ["open", address], DRAWN, ["press", " "], ["until", "!viewer.shown.status.isPaused"],
+            ["see", "document.getElementById('hint').textContent"],
             ["see", "document.getElementById('settings').open = true"], ["see", enter],
             ["until", "document.getElementById('said').textContent"], ["until", f"Number({field}.value) > 0"],
             ["see", "document.getElementById('said').textContent"], ["see", "viewer.shown.status.isPaused"],
@@ -265,7 +266,7 @@ def test_a_key_puts_the_catheter_into_the_hand_and_each_instrument_has_its_colou
     assert seen[3] == "catheter-angled-5f" and seen[4] == 0
     assert seen[5] == [pytest.approx(0.4445), pytest.approx(5 / 6)]    # of 0.035 in and 5 F
     assert seen[6][1] == pytest.approx([1.0, 0x9D / 255, 0x2E / 255])
-    assert "--set catheters[0].driveFile=steered-1.csv" in seen[8]
+    assert '--set "catheters[0].driveFile=steered-1.csv"' in seen[8]
     assert seen[11] == "wire-of-minecatheter-angled-5f"
     assert is_drawn(tmp_path / "hands.png")
 
