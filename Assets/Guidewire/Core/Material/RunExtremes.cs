@@ -8,6 +8,9 @@ namespace Guidewire.Core
     {
         private const double LeastMetal = 30e9;    // E of a core, Pa, that may be one of metal
 
+        private Action<int, int, double, double, FibreSection>? _takeFibres;    // made once: a step leaves no garbage
+        private FibreBending? _fibres;
+        private double _fibreTime;      // s
         private Vector3d[] _turns = Array.Empty<Vector3d>();      // of the joints, rad
         private double[] _stretch = Array.Empty<double>();        // of the elements, without sign
         private double _curvatureSquared;
@@ -177,17 +180,20 @@ namespace Guidewire.Core
         {
             MaterialLoss = fibres.Loss;
             CoreShare = Larger(CoreShare, 0.0);
-            fibres.Visit(shape, (instrument, node, strain, share, section) =>
-            {
-                if (!(CoreStrain >= strain))
-                {
-                    (CoreStrain, CoreInstrument, CoreTime) = (strain, instrument, time);
-                    CorePlace = fibres.Memory[instrument]!.Stations[node];
-                }
-                CoreShare = Math.Max(CoreShare, share);
-                LawShare = Math.Max(LawShare, strain / section.Law.LargestStrain);
-            });
+            (_fibres, _fibreTime) = (fibres, time);
+            fibres.Visit(shape, _takeFibres ??= TakeFibres);
             (KeptCurvature, KeptPlace) = fibres.LargestKept();
+        }
+
+        private void TakeFibres(int instrument, int node, double strain, double share, FibreSection section)
+        {
+            if (!(CoreStrain >= strain))
+            {
+                (CoreStrain, CoreInstrument, CoreTime) = (strain, instrument, _fibreTime);
+                CorePlace = _fibres!.Memory[instrument]!.Stations[node];
+            }
+            CoreShare = Math.Max(CoreShare, share);
+            LawShare = Math.Max(LawShare, strain / section.Law.LargestStrain);
         }
 
         /// <summary>Takes a strain of an instrument; what is not a number is more than any.</summary>

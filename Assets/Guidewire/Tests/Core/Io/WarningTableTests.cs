@@ -116,8 +116,8 @@ namespace Guidewire.Core.Tests
                 + " 'maxSimulationSteps': 1",
             ["selfOverlap"] = Wire.Replace("clamped", "free").Replace("0.01", "1e-5") + ", 'numberRodElements': 80,"
                 + " 'startShape': 'helix', 'startRadius': 3, 'startTurns': 5.3, 'maxSimulationSteps': 1",
-            ["beyondLaw"] = Wire + ", 'numberRodElements': 100, 'tipMoment': [0.05, 0, 0], 'initialState': 'equilibrium',"
-                + " 'plateau': {'upper': 2e8, 'lower': 1e8, 'strain': 0.002}, 'maxSimulationSteps': 1",
+            ["beyondLaw"] = Wire.Replace("100", "10") + ", 'numberRodElements': 20, 'tipMoment': [0.248, 0, 0],"
+                + " 'material': 'steel', 'initialState': 'equilibrium', 'maxSimulationSteps': 1",
             ["beyondElastic"] = Wire + ", 'numberRodElements': 100, 'tipMoment': [0.1, 0, 0], 'maxSimulationSteps': 1,"
                 + " 'initialState': 'equilibrium'",
             ["driveShortfall"] = Sideways + ", 'maxSimulationSteps': 9",
