@@ -24,7 +24,7 @@ const AT_REST = 200; // ms after which it does not
 const CLOSE_UP = 0.22; // of what the wire passes and the vessel: what a close-up shows
 const LEAVING = 0.25; // of the picture: so far the tip goes from its middle until the camera follows
 const STEEPEST = Math.PI / 6; // of the view from the head's side: as far as a C-arm tilts
-const FARTHEST = 1e9; // units: a tip beyond has diverged, and nobody follows it
+const FARTHEST = 1e9; // units: what is beyond has diverged, and is not looked for
 const SPREAD = 0.8; // of the half of a picture: so far from its middle the tips of two runs are shown
 const EASE = 0.2; // of the distance that the camera follows in a picture
 
@@ -190,7 +190,7 @@ export class Stage {
       for (const all of places) {
         for (let k = 0; k < all.length; k += 3) {
           point.fromArray(all, k);
-          if (Number.isFinite(point.x) && isSeen(point)) box.expandByPoint(point);
+          if (point.length() < FARTHEST && isSeen(point)) box.expandByPoint(point);
         }
       }
     }

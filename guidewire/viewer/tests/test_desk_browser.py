@@ -217,6 +217,23 @@ def test_forces_kinks_and_leaving_the_vessel_are_events_and_attempts_are_counted
     assert follow(EVENTS, frames=with_catheter)["wallForce"] == pytest.approx(0.5)
 
 
+JUDGE = """
+import { judge } from "./missions.js";
+console.log(JSON.stringify(data.cases.map(([score, beam, contrast]) => judge({ par: 10 }, score, beam, contrast))));
+"""
+
+
+def test_stars_are_for_time_for_wall_forces_and_for_radiation_with_contrast():
+    def case(time, points, beam, contrast):
+        return [{"reachedAt": time, "points": points}, beam, contrast]
+
+    cases = [case(10, 90, 10, 10), case(10.1, 90, 10, 10), case(10, 89, 10, 10), case(10, 90, 10.1, 0),
+             case(10, 90, 0, 10.1), case(11, 0, 11, 11)]
+    judged = follow(JUDGE, cases=cases)
+    assert [one["result"]["stars"] for one in judged] == [3, 2, 2, 2, 2, 0]
+    assert judged[0]["text"] == "★★★" and judged[1]["text"] == "★★☆, missed: within 10 s"
+
+
 def test_by_keyboard_alone_and_without_barriers(browse, runner_command, tmp_path):
     """Enter and the space bar press what a keyboard has reached; time stands until the first push."""
     def focus(one):

@@ -52,7 +52,7 @@ def test_a_catheter_is_withdrawn_and_another_one_goes_over_the_wire(browse, runn
     do = hand()
     with serving(tmp_path, BRANCH, with_three=True) as (address, _):
         seen = browse(
-            ["open", address], DRAWN, ["click", "got it"],
+            ["open", address], DRAWN,
             ["see", GAMEPAD if hand is by_gamepad else "0"],
             *do["push"], ["until", f"{HUB} > 0.005"], *do["rest"], *do["next"], ["until", f"{STATUS}.held === 1"],
             *do["open"], ["until", f"{CARD}.open"], ["picture", str(tmp_path / "choose.png")], CHOOSE, *do["do"],

@@ -99,6 +99,7 @@ def test_a_case_is_done_by_fingers_and_by_a_gamepad(browse, runner_command, tmp_
     with serving(tmp_path, near_target(tmp_path), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["see", GAMEPAD] if means == "gamepad" else ["see", "0"],
+            ["touch", ["#fold", 0.5, 0.5]], ["touch", ["#fold"]], ["until", "!document.querySelector('.folded')"],
             ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"{VIEW}.hasMask"],
             *(tap if means == "finger" else button), ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
             ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"!{VIEW}.look.isSubtracted"],
