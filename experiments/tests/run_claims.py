@@ -28,7 +28,8 @@ SUMMARY_KEYS = {
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
-    "axialForceTime", "axialForceDrag", "drag", "axialTorqueTime", "elementForceTime", "driveAsked", "hub",
+    "coreShare", "coreStrain", "coreStrainInstrument", "coreStrainPlace", "coreStrainTime", "keptCurvature", "keptPlace",
+    "materialLoss", "forceError", "slippedFrom", "axialForceTime", "axialForceDrag", "drag", "axialTorqueTime", "elementForceTime", "driveAsked", "hub",
     "lengthInBody", "spheresInBody", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
     "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
     "wallIterations", "halvedSteps", "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque",

@@ -60,7 +60,8 @@ def test_figures_are_those_of_the_log(make, name):
     assert [*drive_claims(scene, summary, positions), *penetration_claims(scene, summary, positions, walls)] == []
     if name not in ALONE:
         assert len(crossings(positions, walls)) == 0
-        assert summary["passages"] == 0
+        # Others than points through walls are pairs of elements that crossed, for which the run says so.
+        assert (summary["passages"] > 0) == any("passed through itself" in line for line in summary["warnings"])
 
 
 @pytest.mark.parametrize("name", ALONE)

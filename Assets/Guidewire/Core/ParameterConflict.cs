@@ -87,16 +87,16 @@ namespace Guidewire.Core
                 "a coreDiameter of at most twice the wireRadius there"),
             new Rule("yieldStress", p => p.Material.YieldStress.HasValue && p.Material.Plateau != null,
                 "null with a plateau: a core has one law"),
-            new Rule("material", p => p.Material.Material != CoreMaterial.None
+            new Rule("material", p => p.Material.Material != CoreMaterial.Linear
                 && (p.Material.YieldStress.HasValue || p.Material.Plateau != null),
-                "\"none\" with a plateau or a yieldStress: the material has a law of its own"),
+                "\"linear\" with a plateau or a yieldStress: the material has a law of its own"),
             new Rule("material", p => p.Method.Solver != Solver.Direct && p.IsMaterial && (p.Material.Plateau != null
-                || p.Material.YieldStress.HasValue || p.Material.Material != CoreMaterial.None),
-                "\"none\", without plateau and yieldStress, with this solver: only direct has laws with a memory"),
+                || p.Material.YieldStress.HasValue || p.Material.Material != CoreMaterial.Linear),
+                "\"linear\", without plateau and yieldStress, with this solver: only direct has laws with a memory"),
             new Rule("fibres", p => p.Material.Fibres == 1 || p.Material.Fibres == 2, "0, or 3 to 16"),
             new Rule("wireSections", p => Array.Exists(SectionsOf(p.Material), section =>
                 (section.YieldStress.HasValue ? 1 : 0) + (section.Plateau != null ? 1 : 0)
-                + (section.Material > CoreMaterial.None ? 1 : 0) > 1),
+                + (section.Material > CoreMaterial.Linear ? 1 : 0) > 1),
                 "one of material, plateau and yieldStress in a section"),
             new Rule("plateau", p => LawProblem(p) != null, p => LawProblem(p)!),
             new Rule("shaped", p => p.IsMaterial && p.Material.Shaped is Shaping shaped && HasStiffness(p)

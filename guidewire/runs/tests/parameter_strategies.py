@@ -104,7 +104,7 @@ def materials(scene: Mapping[str, Any]) -> st.SearchStrategy:
     """Laws of a core, where the rest of the scene allows one."""
     is_free = scene.get("bendLaw", "rotationVector") != "darboux" and not any(
         key.startswith("bendingStiffness") for section in scene.get("wireSections") or [] for key in section)
-    return st.sampled_from(["none", "nitinol", "steel", "platinum"] if is_free else ["none"])
+    return st.sampled_from(["linear", "nitinol", "steel", "platinum"] if is_free else ["linear"])
 
 
 def stiffness_of(key: str) -> Callable[[Mapping[str, Any]], st.SearchStrategy]:

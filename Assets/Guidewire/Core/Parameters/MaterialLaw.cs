@@ -6,7 +6,7 @@ namespace Guidewire.Core
     public enum CoreMaterial
     {
         /// <summary>Elastic at any strain, or what plateau and yieldStress say.</summary>
-        None,
+        Linear,
 
         /// <summary>Superelastic nickel-titanium.</summary>
         Nitinol,
@@ -109,7 +109,7 @@ namespace Guidewire.Core
 
         /// <summary>Gives what is known of a material; null of none.</summary>
         public static MaterialLaw? Find(CoreMaterial? material) =>
-            Named.TryGetValue(material ?? CoreMaterial.None, out MaterialLaw? law) ? law : null;
+            Named.TryGetValue(material ?? CoreMaterial.Linear, out MaterialLaw? law) ? law : null;
 
         /// <summary>Gives the law of a place of a wire; null where it is linear.</summary>
         /// <param name="rings">Of fibres; 0: as the material needs.</param>

@@ -114,7 +114,7 @@ namespace Guidewire.Core
         {
             bool isNew = over.YoungsModulus.HasValue || over.ShearModulus.HasValue || over.Density.HasValue
                 || over.WireRadius.HasValue || over.InnerRadius.HasValue || over.ShearFactor.HasValue
-                || over.Material > CoreMaterial.None;
+                || over.Material > CoreMaterial.Linear;
             MaterialLaw? law = MaterialLaw.Find(over.Material);
             YoungsModulus = over.YoungsModulus ?? law?.YoungsModulus ?? YoungsModulus;
             ShearModulus = over.ShearModulus ?? law?.ShearModulus ?? ShearModulus;

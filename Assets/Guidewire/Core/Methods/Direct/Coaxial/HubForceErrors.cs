@@ -13,6 +13,9 @@ namespace Guidewire.Core
         /// <summary>Fraction of the largest force of any hub, from which on a warning is due.</summary>
         public const double LargeError = 0.05;
 
+        /// <summary>Error below which nothing is said, N: a tenth of the least force that a hand feels.</summary>
+        public const double SmallError = 1e-4;
+
         /// <summary>The same of l sqrt(f/B).</summary>
         public const double LargeElement = 0.5;
 
@@ -66,7 +69,7 @@ namespace Guidewire.Core
         /// <param name="name">What the warning calls the hub.</param>
         public RunWarning? FindWarning(int hub, string name)
         {
-            return Of(hub) <= LargeError * _peak && ElementOf(hub) <= LargeElement ? (RunWarning?)null
+            return Of(hub) <= System.Math.Max(SmallError, LargeError * _peak) && ElementOf(hub) <= LargeElement ? (RunWarning?)null
                 : WarningTable.HubForceError.With(name, Of(hub), _peak, ElementOf(hub));
         }
 
