@@ -20,8 +20,8 @@ namespace Guidewire.Io
         /// catheter.</summary>
         public double? CoreDiameter { get; set; }
 
-        /// <summary>What the core is made of, as key material has it; "none": not known, or linear.</summary>
-        public string Material { get; set; } = "none";
+        /// <summary>What the core is made of, as key material has it; "linear": not known, or linear.</summary>
+        public string Material { get; set; } = "linear";
 
         /// <summary>The length, m.</summary>
         public double Length { get; set; }

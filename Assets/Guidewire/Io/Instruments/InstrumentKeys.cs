@@ -57,9 +57,9 @@ namespace Guidewire.Io
                 {
                     section["coreDiameter"] = Core(core, thickest);
                 }
-                if (instrument.Material != "none" && (piece.IsUniform || piece.Curvature != 0.0))
+                if (instrument.Material != "linear" && (piece.IsUniform || piece.Curvature != 0.0))
                 {
-                    section["material"] = "none";    // of coils and bent tips nobody knows what core they have
+                    section["material"] = "linear";    // of coils and bent tips nobody knows what core they have
                 }
                 sections.Add(section);
             }

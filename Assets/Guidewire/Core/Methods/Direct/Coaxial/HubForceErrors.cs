@@ -69,7 +69,8 @@ namespace Guidewire.Core
         /// <param name="name">What the warning calls the hub.</param>
         public RunWarning? FindWarning(int hub, string name)
         {
-            return Of(hub) <= System.Math.Max(SmallError, LargeError * _peak) && ElementOf(hub) <= LargeElement ? (RunWarning?)null
+            return Of(hub) <= System.Math.Max(SmallError, LargeError * _peak) && ElementOf(hub) <= LargeElement
+                ? (RunWarning?)null
                 : WarningTable.HubForceError.With(name, Of(hub), _peak, ElementOf(hub));
         }
 
