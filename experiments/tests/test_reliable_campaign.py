@@ -106,5 +106,7 @@ def test_a_hub_that_rests_does_not_fall_short_and_large_play_is_not_reliable(liv
     length = float(np.sqrt(12.0 * 2e-4 / bent)) if bent else 0.0
     assert summary["catheters"][0]["playAngle"] == pytest.approx(angle, rel=1e-6)
     is_small = angle <= 15.0 and (angle <= 5.0 or length <= 0.1 * summary["catheters"][0]["overlap"])
-    assert summary["reliable"] == is_small == is_reliable, (angle, length, summary["warnings"])
-    assert len(summary["warnings"]) == (not is_small)
+    assert is_small == is_reliable, (angle, length, summary["warnings"])
+    assert any("of play in the" in line for line in summary["warnings"]) == (not is_small)
+    # Elements of 4 mm are long for a bend of 40/m beyond the tip, for which the run says so.
+    assert summary["reliable"] == (is_small and "is uncertain by" not in summary["reason"])

@@ -18,6 +18,7 @@ from guidewire.runs.tests.parameter_strategies import (
 from guidewire.runs.tests.wrong_values import wrong
 
 EXAMPLE_OF_FITTED = {
+    "material": "steel", "fibres": 4,
     "wireSections": [{"from": 0, "to": 10, "wireRadius": 1e-4}], "startFile": "", "innerRadius": 1e-4,
     "loadTables": {"tipForce": "load_table.csv"}, "driveFile": "", "sheath": {},
     "instrument": "workhorse-0.014",

@@ -130,13 +130,14 @@ def test_a_run_begins_where_the_state_of_another_has_all_instruments():
     with Session(CATHETER, hand=True, **{"vessel.frictionCoefficient": 0.0}) as session:
         session.step(push=[40.0, 20.0], turn=[1.2, -9.0], steps=40)
         state = session.step(push=[0.5, 0.25])
-        whole = [session.step(push=[0.5, 0.25], turn=[0.1, 0.0]) for _ in range(10)]
+        whole = [session.step(push=[0.5, 0.25], turn=[0.1, 0.0]) for _ in range(40)]
     with Session(CATHETER, hand=True, start=state.start(), **{"vessel.frictionCoefficient": 0.0}) as session:
-        parts = [session.step(push=[0.5, 0.25], turn=[0.1, 0.0]) for _ in range(10)]
+        parts = [session.step(push=[0.5, 0.25], turn=[0.1, 0.0]) for _ in range(40)]
+    # A start does not have what tips bear, of which a fourth is taken in each step: the rest goes with 0.75^k.
     differences = [max(np.abs(one.positions - part.positions).max(),
                        np.abs(one.catheters[0].positions - part.catheters[0].positions).max())
                    for one, part in zip(whole, parts)]
-    assert differences[0] < 0.05 and differences[-1] < 1e-4
+    assert differences[0] < 0.2 and differences[20] < 1.1 * 0.75**19 * differences[1] and differences[-1] < 1e-4
     assert parts[-1].hub.insertion == pytest.approx(whole[-1].hub.insertion, abs=1e-12)
     assert parts[-1].catheters[0].turn == pytest.approx(whole[-1].catheters[0].turn, abs=1e-12)
     assert parts[-1].hub.force == pytest.approx(whole[-1].hub.force, abs=1e-6)
