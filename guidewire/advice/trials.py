@@ -49,7 +49,7 @@ def has_walls(scene: Values) -> bool:
 
 def has_law(scene: Values) -> bool:
     """Whether the wire's core gives way or yields."""
-    return scene.get("material", "none") not in ("none", "polymer") or any(
+    return scene.get("material", "linear") not in ("linear", "polymer") or any(
         scene.get(key) is not None for key in ("plateau", "yieldStress"))
 
 
@@ -129,7 +129,7 @@ def parts(scene: Values) -> list[Trial]:
              {"shearFactor": 100.0 * scene["shearFactor"], **_in_sections(scene, _SHEAR, 100.0)}),
             ("drag, left out", _without(scene, "massDamping", 0.0)),
             ("material damping, left out", _without(scene, "materialDamping", 0.0)),
-            ("law of the core, left out", {"material": "none", "plateau": None, "yieldStress": None}
+            ("law of the core, left out", {"material": "linear", "plateau": None, "yieldStress": None}
              if has_law(scene) else None),
             ("rings of fibres, doubled", {"fibres": min(16, 2 * (scene["fibres"] or 4))} if has_law(scene) else None),
             ("fourth-order clamp, left out", _without(scene, "clampRule", "halfElement")),

@@ -2,8 +2,11 @@
 
 from __future__ import annotations
 
+import locale
 import os
 import re
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from guidewire.anatomy.mesh import AnatomyError
@@ -92,6 +95,16 @@ def _crashes(file: Path, kind: str) -> bool:
     return os.WIFSIGNALED(os.waitpid(child, 0)[1])
 
 
+@contextmanager
+def kept_locale() -> Iterator[None]:
+    """Keep the locale of this process: VTK's legacy files set it to C, and text files would be ASCII from then on."""
+    before = locale.setlocale(locale.LC_ALL)
+    try:
+        yield
+    finally:
+        locale.setlocale(locale.LC_ALL, before)
+
+
 def _update(reader, lines: list[str]) -> None:
     """Run a reader; what it complains of is appended to lines, instead of printed."""
     import vtkmodules.vtkCommonCore as core
@@ -101,7 +114,8 @@ def _update(reader, lines: list[str]) -> None:
     core.vtkOutputWindow.SetInstance(window)
     try:
         reader.AddObserver("ErrorEvent", lambda *_: lines.append("VTK cannot read it"))
-        reader.Update()
+        with kept_locale():
+            reader.Update()
     finally:
         core.vtkOutputWindow.SetInstance(before)
     said = [line for line in window.GetOutput().splitlines() if line.strip() and not line.startswith("ERROR")]

@@ -30,7 +30,7 @@ from distributed import Client, Future, KilledWorker, LocalCluster
 from distributed.client import CancelledError
 
 from guidewire.prepare import PreparationError
-from guidewire.runs import runner, whole_files
+from guidewire.runs import process, runner, whole_files
 from guidewire.runs.runner import INTERNAL_ERROR, Answer, Request, Runner
 from guidewire.sweeps import load, store, worker
 from guidewire.sweeps.worker import Job, Runners
@@ -44,7 +44,7 @@ _TO_END = 60.0  # s, for a run that was interrupted
 _POLL_INTERVAL = 5.0  # s, for workers that came or went
 _WITHOUT_WORKERS = 60.0  # s, that a sweep waits for workers to come back
 
-_TRAVELLING = (load, runner, store, whole_files, worker)  # the code that workers elsewhere get with the runs
+_TRAVELLING = (load, process, runner, store, whole_files, worker)  # the code that workers elsewhere get with the runs
 OnAnswer = Callable[[Job, Answer], None]
 
 

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import locale
 import numpy as np
 import pytest
 
@@ -82,7 +83,7 @@ def test_segments_of_a_network_are_lines_from_fork_to_fork(tmp_path: Path, name:
     from vtkmodules.vtkIOLegacy import vtkPolyDataWriter
 
     from guidewire.anatomy.reading import read
-    from guidewire.anatomy.vtk_files import read_by_vtk
+    from guidewire.anatomy.vtk_files import kept_locale, read_by_vtk
     from guidewire.anatomy.vtp import write_vtp
 
     arms = np.array([[0.0, 0.0, -1.0], [0.6, 0.0, 0.8], [-0.6, 0.0, 0.8]])
@@ -96,8 +97,11 @@ def test_segments_of_a_network_are_lines_from_fork_to_fork(tmp_path: Path, name:
     writer = vtkPolyDataWriter()
     writer.SetFileName(str(tmp_path / "a.vtk"))
     writer.SetInputData(data)
-    writer.Write()
+    with kept_locale():
+        writer.Write()
+    before = locale.setlocale(locale.LC_ALL)
     mesh = read(tmp_path / "a.vtk", "mm").mesh
+    assert locale.setlocale(locale.LC_ALL) == before
     assert np.ptp(mesh.vertices[:, 2]) == pytest.approx(19.0, abs=1.0)
     write_vtp(tmp_path / "b.vtp", points, cells, at_points={"MISR": np.ones((len(points), 3))})
     with pytest.raises(AnatomyError, match="MISR has 3 numbers at a point"):
