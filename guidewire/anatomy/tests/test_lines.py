@@ -2,9 +2,9 @@
 
 from __future__ import annotations
 
+import locale
 from pathlib import Path
 
-import locale
 import numpy as np
 import pytest
 
