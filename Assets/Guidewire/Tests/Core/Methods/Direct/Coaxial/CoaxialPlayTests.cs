@@ -31,6 +31,10 @@ namespace Guidewire.Core.Tests
             // No coupling over 0.66 a, and the steepest exit is at the play angle.
             double lost = (shared - energy) / perLength;
             Assert.That(lost / record.PlayLength, Is.EqualTo(0.66).Within(0.02));
+            // Both ends of the overlap lie against the lumen with 2 B_r dk/a.
+            double size = Math.Abs(mismatch);
+            Assert.That(record.FrictionHeld, Is.EqualTo(2.0 * 2.0 * Reduced * size / Math.Sqrt(12.0 * play / size))
+                .Within(1.0).Percent);
             double angle = Math.PI / 180.0 * record.PlayAngle;
             Assert.That(Math.Abs(slope) / angle, Is.EqualTo(1.0).Within(0.02));
             Assert.That(Math.Abs(tip), Is.EqualTo(play).Within(0.01 * play), "apart at the tip");

@@ -100,6 +100,49 @@ namespace Guidewire.Core.Tests
         }
 
         [Test]
+        public void ContactThatEnds_LosesAllThatItHasStored()
+        {
+            FrictionEnergy friction = Create(1e-2, out RodShape shape);
+            friction.EndStep(shape);
+            double stored = friction.Anchors.StoredEnergy;
+            double heat = friction.Anchors.Dissipated;
+            for (int i = 0; i <= N; i++)
+            {
+                shape.X[i] += new Vector3d(0.0, 10.0, 0.0);
+            }
+            friction.Lag(shape);
+            friction.EndStep(shape);
+            Assert.That(stored, Is.GreaterThan(0.0));
+            Assert.That(friction.Anchors.StoredEnergy, Is.Zero);
+            Assert.That(friction.Anchors.Dissipated - heat, Is.EqualTo(stored).Within(1e-12 * stored));
+        }
+
+        [TestCase(0, 2)]
+        [TestCase(2, N)]
+        public void Heat_IsInProportionToTheCoefficientOfTheElementsThatSlide(int from, int to)
+        {
+            double[] heat = Array.ConvertAll(new[] { 0.0, 0.3, 0.6 }, coefficient =>
+            {
+                FrictionEnergy friction = Create(1e-8, out RodShape shape);
+                friction.SetCoefficient(0, N, 0.0);
+                friction.SetCoefficient(from, to, coefficient);
+                friction.Lag(shape);
+                friction.EndStep(shape);
+                double before = friction.Anchors.Dissipated;
+                for (int i = 0; i <= N; i++)
+                {
+                    shape.X[i] += new Vector3d(0.0, 0.0, 0.05);
+                }
+                friction.Lag(shape);
+                friction.EndStep(shape);
+                return friction.Anchors.Dissipated - before;
+            });
+            Assert.That(heat[0], Is.Zero);
+            Assert.That(heat[1], Is.GreaterThan(0.0));
+            Assert.That(heat[2] / heat[1], Is.EqualTo(2.0).Within(1e-5), "1e-8 of a way of 0.05 is stored");
+        }
+
+        [Test]
         public void Anchors_GoBack_ToWhereTheyWereSaved()
         {
             FrictionEnergy friction = Create(1e-2, out RodShape shape);

@@ -155,6 +155,41 @@ namespace Guidewire.Core.Tests
             Assert.That(run.IsReliable, Is.True, string.Join("; ", run.Warnings));
         }
 
+        // The joint at a border has the mean compliance of both sections, and the thicker one is strained more there
+        // than
+        // the thin one anywhere.
+        [TestCase(4.0, 1.0)]
+        [TestCase(1.0, 4.0)]
+        public void JointBetweenSections_IsStrainedByTheThickerOne(double first, double second)
+        {
+            const double radius = 1e-4;
+            const double couple = 1e-6;
+            SimulationParameters parameters = Rods.Clamped(60, Solver.Direct, 1e-3, 0);
+            parameters.Scene.GuidewireLength = 60.0;
+            parameters.Material.WireRadius = radius * first;
+            parameters.Material.Sections = new[] { new WireSection { From = 30.0, To = 60.0,
+                WireRadius = radius * second } };
+            parameters.Scene.TipMoment = new Vector3d(couple, 0.0, 0.0);
+            parameters.Scene.InitialState = InitialState.Equilibrium;
+            Simulation run = Simulation.Create(parameters);
+            double bend = parameters.Material.YoungsModulus * Math.PI * Math.Pow(radius, 4) / 4.0;
+            double atBorder = 0.5 * couple * (1.0 + 1.0 / 256.0) / bend;
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Converged), run.Reason);
+            Assert.That(run.Report()!.Extremes!.Strain, Is.EqualTo(4.0 * radius * atBorder).Within(0.1).Percent);
+        }
+
+        [Test]
+        public void TimeOfTheLargestForce_IsThatOfAPullToo()
+        {
+            var extremes = new RunExtremes();
+            extremes.TakeHub(1.0, -3.0, 1.0, 0.0);
+            extremes.TakeHub(-2.0, 2.0, 2.0, 0.0);
+            extremes.TakeHub(-1.5, 1.0, 3.0, 0.0);
+            Assert.That(extremes.AxialForce, Is.EqualTo(2.0));
+            Assert.That(extremes.AxialForceTime, Is.EqualTo(2.0));
+            Assert.That(extremes.AxialTorqueTime, Is.EqualTo(1.0));
+        }
+
         [Test]
         public void Extremes_GoOnWithTheRun()
         {
