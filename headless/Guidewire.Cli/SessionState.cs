@@ -12,7 +12,8 @@ namespace Guidewire.Cli
     internal sealed class SessionState
     {
         private static readonly Quantity[][] Parts =
-            Array.ConvertAll((StatePart[])Enum.GetValues(typeof(StatePart)), part => RowsOf(Quantities.OfWire, part));
+            Array.ConvertAll(new[] { StatePart.Motion, StatePart.Instruments, StatePart.Strains },
+                part => RowsOf(Quantities.OfWire, part));
         private static readonly Quantity[] OfCatheter = RowsOf(Quantities.OfCatheter, StatePart.Instruments);
 
         private readonly Moment _moment = new Moment();

@@ -61,7 +61,7 @@ namespace Guidewire.Unity.Tests
             var text = new TextAsset("x");
             foreach (TestDelegate call in new TestDelegate[]
             {
-                () => new Mesh(), () => _ = made.transform, () => _ = text.text, () => _ = Time.deltaTime,
+                () => _ = new Mesh(), () => _ = made.transform, () => _ = text.text, () => _ = Time.deltaTime,
                 () => _ = Application.dataPath, () => Resources.Load<Material>("Guidewire/Wire"),
             })
             {

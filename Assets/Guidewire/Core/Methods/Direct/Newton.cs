@@ -437,7 +437,7 @@ namespace Guidewire.Core
         public double Slope => RodVectors.Dot(Gradient, Direction, System.VectorCount);
 
         // Whether coordinates are so large that their rounding strains elements.
-        private string TooFar(RodShape shape)
+        private static string TooFar(RodShape shape)
         {
             double farthest = 0.0;
             double shortest = double.PositiveInfinity;
