@@ -42,9 +42,9 @@ namespace Guidewire.Core
         private double _stretch;
         private bool _isKnown;
 
-        /// <summary>Of a wire whose surfaces act on each other from a distance on.</summary>
-        /// <param name="length">Of its elements at rest, which may change, m.</param>
-        /// <param name="radius">Of its elements, the same.</param>
+        /// <summary>Makes an empty list of pairs of a wire.</summary>
+        /// <param name="length">Lengths of its elements at rest, m; they may change.</param>
+        /// <param name="radius">Radii of its elements, m; they may change.</param>
         /// <param name="count">How many elements there are.</param>
         public StrandPairs(double[] length, double[] radius, int count, double range)
         {
@@ -127,7 +127,7 @@ namespace Guidewire.Core
             }
         }
 
-        /// <summary>The same for a motion on straight lines from a shape for which the list holds.</summary>
+        /// <summary>Updates the list for nodes that move on straight lines from a shape for which it holds.</summary>
         public void Follow(Vector3d[] x, Vector3d[] to)
         {
             if (Holds(to))

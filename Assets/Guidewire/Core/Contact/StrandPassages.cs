@@ -19,7 +19,8 @@ namespace Guidewire.Core
         private readonly Vector3d[] _from;
         private readonly StrandPairs _pairs;
 
-        /// <summary>Of an instrument of this radius that starts here, both in one unit.</summary>
+        /// <summary>Makes the count of an instrument, from its radius and the nodes of its start, both in one
+        /// unit.</summary>
         public StrandPassages(double radius, Vector3d[] start)
         {
             int n = start.Length - 1;

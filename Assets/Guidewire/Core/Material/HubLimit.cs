@@ -32,13 +32,13 @@ namespace Guidewire.Core
         /// <summary>The largest pull, N.</summary>
         public double Pull { get; }
 
-        /// <summary>Whether it is a hand's, for want of one that the parameters name.</summary>
+        /// <summary>Whether the limit is a hand's, because the parameters name none.</summary>
         public bool IsOfHand { get; }
 
-        /// <summary>Whether there is one.</summary>
+        /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => Push < double.PositiveInfinity;
 
-        /// <summary>The same force either way.</summary>
+        /// <summary>Gives a limit that is the same for push and pull.</summary>
         /// <param name="force">N; 0: no limit.</param>
         public static HubLimit OfForce(double force)
         {
@@ -46,12 +46,12 @@ namespace Guidewire.Core
             return new HubLimit(limit, limit, false);
         }
 
-        /// <summary>That of a hand on a shaft of this bending stiffness.</summary>
+        /// <summary>Gives the limit of a hand on a shaft of this bending stiffness.</summary>
         /// <param name="bending">EI at the hub, N m^2.</param>
         public static HubLimit OfHand(double bending) =>
             new HubLimit(Math.Min(Grip, 4.0 * Math.PI * Math.PI * bending / (FreeLength * FreeLength)), Grip, true);
 
-        /// <summary>That of a drive: a hand's where it names none and moves a hub.</summary>
+        /// <summary>Gives the limit of a drive: a hand's where it names none and moves a hub.</summary>
         public static HubLimit Of(DriveParameters drive, MaterialParameters material)
         {
             if (!double.IsNaN(drive.HubForceLimit))

@@ -66,7 +66,8 @@ namespace Guidewire.Core
             Update(placement);
         }
 
-        /// <summary>The same mesh elsewhere, for another run: what does not depend on the placement is shared, and both
+        /// <summary>Gives this mesh at another placement, for another run: what does not depend on the placement is
+        /// shared, and both
         /// may be queried at once.</summary>
         /// <param name="placement">Where.</param>
         /// <param name="warp">What moves its vertices before that; null: nothing.</param>

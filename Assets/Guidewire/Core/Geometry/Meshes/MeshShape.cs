@@ -91,8 +91,8 @@ namespace Guidewire.Core
         /// from the triangles, so placing one places the other, and only one may be queried at a time.</summary>
         public MeshShape ForNextRun() => new MeshShape(this);
 
-        /// <summary>The same wall elsewhere, for a run beside others: no hierarchy is built again, and both may be
-        /// queried at once.</summary>
+        /// <summary>Gives this wall at another placement, for a run beside others. No hierarchy is built again, and
+        /// both walls may be queried at once.</summary>
         /// <param name="placement">Of the wall as it was made, which no placement may have moved.</param>
         /// <param name="warp">What moves its vertices before that; null: nothing.</param>
         public MeshShape At(in Placement placement, SmoothWarp? warp = null) => new MeshShape(this, placement, warp);

@@ -65,8 +65,9 @@ namespace Guidewire.Core
                 + (terms.CoaxialLoads?.EnergyRate(shape, _speeds, _station) ?? 0.0);
         }
 
-        /// <summary>The same force, of nodes that go on with their instrument only some elements beyond the tip: what
-        /// is between slides past them. In the continuum it is that force. With elements as long as the bend beyond a
+        /// <summary>Force of an inner hub along the axis, N, by nodes that go on with their instrument only some
+        /// elements beyond the tip. What is between slides past them. In the continuum it is <see cref="InnerForce"/>.
+        /// With elements as long as the bend beyond a
         /// tip the two differ by what contacts are worth that are handed from node to node.</summary>
         /// <remarks>A node of speed s is passed by its material at 1 - s, against the friction f of walls on it, which
         /// does the work (1 - s) f . t.</remarks>

@@ -65,7 +65,7 @@ namespace Guidewire.Core
         /// <summary>What the instrument is made of.</summary>
         public InstrumentProfile Profile { get; }
 
-        /// <summary>Of its nodes, m from its hub.</summary>
+        /// <summary>Stations of the instrument's nodes, m from its hub.</summary>
         public double[] Stations { get; }
 
         /// <summary>The section of each slot, a piece of material at a node; null where that is linear.</summary>
@@ -74,7 +74,7 @@ namespace Guidewire.Core
         /// <summary>e_n of the fibres of all slots, where the wire is free to bend.</summary>
         public double[] Bent { get; }
 
-        /// <summary>The same of what is in a sheath.</summary>
+        /// <summary>Strains e_n of the fibres of all slots, where the wire is held straight in a sheath.</summary>
         public double[] Straight { get; }
 
         /// <summary>Whether any fibre of a slot has left its line.</summary>
@@ -86,13 +86,13 @@ namespace Guidewire.Core
         /// <summary>Length of each slot in a sheath, m.</summary>
         public double[] Inside { get; }
 
-        /// <summary>Whether a slot has such sums.</summary>
+        /// <summary>Whether a slot has sums of e times length.</summary>
         public bool[] IsTouched { get; }
 
         /// <summary>Sums of e times length over a step's end.</summary>
         public double[] Sums { get; }
 
-        /// <summary>The same of what is in a sheath.</summary>
+        /// <summary>Sums of e times length over a step's end, of what is in a sheath.</summary>
         public double[] StraightSums { get; }
 
         /// <summary>Gives the slot of a piece at a node.</summary>

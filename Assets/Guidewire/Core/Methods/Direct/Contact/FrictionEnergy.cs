@@ -167,11 +167,20 @@ namespace Guidewire.Core
             for (int k = 0; k < _contacts.Count; k++)
             {
                 ref FrictionContact contact = ref _contacts[k];
-                double z = Displacement(shape, contact, out _).Length;
-                double most = contact.Limit / contact.Stiffness;
-                sum += z <= most ? 0.5 * contact.Stiffness * z * z : contact.Limit * (z - 0.5 * most);
+                sum += EnergyOf(Displacement(shape, contact, out _).Length, contact.Limit, contact.Stiffness);
             }
             return sum;
+        }
+
+        /// <summary>Energy of a spring that slides at a force, J: its derivative is the smaller of k z and that
+        /// force.</summary>
+        /// <param name="z">Its displacement, m.</param>
+        /// <param name="limit">The force at which it slides, N.</param>
+        /// <param name="stiffness">k, N/m.</param>
+        internal static double EnergyOf(double z, double limit, double stiffness)
+        {
+            double most = limit / stiffness;
+            return z <= most ? 0.5 * stiffness * z * z : limit * (z - 0.5 * most);
         }
 
         /// <inheritdoc/>

@@ -145,9 +145,8 @@ namespace Guidewire.Core
             for (int k = 0; k < _contacts.Count; k++)
             {
                 ref Contact contact = ref _contacts[k];
-                double z = Displacement(shape, contact, out _, out _).Length;
-                double most = contact.Limit / contact.Stiffness;
-                sum += z <= most ? 0.5 * contact.Stiffness * z * z : contact.Limit * (z - 0.5 * most);
+                sum += FrictionEnergy.EnergyOf(Displacement(shape, contact, out _, out _).Length, contact.Limit,
+                    contact.Stiffness);
             }
             return sum;
         }
