@@ -12,8 +12,9 @@ from guidewire.prepare import ROOT, PreparationError, require_packages
 from guidewire.runs import building
 from guidewire.viewer import parts
 
-# Without ruff: what its rules E, F and W of pyproject.toml are called there.
-_STYLE = ("--max-line-length=120", "--select=E4,E501,E7,E9,W2,W3,W6", "--ignore=E741")
+# Without ruff: its rules of pyproject.toml, as flake8 names them. A fixture has the name of its argument.
+_FLAKE8 = ("--max-line-length=120", "--select=E4,E501,E7,E9,F,W2,W3,W6", "--ignore=E741",
+           "--per-file-ignores=guidewire/__init__.py:F401 */tests/*:F402,F811")
 _ESLINT = """import js from "@eslint/js";
 import globals from "globals";
 export default [js.configs.recommended, {languageOptions: {globals: {...globals.browser, ...globals.worker}}}];
@@ -28,9 +29,8 @@ def lint(_: argparse.Namespace) -> int:
     if shutil.which("ruff") or importlib.util.find_spec("ruff"):
         found = [_run("ruff", [*ruff, "check", "."])]
     else:
-        require_packages(("pyflakes", "pycodestyle"))
-        found = [_run("pyflakes", [sys.executable, "-m", "pyflakes", *sources]),
-                 _run("pycodestyle", [sys.executable, "-m", "pycodestyle", *_STYLE, *sources])]
+        require_packages(("flake8",))
+        found = [_run("flake8", [sys.executable, "-m", "flake8", *_FLAKE8, *sources])]
     found.append(_run("C# compiler", [building.dotnet()[0], "build", str(building.HEADLESS / "Guidewire.sln"), "-c",
                                       "Release", "-v", "q", "-nologo"]))
     try:

@@ -144,7 +144,9 @@ def _dotnet(full: bool, seconds: float, not_built: threading.Event) -> Count:
         words = [] if full else ["--filter", chosen]
         if target != "net10.0":
             os.environ.pop(FULL_CAMPAIGNS, None)    # once is enough
-        total += run(f"{name}-{target}", [building.dotnet()[0], "test", str(_library(name, target)), "--nologo", *words], seconds)
+        total += run(f"{name}-{target}",
+                     [building.dotnet()[0], "test", str(_library(name, target)), "--nologo", *words],
+                     seconds)
     native.join()
     return total
 

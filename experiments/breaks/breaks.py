@@ -5,7 +5,8 @@
 breaks.json lists the breaks: file, text, what stands in its place, and in words what is wrong then. Those of C# are
 compiled together, in a copy of the repository, with `Breaks.Is(@)` in each; tests run until one fails. Those of Python
 are made one after the other, and pytest runs what the break names in "tests". A line for each break says which test
-found it; the exit code is 1 where one was missed. Without numbers all are tried, and first none, which nothing may find.
+found it; the exit code is 1 where one was missed. Without numbers all are tried. The unbroken code
+comes first, in which nothing may be found.
 """
 
 from __future__ import annotations

@@ -199,7 +199,7 @@ def force_sums(forces: list[np.ndarray], total: np.ndarray) -> list[str]:
 
 
 def beyond(scene: dict[str, Any], forces: list[np.ndarray]) -> float:
-    """By what part of its hubForceLimit the force of a hub is above it in a step, at most; of the wire first, (k,) each,
+    """By what part of its hubForceLimit the force of a hub is above it in a step, at most; of the wire first, (k,),
     N. The first is that of the start, where nothing has slipped."""
     limits = [one.get("hubForceLimit", 0.0) for one in (scene, *scene.get("catheters", []))]
     return max((float(np.abs(force[1:]).max(initial=0.0)) / limit - 1.0

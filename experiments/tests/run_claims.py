@@ -28,12 +28,13 @@ SUMMARY_KEYS = {
 }
 # What need not apply: null there is no number that got lost.
 MAY_BE_NULL = {
-    "coreShare", "coreStrain", "coreStrainInstrument", "coreStrainPlace", "coreStrainTime", "keptCurvature", "keptPlace",
-    "materialLoss", "forceError", "slippedFrom", "axialForceTime", "axialForceDrag", "drag", "axialTorqueTime", "elementForceTime", "driveAsked", "hub",
-    "lengthInBody", "spheresInBody", "repeat", "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual",
-    "smallestEigenvalue", "proximalForce", "proximalMoment", "distalForce", "distalMoment",
-    "wallIterations", "halvedSteps", "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque",
-    "elementForce", "wallPressure", "wallDisplacement", "wallWork", "frictionPower", "frictionWork",
+    "coreShare", "coreStrain", "coreStrainInstrument", "coreStrainPlace", "coreStrainTime", "keptCurvature",
+    "keptPlace", "materialLoss", "forceError", "slippedFrom", "axialForceTime", "axialForceDrag", "drag",
+    "axialTorqueTime", "elementForceTime", "driveAsked", "hub", "lengthInBody", "spheresInBody", "repeat",
+    "largestError", "timeStepError", "stableSubstep", "energy", "equilibriumResidual", "smallestEigenvalue",
+    "proximalForce", "proximalMoment", "distalForce", "distalMoment", "wallIterations", "halvedSteps",
+    "contactDistance", "contactStiffness", "extremes", "axialForce", "axialTorque", "elementForce", "wallPressure",
+    "wallDisplacement", "wallWork", "frictionPower", "frictionWork",
 }
 FORCES = {"largestContactForce", "largestWallForce"}    # impulses over timeStep
 WALL_TIMES = ("computationTime", "setUpTime", "wallTime", "averageStepTime", "medianStepTime", "elapsedMilliseconds")

@@ -70,7 +70,8 @@ def test_the_judge_finds_what_a_run_that_calls_itself_reliable_hides(run, name, 
 def test_the_judge_finds_a_run_that_warns_without_reason(run):
     scene, summary, log = run
     for line in ("3 points of the wire passed a wall",
-                 "the outermost fibre was strained by up to 30 % at t = 0.1 s: a real instrument would have kinked", "the wire is 2.0 % longer than at rest"):
+                 "the outermost fibre was strained by up to 30 % at t = 0.1 s: a real instrument would have kinked",
+                 "the wire is 2.0 % longer than at rest"):
         said = {**summary, "warnings": [line], "reliable": False}
         assert "says otherwise" in reliable_claims.violations(scene, said, log, WARNINGS)[0]
         assert reliable_claims.violations(scene, {**said, "reliable": True}, log,

@@ -66,8 +66,8 @@ def _run(arguments: argparse.Namespace, folder: Path) -> int:
     line = find_centreline(repaired.mesh, repaired.rims)
     narrow = float((line.radii[line.inner()] < 2.0 * source.voxel).mean())
     if narrow:
-        found.notes.append(f"along {narrow:.0%} of the centreline the radius is below two voxels: the wall is uncertain "
-                           "there by some 4 % of it, below one voxel by more than 8 %")
+        found.notes.append(f"along {narrow:.0%} of the centreline the radius is below two voxels: the wall is uncertain"
+                           " there by some 4 % of it, below one voxel by more than 8 %")
     if arguments.catheter and not arguments.instrument:
         raise AnatomyError("--catheter needs the wire in it: add --instrument")
     wire = diameter_of(arguments.instrument) if arguments.instrument else arguments.wire

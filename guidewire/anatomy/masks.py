@@ -10,7 +10,7 @@ from scipy.ndimage import binary_fill_holes, correlate1d
 from scipy.ndimage import label as label_regions
 from scipy.sparse import coo_matrix, diags
 
-from guidewire.anatomy.borders import PRISM, Border, cut_at, find_borders, prolonged
+from guidewire.anatomy.borders import PRISM, cut_at, find_borders, prolonged
 from guidewire.anatomy.images import Image
 from guidewire.anatomy.labels import told_values, values_of, voxels_with
 from guidewire.anatomy.mesh import AnatomyError, Edges, Mesh, find_bodies, find_rims, signed_volume

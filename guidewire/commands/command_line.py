@@ -42,8 +42,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     demo.set_defaults(packages=DRAWING + SWEEPING)
 
     test = commands.add_parser("test", help="all tests, or those named; the last line says 'N passed, N failed'")
-    test.add_argument("what", metavar="PATH", nargs="*", help="file or folder of tests in Python, or a class or file of "
-                                                              "tests in C#, such as guidewire/logs SheathTests")
+    test.add_argument("what", metavar="PATH", nargs="*", help="file or folder of tests in Python, or a class or file "
+                                                              "of tests in C#, such as guidewire/logs SheathTests")
     test.add_argument("--all", action="store_true", help="random campaigns in full instead of a seeded fraction")
     test.set_defaults(packages=TESTING)
 
@@ -204,7 +204,8 @@ def parse(argv: list[str]) -> argparse.Namespace:
     stress.add_argument("folder", type=Path, metavar="DIR", help="folder of a run with logStrains, for stress.png too")
     stress.set_defaults(packages=DRAWING)
 
-    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub (logHub), or those of several runs in one picture")
+    hub = commands.add_parser("hub", help="plot insertion, rotation, force and torque at the hub (logHub), or those of "
+                                          "several runs in one picture")
     hub.add_argument("folders", type=Path, metavar="DIR", nargs="+",
                      help="folder of a run with logHub, for hub.png too; several, or a study's: one picture, with a "
                           "band where a run has a check, or a study several runs")

@@ -95,7 +95,8 @@ class LoadedScene:
         self.hubs = self.session.hubs
         limits = [one.get("hubForceLimit")
                   for one in (self.session.parameters, *(self.session.parameters.get("catheters") or ()))]
-        self.limits = [float(limit) if isinstance(limit, (int, float)) else 0.0 for limit in limits]    # N; 0: none named
+        # N; 0: none named
+        self.limits = [float(limit) if isinstance(limit, (int, float)) else 0.0 for limit in limits]
         inside = self.session.state.hub.length_in_body
         length = float(self.session.parameters["guidewireLength"]) * self.unit
         # A sheathed wire can be fed until its proximal end is two of its elements from the sheath's exit. Hubs of

@@ -12,7 +12,7 @@ import numpy as np
 
 from guidewire.env.options import need_count, need_number
 from guidewire.env.spaces import Box, Error
-from guidewire.sessions.session import Session, State
+from guidewire.sessions.session import State
 
 _MOST_PIXELS = 2048
 _VESSELS = ("roadmap", "contrast", "none")

@@ -60,12 +60,14 @@ def draw_hubs(curves: Sequence[HubCurve], over: str) -> Figure:
     figure = new_figure(9.0, 7.0)
     label, factor = OVER[over]
     sudden = False
-    for axes, (quantity, y_label, unit), name in zip(figure.subplots(2, 1, sharex=True), _QUANTITIES, "ab", strict=True):
+    panels = zip(figure.subplots(2, 1, sharex=True), _QUANTITIES, "ab", strict=True)
+    for axes, (quantity, y_label, unit), name in panels:
         for curve in curves:
             along, values = factor * getattr(curve.log, over), unit * getattr(curve.log, quantity)
             (line,) = axes.plot(along, values, label=curve.name)
             if curve.others:
-                axes.fill_between(along, *(unit * curve.band(quantity)), color=line.get_color(), alpha=0.25, linewidth=0.0)
+                axes.fill_between(along, *(unit * curve.band(quantity)), color=line.get_color(), alpha=0.25,
+                                  linewidth=0.0)
             largest = int(np.argmax(np.abs(values)))
             if largest <= 1 < len(values):
                 sudden = True

@@ -94,4 +94,3 @@ def _read_rows(source: Path) -> np.ndarray:
         start = file.tell()
     whole = (source.stat().st_size - start) // kind.itemsize
     return np.fromfile(source, dtype=kind, count=whole, offset=start)
-

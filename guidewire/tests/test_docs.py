@@ -181,7 +181,8 @@ def test_the_table_of_keys_is_the_runners_own(runner_command):
 
 def test_the_table_of_quantities_is_the_runners_own(runner_command):
     table = subprocess.run([*runner_command, "--quantities"], capture_output=True, text=True, check=True).stdout
-    assert (ROOT / "guidewire" / "quantities.json").read_text(encoding="utf-8") == table, "copy what --quantities prints"
+    copy = (ROOT / "guidewire" / "quantities.json").read_text(encoding="utf-8")
+    assert copy == table, "copy what --quantities prints"
     text = (ROOT / "docs" / "quantities.md").read_text(encoding="utf-8")
     block = re.search(r"<!-- quantities -->\n(.*)\n<!-- /quantities -->", text, re.DOTALL)
     assert block.group(1) == to_markdown(), "put guidewire.quantities.to_markdown() between the marks"

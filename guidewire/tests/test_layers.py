@@ -52,7 +52,8 @@ def test_the_analysers_find_nothing_in_any_project():
 
 # From the bottom up. A line's packages and modules may use those of lines before it, and what stands in the same line
 # only within itself.
-PYTHON = (("prepare",), ("installed", "json_text", "quantities"), ("studies",), ("logs", "runs"), ("figures", "anatomy", "sessions"),
+PYTHON = (("prepare",), ("installed", "json_text", "quantities"), ("studies",), ("logs", "runs"),
+          ("figures", "anatomy", "sessions"),
           ("sweeps", "identification"), ("benches", "advice", "navigation", "rod_suite"), ("library", "viewer"),
           ("env", "export"), ("commands",),
           ("__init__", "__main__"))

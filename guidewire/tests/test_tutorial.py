@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from PIL import Image
 
-import guidewire.viewer.command  # a part of it is replaced by name
+import guidewire.viewer.command  # noqa: F401 a part of it is replaced by name
 from guidewire.anatomy.lumens import artery_lumens
 from guidewire.commands import commands
 from guidewire.logs.logs import read_log

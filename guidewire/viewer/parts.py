@@ -101,7 +101,8 @@ def _install(modules: Path, wanted: dict[str, str], tell: Callable[[str], None])
 def _all(modules: Path, wanted: dict[str, str]) -> dict[str, str]:
     """Return what is wanted and what is there already: npm takes away what it is not asked for."""
     pinned = json.loads((PAGE / "package.json").read_text(encoding="utf-8"))
-    known = {name: version for kind, own in pinned.items() if kind.endswith("ependencies") for name, version in own.items()}
+    known = {name: version for kind, own in pinned.items() if kind.endswith("ependencies")
+             for name, version in own.items()}
     there = {name: version for name, version in known.items() if _version(modules / name) == version}
     return {**there, **wanted}
 

@@ -300,7 +300,8 @@ def test_stripped_as_a_player_of_unity_every_parameter_file_runs(tmp_path):
     project.write_text(
         '<Project Sdk="Microsoft.NET.Sdk"><PropertyGroup><OutputType>Exe</OutputType><TargetFramework>net10.0'
         "</TargetFramework><RuntimeIdentifier>linux-x64</RuntimeIdentifier><LangVersion>9.0</LangVersion>"
-        "<Nullable>enable</Nullable><PublishTrimmed>true</PublishTrimmed><TrimMode>full</TrimMode><InvariantGlobalization>true"
+        "<Nullable>enable</Nullable><PublishTrimmed>true</PublishTrimmed><TrimMode>full</TrimMode>"
+        "<InvariantGlobalization>true"
         "</InvariantGlobalization><NoWarn>IL2026;IL2075;IL2104</NoWarn><AssemblyName>Guidewire.Cli</AssemblyName>"
         f'</PropertyGroup><ItemGroup><Compile Include="{building.HEADLESS}/Guidewire.Cli/*.cs" />'
         f'<ProjectReference Include="{building.HEADLESS}/Guidewire.Io/Guidewire.Io.csproj" /></ItemGroup></Project>\n',

@@ -56,7 +56,7 @@ def test_a_ring_between_two_trunks_is_a_loop_and_no_end() -> None:
 
 @pytest.mark.parametrize("shape, expected", [("X", 1), ("neck", 1), ("stenosis", 0), ("fork", 0)])
 def test_a_neck_lies_between_two_vessels_that_pass(shape: str, expected: int) -> None:
-    """Trees of points: two vessels of radius 2.5 that touch, with a neck of radius 1 or all in one place; one vessel with
+    """Trees of points: two vessels of radius 2.5 that touch, by a neck of radius 1 or all in one place; one vessel with
     a stenosis; a fork."""
     arms = {"X": [(-1, 0, 0), (1, 0, 0), (0, -1, 0), (0, 1, 0)], "neck": [(-1, 0, 0), (1, 0, 0)],
             "stenosis": [(0, 0, -1)], "fork": [(0, 0, -1), (-1, 0, 1), (1, 0, 1)]}[shape]

@@ -62,7 +62,7 @@ angles = vectors(st.floats(-360.0, 360.0))
 
 
 def length_of(scene: Mapping[str, Any], name: str) -> float:
-    """A length of a scene, units. Where it is not named it is one in mm; a wire without material knows no other unit."""
+    """A length of a scene, units. Where it is not named it is in mm; a wire without material knows no other unit."""
     units = 1.0 if scene["solver"] == "pbd" else 1e-3 / scene.get("metresPerUnit", 1e-3)
     return scene.get(name, DEFAULTS[name] * units)
 

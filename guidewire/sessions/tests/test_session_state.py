@@ -104,7 +104,7 @@ def test_a_refused_step_leaves_the_state_whether_or_not_somebody_has_it(stand_in
 @pytest.mark.parametrize("keep", [False, True])
 def test_a_closed_session_still_says_its_state(stand_in, keep):
     with Session() as session:
-        state = session.step(steps=4)
+        state = session.step(steps=4)  # noqa: F841 kept, or not
         if not keep:
             del state
     assert stand_in.closed == 1
