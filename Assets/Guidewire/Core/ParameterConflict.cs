@@ -98,7 +98,10 @@ namespace Guidewire.Core
                 (section.YieldStress.HasValue ? 1 : 0) + (section.Plateau != null ? 1 : 0)
                 + (section.Material > CoreMaterial.Linear ? 1 : 0) > 1),
                 "one of material, plateau and yieldStress in a section"),
-            new Rule("plateau", p => LawProblem(p) != null, p => LawProblem(p)!),
+            OfLaw("yieldStress", p => p.Material.YieldStress.HasValue),
+            OfLaw("plateau", p => p.Material.Plateau != null),
+            OfLaw("material", p => p.Material.Material != CoreMaterial.Linear),
+            OfLaw("wireSections", p => true),
             new Rule("shaped", p => p.IsMaterial && p.Material.Shaped is Shaping shaped && HasStiffness(p)
                 && !HasHollowTooWide(p.Material)
                 && (shaped.To > p.Scene.GuidewireLength
@@ -267,6 +270,9 @@ namespace Guidewire.Core
         private static WireSection[] SectionsOf(MaterialParameters material) =>
             System.Linq.Enumerable.ToArray(material.Sections);
 
+        private static Rule OfLaw(string key, Predicate<Facts> states) =>
+            new Rule(key, p => states(p) && LawProblem(p) != null, p => LawProblem(p)!);
+
         // What is wrong with the laws along the wire, or null.
         private static string? LawProblem(Facts p)
         {
@@ -288,12 +294,12 @@ namespace Guidewire.Core
                 }
                 if (piece.BendStiffness1 != piece.BendStiffness2)
                 {
-                    return "null, as are material and yieldStress, where bendingStiffness1 and 2 differ: fibres are"
+                    return "no law (material, plateau, yieldStress) where bendingStiffness1 and 2 differ: fibres are"
                         + " those of a round core";
                 }
                 if (p.Material.BendLaw == BendLaw.Darboux)
                 {
-                    return "null, as are material and yieldStress, with bendLaw \"darboux\"";
+                    return "no law (material, plateau, yieldStress) with bendLaw \"darboux\"";
                 }
             }
             return null;

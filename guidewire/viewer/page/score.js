@@ -73,8 +73,8 @@ export class Score {
 
   /** What stands when another page goes on with the run. */
   save() {
-    const { _recording, _limits, _next, ...rest } = this;
-    return rest;
+    const own = ["_recording", "_limits", "_next"];
+    return Object.fromEntries(Object.entries(this).filter(([name]) => !own.includes(name)));
   }
 
   /** Goes on with what another page saved of the same run. @param {any} saved */
