@@ -5,7 +5,8 @@ namespace Guidewire.Core
 {
     /// <summary>Detects a wire between two clamps that has lost whole turns of twist by passing through
     /// itself.</summary>
-    /// <remarks>The wire does not meet itself. Wound up beyond the couple at which it stays straight (couples of 2
+    /// <remarks>Without selfContact the wire does not meet itself. Wound up beyond the couple at which it stays
+    /// straight (couples of 2
     /// sqrt(EI T) under a tension T) it bends into a loop; a loop that passes through the wire, or over an end, takes
     /// two turns along (Calugareanu: twist and writhe change by 2 together), and what is left may well be in balance.
     /// No wire does that. What a wire keeps is its link, twist and writhe, with both ends extended along their
@@ -66,9 +67,8 @@ namespace Guidewire.Core
             }
             return string.Format(CultureInfo.InvariantCulture,
                 "of {0:G4} turns between its clamps the wire has lost {1}: it has formed loops and passed through "
-                + "itself; selfContact keeps strands apart; fewer turns (distalRotation, twistPerStep, "
-                + "those of a start) "
-                + "or a pull (axialForce, distalDisplacement) keep it straight",
+                + "itself. selfContact keeps strands apart. Fewer turns (distalRotation, twistPerStep, those of a "
+                + "start) or a pull (axialForce, distalDisplacement) keep it straight",
                 Math.Abs(turn + _start) / (2.0 * Math.PI), Math.Abs(lost));
         }
 

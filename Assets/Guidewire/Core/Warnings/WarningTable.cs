@@ -134,9 +134,10 @@ namespace Guidewire.Core
 
         /// <summary>direct: elements too long for the forces of several hubs.</summary>
         public static readonly WarningKind HubForceError = AfterReason("hubForceError",
-            "the force of *hub* is uncertain by *e:G2* N, with *F:G3* N at most at any hub: beyond the tip around it "
-            + "an element is *r:G2* times as long as the bend, sqrt(B/f); shorter elements there, of numberRodElements "
-            + "or a section's, make it less", "with `catheters`: above 5 % of the largest force, or 0.5 times. The sum "
+            "the force of *hub* is uncertain by *e:G2* N, and the largest force at any hub is *F:G3* N: beyond the tip "
+            + "around it an element is *r:G2* times as long as the bend there, sqrt(B/f); use shorter elements there, "
+            + "by numberRodElements or a section",
+                "with `catheters`: above 5 % of the largest force, or 0.5 times. The sum "
             + "of all hubs' forces is not affected ([coaxial.md](coaxial.md))");
 
         /// <summary>direct: a wire too stiff for its elements.</summary>
@@ -153,15 +154,15 @@ namespace Guidewire.Core
 
         /// <summary>A motion that a disturbance would leave.</summary>
         public static readonly WarningKind Unstable = AfterReason("unstable",
-            "the wire ends where it is unstable, as beyond a critical load: any disturbance would grow, and a "
-            + "symmetric motion has none; a small load across the wire shows where it goes",
+            "the wire ends in an unstable shape, as beyond a critical load: any disturbance would grow, but a symmetric "
+            + "motion has none; a small load across the wire shows where it goes",
             "without walls, near a balance of forces: the second derivative of the energy has a negative eigenvalue at "
             + "the end, and the wire has not moved by 1e-4 L along its mode");
 
         /// <summary>Energy that the scheme takes.</summary>
         public static readonly WarningKind EnergyLost = AfterReason("energyLost",
-            "the scheme took *p:0* % of the energy of a motion without damping; its own error reached *e:G2* of a "
-            + "radian or of L in a step: a timeStepError or a shorter timeStep keeps it",
+            "the integrator dissipated *p:0* % of the energy of an undamped motion; its estimated error reached "
+            + "*e:G2* rad, or that part of L, in a step: set timeStepError, or a shorter timeStep",
             "direct with an error estimate, without walls and moving ends: more than 10 % of all that was put in");
 
         /// <summary>explicit: substeps beyond stability.</summary>
@@ -209,7 +210,7 @@ namespace Guidewire.Core
 
         /// <summary>A linear core strained beyond the elastic range of metals.</summary>
         public static readonly WarningKind BeyondElastic = Add("beyondElastic", WarningPlace.End, true,
-            "the wire was strained by up to *p:0.0* %: nitinol and steel leave their elastic line at 0.8 %; key "
+            "the wire was strained by up to *p:0.0* %: nitinol and steel leave their elastic line at 0.8 %; the key "
             + "material takes that into account", "a linear wire as stiff as metal; forces of bends are too large "
             + "([materials.md](materials.md))");
 
