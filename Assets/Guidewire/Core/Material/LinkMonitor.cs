@@ -6,9 +6,9 @@ namespace Guidewire.Core
     /// <summary>Detects a wire between two clamps that has lost whole turns of twist by passing through
     /// itself.</summary>
     /// <remarks>Without selfContact the wire does not meet itself. Wound up beyond the couple at which it stays
-    /// straight (couples of 2
-    /// sqrt(EI T) under a tension T) it bends into a loop; a loop that passes through the wire, or over an end, takes
-    /// two turns along (Calugareanu: twist and writhe change by 2 together), and what is left may well be in balance.
+    /// straight (2 sqrt(EI T) under a tension T) it bends into a loop. A loop that passes through the wire, or over an
+    /// end, takes two turns along (Calugareanu: twist and writhe change by 2 together), and what is left may well be in
+    /// balance.
     /// No wire does that. What a wire keeps is its link, twist and writhe, with both ends extended along their
     /// clamps: it changes by the turns of the clamps alone, wherever the twist is from. Seen along one direction v the
     /// link is the sum of the signed crossings and of the turns against the normal v x t of the picture. From tangent

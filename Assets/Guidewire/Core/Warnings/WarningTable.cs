@@ -154,8 +154,8 @@ namespace Guidewire.Core
 
         /// <summary>A motion that a disturbance would leave.</summary>
         public static readonly WarningKind Unstable = AfterReason("unstable",
-            "the wire ends in an unstable shape, as beyond a critical load: any disturbance would grow, but a symmetric "
-            + "motion has none; a small load across the wire shows where it goes",
+            "the wire ends in an unstable shape, as beyond a critical load: any disturbance would grow, but a "
+            + "symmetric motion has none; a small load across the wire shows where it goes",
             "without walls, near a balance of forces: the second derivative of the energy has a negative eigenvalue at "
             + "the end, and the wire has not moved by 1e-4 L along its mode");
 
