@@ -23,7 +23,7 @@ from typing import Any
 
 HERE = Path(__file__).resolve().parent
 ROOT = HERE.parent.parent
-_SWITCH = """namespace Guidewire.Core
+_SWITCH = """namespace Guidewire
 {
     public static class Breaks
     {
