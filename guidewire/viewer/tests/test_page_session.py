@@ -178,7 +178,7 @@ def test_pushes_turns_and_drive_tables_are_those_of_the_server(runner_command):
         own = HeldInstruments()
         described = session.describe()
         own.begin(session, described)
-        for _ in range(60):    # the catheter's hub runs against the wire's, and is stopped there
+        for _ in range(60):    # one hub runs against the other, and carries it along
             hub, steps = dice.choice([0, 1, 1, 1]), 2 ** dice.randrange(3)
             call = {"hub": hub, "push": (5.0 if hub else -3.0) * dice.random(), "turn": dice.uniform(-0.1, 0.1)}
             own.hold(hub)

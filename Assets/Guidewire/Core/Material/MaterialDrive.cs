@@ -18,6 +18,9 @@ namespace Guidewire.Core
         private double _minInsertion = double.NegativeInfinity;  // m
         private double _maxInsertion = double.PositiveInfinity;   // m
         private double? _override;           // of the next step, m
+        private MaterialDrive? _behind;      // of the hubs that may press on this one
+        private MaterialDrive? _ahead;
+        private Func<double, double>? _gap;  // m, from the one behind to this at a time, s
         private readonly double _length;     // of the instrument, m
         private double _sense = 1.0;         // 1 where it was last asked to push, -1 to pull
         private double _insertionBefore;     // the present step, m
@@ -98,7 +101,7 @@ namespace Guidewire.Core
         /// <summary>When the present step ends, s.</summary>
         public double StepEnd { get; private set; }
 
-        /// <summary>The displacement asked for in the present step, m, never negative.</summary>
+        /// <summary>The displacement that its own drive asks for in the present step, m, never negative.</summary>
         public double CommandedDisplacement { get; private set; }
 
         /// <summary>The displacement asked for in all steps, m, there and back both counted.</summary>
@@ -106,6 +109,10 @@ namespace Guidewire.Core
 
         /// <summary>Whether so much was lost that the hub has not done what it was asked.</summary>
         public bool FallsShort => Shortfall.Counts(Slip, TotalCommandedDisplacement, _length);
+
+        /// <summary>1 where the hub behind carries this one along in the present step, -1 where that ahead does, else
+        /// 0.</summary>
+        public int Carried { get; private set; }
 
         /// <summary>Distance of node 0 beyond the largest displacement allowed, m; negative if it is within.</summary>
         public double BeyondLimit => Insertion - _maxInsertion;
@@ -125,6 +132,12 @@ namespace Guidewire.Core
             _minInsertion = Math.Min(Insertion, Insertion + back);
             _maxInsertion = Insertion + forward;
         }
+
+        /// <summary>Lets this hub and the one behind carry one another along where one is pressed against the other,
+        /// whose own drive does not go the other way.</summary>
+        /// <param name="gap">From that hub to this one at a time (s), m.</param>
+        public void LetPress(MaterialDrive behind, Func<double, double> gap) =>
+            (_behind, _gap, behind._ahead) = (behind, gap, this);
 
         /// <summary>Displacement of node 0 in the following steps, m, instead of that asked; null: as asked.</summary>
         public void OverrideDisplacement(double? displacement) => _override = displacement;
@@ -148,14 +161,16 @@ namespace Guidewire.Core
                 return;
             }
             double speed = SpeedAt(time);
-            double asked = speed * _timeStep;
+            double own = speed * _timeStep;
+            double asked = AskedAt(time);
             _sense = Math.Abs(asked) < Nothing ? _sense : Math.Sign(asked);
-            CommandedDisplacement = Math.Abs(asked);
+            CommandedDisplacement = Math.Abs(own);
             TotalCommandedDisplacement += CommandedDisplacement;
             double goes = Limited(_override ?? asked);
-            if (goes != asked)
+            Carried = (goes - own) * (asked - own) > 0.0 ? Math.Sign(asked) : 0;
+            if (goes != own)
             {
-                Slip += _sense * (asked - goes);
+                Slip += Carried != 0 ? 0.0 : _sense * (own - goes);
                 speed = goes / _timeStep;
             }
             Axis = _direction.At(shape.X[0], shape.X[1]);
@@ -163,8 +178,13 @@ namespace Guidewire.Core
             Insertion += speed * _timeStep;
         }
 
-        /// <summary>Displacement that is asked of node 0 in the step that begins at this time, m.</summary>
-        public double AskedAt(double time) => _direction == null ? 0.0 : SpeedAt(time) * _timeStep;
+        /// <summary>Displacement that is asked of node 0 in the step that begins at this time, by its own drive or by
+        /// the hub that carries it, m.</summary>
+        public double AskedAt(double time)
+        {
+            double pushed = PushedAt(time);
+            return pushed > 0.0 ? pushed : PulledAt(time);
+        }
 
         /// <summary>Displacement of node 0 in the step that begins at this time, m.</summary>
         public double NextMove(double time) => _direction == null ? 0.0 : Limited(_override ?? AskedAt(time));
@@ -223,6 +243,24 @@ namespace Guidewire.Core
         {
             return Insertion + asked > _maxInsertion || Insertion + asked < _minInsertion
                 ? Math.Min(Math.Max(Insertion + asked, _minInsertion), _maxInsertion) - Insertion : asked;
+        }
+
+        private double OwnAt(double time) => _direction == null ? 0.0 : SpeedAt(time) * _timeStep;
+
+        // What it is asked where those behind it press on it, m.
+        private double PushedAt(double time)
+        {
+            double own = OwnAt(time);
+            return _behind == null || _direction == null || own < 0.0 ? own
+                : Math.Max(own, (_behind._override ?? _behind.PushedAt(time)) - _gap!(time));
+        }
+
+        // The same of those ahead, which draw back.
+        private double PulledAt(double time)
+        {
+            double own = OwnAt(time);
+            return _ahead == null || _direction == null || own > 0.0 ? own
+                : Math.Min(own, (_ahead._override ?? _ahead.PulledAt(time)) + _ahead._gap!(time));
         }
 
         private double Rate(TimeTable table, double time) => (table.At(time + _timeStep) - table.At(time)) / _timeStep;

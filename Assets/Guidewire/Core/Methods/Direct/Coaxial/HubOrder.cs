@@ -3,8 +3,9 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>How far the hubs of coaxial instruments may go: none passes the next one nor the exit of a sheath, and
-    /// the tips inside stay in the outermost catheter by an element at least. The hub of an instrument alone goes on to
-    /// the exit of its sheath, and back until the tip is there.</summary>
+    /// the tips inside stay in the outermost catheter by an element at least. A hub that is pressed against another
+    /// carries it along. The hub of an instrument alone goes on to the exit of its sheath, and back until the tip is
+    /// there.</summary>
     internal sealed class HubOrder
     {
         private const double Nowhere = 1e9;     // m, farther than any drive goes
@@ -27,6 +28,11 @@ namespace Guidewire.Core
             _move = new double[drives.Length];
             _inside = new double[drives.Length];
             _gap = new double[drives.Length];
+            for (int i = 1; i < drives.Length; i++)
+            {
+                int hub = i;
+                drives[i - 1].LetPress(drives[i], time => hubs.LeadAt(hub, time) - hubs.LeadAt(hub - 1, time));
+            }
             LimitAlone(0.0);
         }
 

@@ -48,6 +48,9 @@ namespace Guidewire.Core
             _shortest = Math.Min(shortest, most);
         }
 
+        /// <summary>The forces at which it slips.</summary>
+        public HubLimit Limit => _limit;
+
         /// <summary>Whether there is a limit.</summary>
         public bool IsLimited => _limit.IsLimited;
 

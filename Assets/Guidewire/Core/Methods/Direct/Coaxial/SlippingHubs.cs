@@ -41,7 +41,7 @@ namespace Guidewire.Core
             WorkLimit work = _step.Dynamics.Work;
             for (int i = _drives.Length - 1; i >= 0 && _areLimited; i--)
             {
-                double force = isDone && _slips[i].IsLimited ? _step.ForceOf(i) : double.NaN;
+                double force = isDone && _slips[i].IsLimited ? Borne(i) : double.NaN;
                 double around = i > 0 ? _drives[i - 1].Moved : 0.0;
                 if (_slips[i].NeedsAnother(_drives[i].Moved, around, force, work.IsScarce))
                 {
@@ -58,6 +58,23 @@ namespace Guidewire.Core
                 _slips[i].EndStep(isDone && _slips[i].IsLimited ? _step.ForceOf(i) : 0.0, _step.Dynamics.Time);
             }
             return false;
+        }
+
+        // A hub that carries others along bears their forces too: what it has too much of it, they have too much.
+        private double Borne(int hub)
+        {
+            double force = _step.ForceOf(hub);
+            double sum = force;
+            HubLimit own = _slips[hub].Limit;
+            int sense = _drives[hub].Carried;
+            for (int i = hub; sense != 0 && _drives[i].Carried == sense;)
+            {
+                i += sense;
+                sum += _step.ForceOf(i);
+                double excess = _slips[i].Limit.Excess(sum);
+                force = sense * excess > 0.0 ? sense * Math.Max(sense * force, own.Of(sense) + Math.Abs(excess)) : force;
+            }
+            return force;
         }
 
         private void BeginFrom(int hub)

@@ -107,12 +107,81 @@ namespace Guidewire.Core.Tests
             Assert.That(least, Is.LessThan(1e-6), "mm: they meet");
         }
 
+        // The wire's hub comes to the inner catheter's after 100 mm and with it to the outer one's after 30 mm more; then
+        // the outer one draws both back.
+        [Test]
+        public void HubPressedAgainstOthers_CarriesThemAlong()
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Drive.Steering = new Steering { Push = 2.0 };
+            Catheter outer = parameters.Scene.Catheters[0];
+            Catheter inner = parameters.Scene.Catheters[1];
+            outer.Drive.Steering = new Steering();
+            inner.Drive.Steering = new Steering();
+            Simulation run = Simulation.Create(parameters);
+            void Check(double wire, double middle, double outermost)
+            {
+                CoaxialRecord record = run.Coaxial()!;
+                Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+                Assert.That(1e3 * run.Hub()!.Insertion, Is.EqualTo(wire).Within(1e-9));
+                Assert.That(1e3 * record.Inside!.Insertion, Is.EqualTo(middle).Within(1e-9));
+                Assert.That(1e3 * record.Insertion, Is.EqualTo(outermost).Within(1e-9));
+            }
+            Steps(run, 72);
+            Check(144.0, 44.0, 14.0);
+            parameters.Drive.Steering.Push = 0.0;
+            outer.Drive.Steering.Push = -2.0;
+            Steps(run, 5);
+            Check(134.0, 34.0, 4.0);
+            inner.Drive.Steering.Push = 1.0;
+            Steps(run, 5);
+            Check(134.0, 34.0, 4.0);
+        }
+
+        // A dead load of 50 mN on the straight outer catheter's tip is what the wire's hand bears where it carries that
+        // one along.
+        [TestCase(0.2, double.NaN, 3.0)]
+        [TestCase(0.03, double.NaN, 0.0)]
+        [TestCase(0.2, 0.06, 3.0)]
+        public void HubThatCarriesOthers_BearsTheirForces_WithinBothLimits(double limit, double ofOuter, double goes)
+        {
+            SimulationParameters parameters = CoaxialScenes.Three(Integrator.ImplicitEuler);
+            parameters.Drive.Steering = new Steering { Push = 0.05 };
+            parameters.Drive.HubForceLimit = limit;
+            parameters.Material.Sections = Array.Empty<WireSection>();
+            parameters.Scene.Walls = WallScenes.Tube(-100.0, 700.0, 20.0);
+            foreach (Catheter one in parameters.Scene.Catheters)
+            {
+                one.Start = 1.0;
+                one.Material.Sections = Array.Empty<WireSection>();
+                one.Drive.Steering = new Steering();
+            }
+            Catheter outer = parameters.Scene.Catheters[0];
+            outer.TipForce = new Vector3d(0.0, 0.0, -0.05);
+            outer.Drive.HubForceLimit = ofOuter;
+            Simulation run = Simulation.Create(parameters);
+            Steps(run, 80);
+            CoaxialRecord record = run.Coaxial()!;
+            Assert.That(run.Outcome, Is.EqualTo(Outcome.Running), run.Reason);
+            TestContext.WriteLine("{0:G4} N of the outer one, {1:G4} N of the wire", record.Force, run.Hub()!.Force);
+            Assert.That(1e3 * record.Insertion, Is.EqualTo(goes).Within(1e-6));
+            Assert.That(1e3 * run.Hub()!.Insertion, Is.EqualTo(1.0 + goes).Within(1e-6));
+        }
+
         [Test]
         public void RunAgain_HasTheSameBits_AndASnapshotGoesOnToThem()
         {
             Vector3d[] whole = End(-1);
             Assert.That(End(-1), Is.EqualTo(whole));
             Assert.That(End(17), Is.EqualTo(whole));
+        }
+
+        private static void Steps(Simulation run, int count)
+        {
+            for (int k = 0; k < count; k++)
+            {
+                run.Step();
+            }
         }
 
         private static Vector3d[] End(int snapshotAt)
