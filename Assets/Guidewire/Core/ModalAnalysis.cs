@@ -12,6 +12,7 @@ namespace Guidewire.Core
     {
         private const int MaxIterations = 2000;
         private const double Settled = 1e-13;  // relative change of w^2 in an iteration
+        private const double Neutral = 1e-15;  // w^2, of the largest of an element along its axis: 0 to rounding
         private const double Still = 1e-6;     // shift over L times the turn, of a mode of twist alone
 
         private readonly BlockTridiagonal _system;
@@ -32,16 +33,19 @@ namespace Guidewire.Core
                 return;
             }
             var gradient = new RodVector[_system.VectorCount];
-            int negative = _system.Factorise(terms.All, scene.Shape, gradient, new RodVector[_system.VectorCount], 0.0);
-            if (negative > 0)
+            // The rest shape is stable: a negative pivot is that of a neutral motion, of which rounding makes either sign.
+            _system.Factorise(terms.All, scene.Shape, gradient, new RodVector[_system.VectorCount], 0.0);
+            double fastest = 0.0;
+            for (int j = 0; j < scene.Rod.ElementCount; j++)
             {
-                Failure = "the rest shape is not stable";
-                return;
+                double l = scene.Rod.Length[j];
+                fastest = Math.Max(fastest, 4.0 * scene.Rod.StretchStiffness[j] / (scene.Rod.LineDensity[j] * l * l));
             }
             var frequencies = new double[count];
             for (int m = 0; m < count; m++)
             {
-                frequencies[m] = Math.Sqrt(Find(m)) / (2.0 * Math.PI);
+                double square = Find(m);
+                frequencies[m] = square > Neutral * fastest ? Math.Sqrt(square) / (2.0 * Math.PI) : 0.0;
             }
             Frequencies = frequencies;
             Shapes = _found.ConvertAll(Shift).ToArray();
@@ -53,7 +57,8 @@ namespace Guidewire.Core
         /// <summary>Positions of the n+1 nodes at rest, in units.</summary>
         public Vector3d[] Positions { get; }
 
-        /// <summary>The natural frequencies, Hz, ascending.</summary>
+        /// <summary>The natural frequencies, Hz, ascending; 0 of a motion that changes no energy, such as the turn of a
+        /// buckled wire about its thrust.</summary>
         public double[] Frequencies { get; } = Array.Empty<double>();
 
         /// <summary>Of each mode the shift of the n+1 nodes, the largest of length 1; 0 where a straight wire only
@@ -133,7 +138,7 @@ namespace Guidewire.Core
                 double before = square;
                 square = stiffness / mass;
                 v = next;
-                if (Math.Abs(square - before) <= Settled * square)
+                if (Math.Abs(square - before) <= Settled * Math.Abs(square))
                 {
                     break;
                 }

@@ -40,6 +40,21 @@ namespace Guidewire.Core.Tests
             Assert.That((node + 0.5) / 60.0, Is.EqualTo(0.7834).Within(0.5 / 60.0));
         }
 
+        // Clamped at both ends, of which one slides, and buckled: it turns about its thrust without a force.
+        [Test]
+        public void BuckledWire_HasOneNeutralMode_WhateverRoundingMakesOfIt([Values(17, 30, 31, 64)] int n,
+            [Values(1.05, 1.3, 1.6)] double load)
+        {
+            SimulationParameters parameters = Clamped(n, DistalEnd.Sliding);
+            double critical = 4.0 * Math.PI * Math.PI * Rods.BendStiffness / (Rods.Length * Rods.Length);
+            parameters.Scene.TipForce = new Vector3d(0.0, 0.0, -load * critical);
+            ModalAnalysis modes = ModalAnalysis.Of(parameters, 4);
+            Assert.That(modes.Failure, Is.Null);
+            Assert.That(modes.Frequencies[0], Is.Zero);
+            Assert.That(modes.Frequencies[1], Is.GreaterThan(0.1));
+            Assert.That(modes.Frequencies, Is.Ordered);
+        }
+
         [Test]
         public void Gains_HaveNoModes() =>
             Assert.That(() => ModalAnalysis.Of(new SimulationParameters(), 3), Throws.ArgumentException);
