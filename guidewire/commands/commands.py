@@ -333,12 +333,15 @@ def _mandrel(arguments: argparse.Namespace) -> int:
 
 
 def _instrument(arguments: argparse.Namespace) -> int:
-    from guidewire.commands import instruments
+    from guidewire.commands import instruments, sheet
 
     checking.check_out(arguments.out)
-    if arguments.name is not None:
+    made = arguments.like is not None or bool(arguments.members)
+    if arguments.name is not None and not made:
         instruments.check_name(arguments.name)
     with instruments.opened(build_runner()) as bench:
+        if made:
+            sheet.write(bench, arguments.name, arguments.like, arguments.members)
         return instruments.show(bench, arguments.name, arguments.out)
 
 
