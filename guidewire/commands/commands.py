@@ -194,7 +194,9 @@ def _plot(arguments: argparse.Namespace) -> int:
 def _keys(arguments: argparse.Namespace) -> int:
     from guidewire.commands.key_search import describe, find_keys
 
-    for key in find_keys(checking.read_table(), arguments.word, arguments.solver):
+    # A contributor's own key shows at once; without a runner nobody has one, and nothing is built.
+    runner = build_runner() if building.built(building.RUNNER) else None
+    for key in find_keys(checking.read_built_table(runner), arguments.word, arguments.solver):
         print(describe(key))
     print("Parts of a key may be used wherever a key is: vessel.radius, obstacles[0].radius, "
           "wireSections[-1].youngsModulus (-1: the last).", file=sys.stderr)
