@@ -18,7 +18,7 @@ from analysis.chart import coaxial, material, page, tables, walls
 from analysis.chart.points import Charted, Problem, check_of, in_short
 from analysis.figures import FIGURES, FigureSpec
 from analysis.measured import figure as measured
-from analysis.relaxation import RelaxationError
+from guidewire.logs.relaxation import RelaxationError
 from analysis.tables import measure_relaxation
 from analysis.validation.integrators import INTEGRATORS, INTEGRATORS_ONCE
 from analysis.validation.report import (

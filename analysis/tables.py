@@ -9,7 +9,7 @@ from pathlib import Path
 import numpy as np
 
 from analysis.errors import displacement_errors, steady_state_entry, total_error
-from analysis.relaxation import Relaxation, RelaxationError, fit_relaxation, relaxation_error
+from guidewire.logs.relaxation import Relaxation, RelaxationError, fit_relaxation, relaxation_error
 from guidewire.logs.logs import PositionLog, read_log
 from guidewire.logs.runs import Run, busiest, read_study
 

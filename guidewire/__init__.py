@@ -20,6 +20,8 @@ if TYPE_CHECKING:  # the same names for type checkers
     from guidewire.library import advise as advise, sweep as sweep
     from guidewire.logs.logs import LogError as LogError, PositionLog as PositionLog
     from guidewire.logs.logs import read_entries as read_entries, read_log as read_log
+    from guidewire.logs.relaxation import Relaxation as Relaxation, RelaxationError as RelaxationError
+    from guidewire.logs.relaxation import read_relaxation as read_relaxation
     from guidewire.logs.runs import Run as Run, read_run as read_run, read_runs as read_runs
     from guidewire.prepare import PreparationError as PreparationError
     from guidewire.sessions.session import Session as Session
@@ -32,6 +34,7 @@ _HOMES = {
     "guidewire.identification": ("Identified", "identify"),
     "guidewire.library": ("advise", "sweep"),
     "guidewire.logs.logs": ("LogError", "PositionLog", "read_entries", "read_log"),
+    "guidewire.logs.relaxation": ("Relaxation", "RelaxationError", "read_relaxation"),
     "guidewire.logs.runs": ("Run", "read_run", "read_runs"),
     "guidewire.prepare": ("PreparationError",),
     "guidewire.sessions.session": ("Session",),

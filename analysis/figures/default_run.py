@@ -10,7 +10,7 @@ from matplotlib.colors import TwoSlopeNorm
 from matplotlib.figure import Figure
 
 from analysis.errors import displacement_errors, mean_error, total_error
-from analysis.relaxation import Relaxation, relaxation_error
+from guidewire.logs.relaxation import Relaxation, relaxation_error
 from analysis.tables import measure_relaxation, steady_state_step
 from guidewire.figures.style import captioned, letter, new_figure, styled
 from guidewire.figures.wording import number, percent

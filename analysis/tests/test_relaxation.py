@@ -2,14 +2,26 @@
 
 from __future__ import annotations
 
+import csv
+import json
 import warnings
+from dataclasses import replace
+from pathlib import Path
 
 import numpy as np
 import pytest
 
-from analysis.relaxation import Relaxation, RelaxationError, RelaxationWarning, fit_relaxation, relaxation_error
+from analysis.slowest_mode import SlowestMode
 from analysis.tests.chain import Chain
 from analysis.tests.test_slowest_mode import mode_of, slowest_factor
+from guidewire.logs.relaxation import (
+    Relaxation, RelaxationError, RelaxationWarning, fit_relaxation, read_relaxation, relaxation_error,
+)
+from guidewire.logs.result_table import read_curves
+from guidewire.logs.runs import read_run
+from guidewire.prepare import ROOT
+from guidewire.studies.study_file import read_study_file
+from guidewire.sweeps.sweep import Means, sweep
 
 
 def measured(chain: Chain, **options):
@@ -167,3 +179,53 @@ def test_chain_with_gain_0_3_is_where_the_seed_is() -> None:
     chain = Chain(stretch_gain=0.3, most_steps=50)
     assert chain.z[10, -1] - chain.rest[-1] == pytest.approx(10.2667809, abs=5e-8)
     assert chain.z[50, -1] - chain.rest[-1] == pytest.approx(10.0147801, abs=5e-8)
+
+
+def swept(tmp_path: Path, runner_command: list[str], scene: str, **study: object) -> list[dict[str, str]]:
+    """Lines of runs.csv of a study without logs."""
+    file = tmp_path / "study.json"
+    file.write_text(json.dumps({"study": "own", "scene": str(ROOT / "params" / scene), **study}))
+    sweep([(read_study_file(file), tmp_path)], tmp_path / "runs", Means(runner_command, 2))
+    return list(csv.DictReader((tmp_path / "own" / "runs.csv").read_text().splitlines()))
+
+
+def test_a_sweep_of_a_displaced_wire_has_its_relaxation_times(tmp_path: Path, runner_command: list[str]) -> None:
+    rows = swept(tmp_path, runner_command, "default.json", axes={"stretchStiffness": [0.1, 0.5, 1.0]},
+                 variants={"": {}, "driven": {"drive": "displace"}})
+    for row in rows[:3]:
+        tau, error = float(row["relaxationTime"]), float(row["relaxationTimeError"])
+        run = read_run(tmp_path / "own" / row["folder"])
+        true = SlowestMode.of(run)
+        assert tau == pytest.approx(true.relaxation_time, rel=2e-3, abs=2.0 * error) and error < 0.03 * tau
+        assert float(row["relaxationPeriod"]) == pytest.approx(true.period, rel=2e-3)
+        assert row["relaxationNote"] == "" and read_relaxation(run.folder).time == tau
+    assert {row["relaxationTime"] for row in rows[3:]} == {""}
+    with pytest.raises(RelaxationError, match="not let go: it is driven"):
+        read_relaxation(replace(run, parameters={**run.parameters, "drive": "push"}))
+    curves = read_curves(tmp_path / "own", "stretchStiffness", "relaxationTime")
+    assert curves.lines[0].error == tuple(float(row["relaxationTimeError"]) for row in rows[:3])
+
+
+@pytest.mark.parametrize("released", [
+    {"gravity": [0, -9.81, 0]},
+    {"tipForce": [0, 1e-3, 0], "tipForceReleaseTime": 0.1, "initialState": "equilibrium"},
+])
+def test_a_released_cantilever_decays_with_twice_the_inverse_of_its_drag(
+    tmp_path: Path, runner_command: list[str], released: dict[str, object],
+) -> None:
+    """With drag c a mode decays with tau = 2/c at sqrt(w^2 - c^2/4), w = 1.8751^2 sqrt(EI/(rho A))/L^2, about whatever
+    rest its loads give it. Drag is exact in the elements' mean motion, and the 30 elements cost the period 0.5 %."""
+    rows = swept(tmp_path, runner_command, "cantilever.json", axes={"massDamping": [20.0, 10.0]},
+                 common={**released, "maxSimulationSteps": 1200})
+    natural = 1.87510407 ** 2 * np.sqrt(60e9 * 0.0005 ** 2 / 4.0 / 6450.0) / 0.3 ** 2
+    for row, drag in zip(rows, (20.0, 10.0)):
+        assert float(row["relaxationTime"]) == pytest.approx(2.0 / drag, abs=2.0 * float(row["relaxationTimeError"]))
+        assert float(row["relaxationTimeError"]) < 0.05 * 2.0 / drag
+        assert float(row["relaxationPeriod"]) == pytest.approx(
+            2.0 * np.pi / np.sqrt(natural ** 2 - 0.25 * drag ** 2), rel=5e-3)
+
+
+def test_an_undamped_wire_has_no_relaxation_time_and_says_so(tmp_path: Path, runner_command: list[str]) -> None:
+    row, = swept(tmp_path, runner_command, "cantilever.json", axes={"massDamping": [0.0]},
+                 common={"gravity": [0, -9.81, 0], "maxSimulationSteps": 1200})
+    assert row["relaxationTime"] == "" and "do not decide the relaxation time" in row["relaxationNote"]

@@ -7,7 +7,7 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from analysis.relaxation import fit_relaxation
+from guidewire.logs.relaxation import fit_relaxation
 from analysis.slowest_mode import SlowestMode
 from analysis.tests.chain import EPSILON, Chain
 from guidewire.logs.runs import Run

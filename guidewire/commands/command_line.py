@@ -258,6 +258,11 @@ def parse(argv: list[str]) -> argparse.Namespace:
     instrument = commands.add_parser("instrument", help="all instruments, or one: sources of its numbers, bench tests, "
                                                         "picture; exit code 1 if an error exceeds its limit")
     instrument.add_argument("name", metavar="NAME", nargs="?", help="such as amplatz-super-stiff-0.035")
+    instrument.add_argument("--like", metavar="OTHER", help="make instruments/NAME.json here, of another one and what "
+                                                            "--set states")
+    instrument.add_argument("--set", dest="members", action="append", default=[], type=assignment,
+                            metavar="MEMBER=VALUE", help="with --like: of its data sheet, such as tipLoad=2 (g), "
+                                                         "\"tipLength=3 cm\" or \"coreDiameter=0.4 mm\"; repeatable")
     instrument.add_argument("--out", type=path, default=Path("results/instruments"), metavar="DIR",
                             help="folder for NAME.png (results/instruments)")
     instrument.set_defaults(packages=DRAWING)

@@ -194,7 +194,9 @@ def _plot(arguments: argparse.Namespace) -> int:
 def _keys(arguments: argparse.Namespace) -> int:
     from guidewire.commands.key_search import describe, find_keys
 
-    for key in find_keys(checking.read_table(), arguments.word, arguments.solver):
+    # A contributor's own key shows at once; without a runner nobody has one, and nothing is built.
+    runner = build_runner() if building.built(building.RUNNER) else None
+    for key in find_keys(checking.read_built_table(runner), arguments.word, arguments.solver):
         print(describe(key))
     print("Parts of a key may be used wherever a key is: vessel.radius, obstacles[0].radius, "
           "wireSections[-1].youngsModulus (-1: the last).", file=sys.stderr)
@@ -333,12 +335,15 @@ def _mandrel(arguments: argparse.Namespace) -> int:
 
 
 def _instrument(arguments: argparse.Namespace) -> int:
-    from guidewire.commands import instruments
+    from guidewire.commands import instruments, sheet
 
     checking.check_out(arguments.out)
-    if arguments.name is not None:
+    made = arguments.like is not None or bool(arguments.members)
+    if arguments.name is not None and not made:
         instruments.check_name(arguments.name)
     with instruments.opened(build_runner()) as bench:
+        if made:
+            sheet.write(bench, arguments.name, arguments.like, arguments.members)
         return instruments.show(bench, arguments.name, arguments.out)
 
 

@@ -134,12 +134,14 @@ def show(bench: Bench, name: str | None, out: Path) -> int:
     """Print what an instrument's file states and its bench tests, and draw it; 1 where a gate is not passed. Without a
     name print the table of all."""
     from guidewire.benches.figure import draw_instrument
+    from guidewire.commands import sheet
 
     if name is None:
         print("\n".join(table(bench)))
         return 0
     wire = bench.wire(name)
-    print("\n".join(stated_lines(read_stated(files()[name]))))
+    file = files()[name]
+    print("\n".join([*stated_lines(read_stated(file)), *sheet.derived_lines(file, wire)]))
     results = list(bench.stiffness(wire))
     print("\n".join(bench_lines(results)), flush=True)
     tube, smooth = bench.tube(wire, None), bench.tube(wire, 0.0)

@@ -32,6 +32,8 @@ def draw_curves(curves: Curves, x_label: str, logarithmic: str = "") -> Figure:
         axes.plot(line.x, line.y, color=colormaps["viridis"](0.9 * colour / max(1, len(colours) - 1)),
                   linestyle=_DASHES[other % len(_DASHES)], marker=_MARKERS[other % len(_MARKERS)], markersize=4,
                   label=name or None)
+        if any(line.error):
+            axes.errorbar(line.x, line.y, line.error, fmt="none", ecolor="0.3", elinewidth=1.0, capsize=2.0)
     axes.set(xlabel=x_label, ylabel=curves.y_label)
     if "x" in logarithmic:
         axes.set_xscale("log")

@@ -32,7 +32,8 @@ QUANTITIES: Mapping[str, tuple[str, str]] = {
     "inGameTime": ("in-game time", "s"), "computationTime": ("computation time", "s"), "wallTime": ("wall time", "s"),
     "averageStepTime": ("average wall time of a step", "ms"), "medianStepTime": ("median wall time of a step", "ms"),
     "steps": ("steps", ""), "passages": ("passages of walls", ""), "predictionError": ("prediction error", "units"),
-    "solver.energy": ("energy at the end", "J"), "hub.tipPosition": ("position of the tip", "units"),
+    "relaxationTime": ("relaxation time", "s"), "relaxationTimeError": ("standard error of the relaxation time", "s"),
+    "relaxationPeriod": ("period of the oscillation", "s"), "solver.energy": ("energy at the end", "J"), "hub.tipPosition": ("position of the tip", "units"),
 }
 _FORCES = ("largestContactForce", "largestWallForce")  # with gains in units of their own
 _GAINS_FORCE = "mass unit * unit/s$^2$"
@@ -47,12 +48,14 @@ class Line:
     by : value of the parameter that makes a colour; empty where none does.
     rest : values of the other parameters that vary, "key = value" each.
     x, y : of the points, x ascending; texts where x is no number.
+    error : standard errors of y, which the table has in a column of y's name and "Error"; 0 where it has none.
     """
 
     by: str
     rest: str
     x: tuple[float | str, ...]
     y: tuple[float, ...]
+    error: tuple[float, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -100,7 +103,7 @@ def read_curves(table: Path, x: str, y: str, by: str | None = None) -> Curves:
     x, name, by = (_column(file, columns, "--" + flag, asked, offered) if asked else "" for flag, asked, offered in (
         ("x", x, varied), ("y", name, numbers), ("by", by, varied)))
     chosen = [row for row in rows if not row.get("repeat")] or rows
-    points: dict[tuple[str, str], list[tuple[float | str, float]]] = {}
+    points: dict[tuple[str, str], list[tuple[float | str, float, float]]] = {}
     lost = 0
     for row in chosen:
         value = _number(row[name] if index is None else _of_list(row[name], index))
@@ -109,11 +112,13 @@ def read_curves(table: Path, x: str, y: str, by: str | None = None) -> Curves:
             continue
         rest = ", ".join(f"{key} = {row[key]}" for key in varied if key not in (x, by) and row.get(key))
         across = _number(row[x])
-        points.setdefault((row[by] if by else "", rest), []).append((row[x] if across is None else across, value))
+        error = _number(row.get(name + "Error", "")) if index is None else None
+        points.setdefault((row[by] if by else "", rest), []).append(
+            (row[x] if across is None else across, value, error or 0.0))
     if not points:
         raise LogError(f"{file}: {y} is a number in none of {len(chosen)} runs; there are {', '.join(numbers)}")
-    texts = any(isinstance(across, str) for line in points.values() for across, _ in line)
-    lines = tuple(Line(colour, rest, *zip(*([(str(across), value) for across, value in line] if texts
+    texts = any(isinstance(across, str) for line in points.values() for across, *_ in line)
+    lines = tuple(Line(colour, rest, *zip(*([(str(across), *of_y) for across, *of_y in line] if texts
                                             else sorted(line))))
                   for (colour, rest), line in points.items())
     return Curves(lines, x, name + ("" if index is None else f"[{index}]"), by, _label(name, index, rows[0]),

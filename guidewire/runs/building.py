@@ -65,6 +65,12 @@ def build(project: str, tell: Callable[[str], None]) -> list[str]:
     return [program, str(_output(project) / f"net{SDK_MAJOR}.0" / f"{project}.dll")]
 
 
+def built(project: str) -> list[str] | None:
+    """Return the command of a program of the repository that was built, be it of what is there now or not, or None."""
+    program = _output(project) / f"net{SDK_MAJOR}.0" / f"{project}.dll"
+    return ["dotnet", str(program)] if program.is_file() and not INSTALLED else None
+
+
 def build_tested(tell: Callable[[str], None]) -> None:
     """Build what tests need at once, if need be; `tell` and errors as of `build`."""
     _bring_up_to_date(*dotnet(), HEADLESS / "Tests.slnf", TESTED, tell)

@@ -9,6 +9,7 @@ from __future__ import annotations
 import difflib
 import json
 import re
+import subprocess
 import tempfile
 from collections.abc import Sequence
 from pathlib import Path
@@ -16,7 +17,8 @@ from typing import Any
 
 from guidewire.json_text import problem_of
 from guidewire.prepare import DOOR, ROOT, PreparationError
-from guidewire.runs.key_table import Key, parse_key_table
+from guidewire.runs import building
+from guidewire.runs.key_table import Key, parse_key_table, read_key_table
 
 _TABLE = ROOT / "docs" / "parameters.md"
 _PART = re.compile(r"[.\[]")  # behind a key: what follows names a part of it, which the runner looks for
@@ -95,6 +97,21 @@ def read_table() -> dict[str, Key]:
         return {}  # the page is gone or of another version: the runner says what is wrong
 
 
+def read_built_table(command: Sequence[str] | None = None) -> dict[str, Key]:
+    """Return every key of a runner, a new one among them that the page does not have; where none is built those of the
+    page.
+
+    Parameters
+    ----------
+    command : of the runner; None: the one that is built, be it of what is there now or not.
+    """
+    command = command or building.built(building.RUNNER)
+    try:
+        return read_key_table(command) if command else read_table()
+    except (OSError, ValueError, subprocess.CalledProcessError):
+        return read_table()
+
+
 def unit_of(name: str) -> str:
     """Unit of a key; empty where it has none, or is none."""
     key = read_table().get(name)
@@ -110,7 +127,7 @@ def _check(table: dict[str, Key], name: str, value: Any, source: str, shown: str
     if key is None:
         by_small = {known.lower(): known for known in table if solver is None or solver in table[known].solvers}
         near = difflib.get_close_matches(whole.lower(), by_small, n=1, cutoff=_CLOSE)
-        if not near:
+        if not near or whole in read_built_table():
             return  # the runner knows what else it may be called
         hint = f"did you mean '{by_small[near[0]]}{name[len(whole):]}'?"
         raise PreparationError(f"{source}: unknown key '{_short(name)}': {hint}")

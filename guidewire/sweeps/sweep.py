@@ -12,17 +12,20 @@ import io
 import json
 import os
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, Optional, Protocol
 
+from guidewire.json_text import without_notes
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs import building
 from guidewire.runs.runner import BAD_INPUT, FAILED, INTERRUPTED, Answer, Request
 from guidewire.runs.whole_files import write_whole
 from guidewire.studies.keys import RESULTS, TABLE, told_values
-from guidewire.studies.table import Case, Findings, Rounds, Source
+from guidewire.studies.table import Case, Findings, Rounds, Source, Study
 from guidewire.sweeps.store import folder_of, read_whole
 
 if TYPE_CHECKING:
@@ -295,6 +298,8 @@ class _Asked:
     def _line(self, row: _Row, summary: Mapping[str, Any]) -> dict[str, Any]:
         """Return what came of a run, and last what depends on the machine."""
         flat = dict(_flat("", {name: value for name, value in summary.items() if name not in _SAID}))
+        if isinstance(self.source, Study) and row.repeat is None and summary.get("log"):
+            flat |= _relaxation(row.folder)
         last = {name: flat.pop(name) for name in WALL_TIMES if name in flat}
         return {**flat, "folder": self._place_of(row), **last}
 
@@ -321,10 +326,23 @@ class _Asked:
         repeats = range(1, case.repeats + 1)
         return [self._row(case, None, overrides), *(self._row(case, k, {**overrides, **_TIMED}) for k in repeats)]
 
+    @cached_property
+    def _scene(self) -> dict[str, Any]:
+        """Keys of the scene's file; none where it cannot be read, which the runner then says."""
+        try:
+            return dict(without_notes(json.loads((ROOT / self.source.scene).read_text(encoding="utf-8-sig"))))
+        except (OSError, ValueError, TypeError):
+            return {}
+
     def _row(self, case: Case, repeat: int | None, overrides: dict[str, Any]) -> _Row:
         from guidewire.sweeps.worker import Job
 
         logs = self.source.logs and not case.in_turns
+        if not logs and repeat is None and isinstance(self.source, Study) and self.source.file is not None:
+            from guidewire.logs.relaxation import is_released
+
+            logs = is_released({**self._scene, **overrides})
+            overrides = {"logSpheres": "last", **overrides} if logs else overrides  # what its relaxation takes
         request = Request(case.key, ROOT / self.source.scene, None, overrides, repeat, logs)
         return _Row(case, Job(request, repeat is not None, self.source.seconds))
 
@@ -346,6 +364,28 @@ class _Ended(Mapping[str, Optional[dict[str, Any]]]):
 
 
 _SAID = ("repeat", "timed", "complete")  # of a summary, what the table says elsewhere
+
+
+def _relaxation(folder: Path) -> dict[str, Any]:
+    """Relaxation of a run's tip, where its wire is let go. `relaxationNote` says why there is none, or what it leaves.
+    """
+    from guidewire.logs.logs import LogError
+    from guidewire.logs.relaxation import RelaxationError, is_released, read_relaxation
+    from guidewire.logs.runs import read_run
+
+    found, note = None, ""
+    try:
+        run = read_run(folder)
+        if not is_released(run.parameters):
+            return {}
+        with warnings.catch_warnings(record=True) as warned:
+            warnings.simplefilter("always")
+            found = read_relaxation(run)
+        note = "; ".join(str(one.message) for one in warned)
+    except (LogError, RelaxationError) as error:
+        note = str(error)
+    return {"relaxationTime": found and found.time, "relaxationTimeError": found and found.time_error,
+            "relaxationPeriod": found and found.period, "relaxationNote": note}
 
 
 def _flat(prefix: str, values: Mapping[str, Any]) -> Iterator[tuple[str, Any]]:

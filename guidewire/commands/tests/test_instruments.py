@@ -14,10 +14,10 @@ import pytest
 
 from guidewire.benches import benches, bent_tube, elastica
 from guidewire.benches.figure import draw_instrument
-from guidewire.benches.library import read_stated
+from guidewire.benches.library import FOLDER, read_stated
 from guidewire.benches.wire import Wire, wire_of
-from guidewire.commands import instruments
-from guidewire.logs.logs import LogError, read_entries
+from guidewire.commands import instruments, sheet
+from guidewire.logs.logs import LogError, read_entries, read_log
 from guidewire.prepare import ROOT, PreparationError
 from guidewire.runs.runner import Request
 from guidewire.runs.tests.parameter_strategies import FULL
@@ -162,3 +162,49 @@ def test_the_table_has_a_line_for_each_instrument(bench):
     lines = instruments.table(bench)
     assert [line.split()[0] for line in lines[1:-1]] == NAMES
     assert len(NAMES) >= 16 and isinstance(bench.wire(NAMES[0]), Wire)
+
+
+def test_a_data_sheet_makes_an_instrument_whose_tip_buckles_at_its_load(runner_command, tmp_path, monkeypatch, capsys):
+    """The last 10 mm, clamped at one end, under a thrust P at the other: a small force across is amplified by
+    tan(u)/u - 1 over u^2/3 with u = pi/2 sqrt(P/P_cr), whatever EI is (Timoshenko, Theory of Elastic Stability)."""
+    monkeypatch.chdir(tmp_path)
+    with instruments.opened(runner_command) as bench:
+        sheet.write(bench, "mine", "bentson-0.035", [("tipLoad", "2"), ("tipLength", "3cm")])
+        wire = bench.wire("mine")
+        (line,) = sheet.derived_lines(tmp_path / FOLDER / "mine.json", wire)
+        assert "7.95e-07 N m2" in line and "from 5.38e-07 to 1.1e-06" in line and "9.72e-08" in line
+        tip = {"solver": "direct", "proximalEnd": "clamped", "guidewireLength": 10.0, "numberRodElements": 40,
+               "bendingStiffness": float(wire.bending[-1]), "torsionalStiffness": 1e-6, "wireRadius": wire.radius,
+               "density": 7900.0, "initialState": "equilibrium", "maxSimulationSteps": 0}
+        across, load = 1e-7, 2 * 9.80665e-3
+
+        def deflection(part):
+            folder = bench.make({**tip, "tipForce": [0.0, across, -part * load]})
+            return read_log(folder).positions[-1, 0, 1]
+
+        u = 0.5 * math.pi * math.sqrt(0.8)
+        assert deflection(0.8) / deflection(0.0) == pytest.approx((math.tan(u) / u - 1.0) / (u * u / 3.0), rel=0.01)
+        before = set(instruments.files())
+        for members, said in ([("tipLoad", "two")], "such as \"2 g\""), ([("tipload", "2")], "unknown member 'tipload'"):
+            with pytest.raises(PreparationError, match=said):
+                sheet.write(bench, "other", "bentson-0.035", members)
+        with pytest.raises(PreparationError, match="is there already"):
+            sheet.write(bench, "mine", "bentson-0.035", [])
+        assert set(instruments.files()) == before
+
+
+def test_a_data_sheet_replaces_the_stiffness_of_the_shaft(runner_command, tmp_path, monkeypatch):
+    monkeypatch.chdir(tmp_path)
+    with instruments.opened(runner_command) as bench:
+        sheet.write(bench, "core", "amplatz-0.035", [("coreDiameter", "0.50 mm"), ("coreModulus", "60 GPa")])
+        core = bench.wire("core")
+        assert core.bending[0] == pytest.approx(60e9 * math.pi * 0.5e-3**4 / 64.0)
+        sheet.write(bench, "rail", "core", [("supportForce", "1.20 N"), ("supportForce.span", "50 mm"),
+                                            ("supportForce.deflection", "5.0mm"), ("material", "linear")])
+        rail = bench.wire("rail")
+        assert rail.bending[0] == pytest.approx(1.2 * 0.05**3 / (48.0 * 0.005))
+        assert rail.bending[-1] == core.bending[-1] == bench.wire("amplatz-0.035").bending[-1]
+        (line,) = sheet.derived_lines(tmp_path / FOLDER / "rail.json", rail)
+        low, high = (float(line.partition(word)[2].split()[0]) for word in ("from", " to"))
+        assert low == pytest.approx(0.000625 * (1 - 0.005 / 1.2) * 0.99**3 / 1.01, rel=1e-2)
+        assert high == pytest.approx(0.000625 * (1 + 0.005 / 1.2) * 1.01**3 / 0.99, rel=1e-2)

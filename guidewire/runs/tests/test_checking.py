@@ -1,6 +1,8 @@
 """Arguments and files are checked before anything is built, and the check refuses nothing that the runner takes."""
 
 import os
+import subprocess
+import sys
 
 import pytest
 
@@ -132,10 +134,26 @@ def test_keys_are_found_by_name_by_meaning_and_by_solver(capsys):
     assert "youngsModulus" not in type_keys(capsys, "bendStiffness") and "Kelvin" in type_keys(capsys, "kelvin")
 
 
+def test_keys_are_those_of_the_runner_that_is_built(monkeypatch, tmp_path, capsys, runner_command):
+    """A key of a contributor's own, which the page does not have, and which is spelt like one that it has."""
+    printed = subprocess.run([*runner_command, "--keys"], capture_output=True, text=True, check=True).stdout
+    row = next(line for line in printed.splitlines() if line.startswith("| `massDamping`"))
+    (tmp_path / "keys.md").write_text(printed + row.replace("massDamping", "massDampings") + "\n")
+    (tmp_path / "runner.py").write_text("print(open(__file__.replace('runner.py', 'keys.md')).read())")
+    command = [sys.executable, str(tmp_path / "runner.py")]
+    monkeypatch.setattr(building, "built", lambda project: command)
+    monkeypatch.setattr(building, "build", lambda project, tell: command)
+    assert type_keys(capsys, "massDampings").startswith("massDampings: ")
+    checking.check_overrides([("massDampings", "1")])
+    with pytest.raises(PreparationError, match="did you mean 'massDamping'"):
+        checking.check_overrides([("masDamping", "1")])
+
+
 @pytest.mark.parametrize("words, said", [
     (["stiffnes_"], "no key has 'stiffnes_'"), (["dampin9"], "near are damping"),
     (["bendStiffness", "--solver", "direct"], "solver direct takes no key with 'bendStiffness': near are bend"),
 ])
-def test_a_word_without_a_key_is_refused_with_near_ones(unbuilt, words, said):
+def test_a_word_without_a_key_is_refused_with_near_ones(unbuilt, monkeypatch, words, said):
+    monkeypatch.setattr(building, "built", lambda project: None)
     line = unbuilt("keys", *words)
     assert said in line and (words[-1] != "direct" or "bendStiffness," not in line)

@@ -11,7 +11,13 @@ namespace Guidewire.Io
     {
         private static readonly string[] Kinds = { "guidewire", "catheter" };
         private static readonly string[] Profiles = { "uniform", "linear" };
+        private static readonly string[] Stiffnesses =
+        {
+            "bendingStiffness", "flexuralModulus", "supportForce", "coreModulus",
+        };
+
         private const double Largest = 100.0;   // m, of any length: beyond it a unit is wrong
+        private const double FreeTip = 0.01;    // m, the usual free length in a test of the tip load
 
         /// <summary>Gives the instrument of a file.</summary>
         /// <param name="file">Its name.</param>
@@ -22,9 +28,8 @@ namespace Guidewire.Io
             JObject read = content == null ? JsonText.ReadObject(file)
                 : JsonText.ParseObject(PlainFile.Decode(content), file);
             var fields = new InstrumentFields(file, "", read, "title", "kind", "diameter", "innerDiameter", "length",
-                "coreDiameter", "material", "bendingStiffness", "flexuralModulus", "torsionalRatio", "density",
-                    "friction",
-                "distalSections", "tip", "radiopaque");
+                "coreDiameter", "coreModulus", "material", "bendingStiffness", "flexuralModulus", "supportForce",
+                "torsionalRatio", "density", "friction", "distalSections", "tipLoad", "tipLength", "tip", "radiopaque");
             fields.Text("title");
             bool isHollow = fields.Word("kind", Kinds) == "catheter";
             if (isHollow != fields.Has("innerDiameter"))
@@ -98,39 +103,74 @@ namespace Guidewire.Io
             return core <= 2.0 * instrument.Radius ? core : throw fields.Wrong("coreDiameter", "at most the diameter");
         }
 
-        // A flexural modulus is that of the solid or hollow section of the given diameters: EI = E pi (d^4 - a^4)/64.
+        // A flexural modulus is that of the solid or hollow section of the given diameters, EI = E pi (d^4 - a^4)/64,
+        // and the core's that of the core alone. A support force bends a span on two supports: EI = F s^3/(48 u).
         private static double ReadStiffness(InstrumentFields fields, Instrument instrument)
         {
-            if (fields.Has("bendingStiffness") == fields.Has("flexuralModulus"))
+            string[] given = Array.FindAll(Stiffnesses, fields.Has);
+            if (given.Length != 1)
             {
-                throw fields.Wrong("bendingStiffness", "one of bendingStiffness and flexuralModulus");
+                throw fields.Wrong(given.Length == 0 ? Stiffnesses[0] : given[1],
+                    "one of " + string.Join(", ", Stiffnesses));
             }
-            if (fields.Has("bendingStiffness"))
+            switch (given[0])
             {
-                return fields.Quantity("bendingStiffness", Dimension.Stiffness);
+                case "bendingStiffness":
+                    return fields.Quantity(given[0], Dimension.Stiffness);
+                case "supportForce":
+                    InstrumentFields test = fields.Object(given[0], "value", "span", "deflection", "basis", "source");
+                    test.CheckOrigin();
+                    return test.Bare("value", Dimension.Force) * Math.Pow(test.Bare("span", Dimension.Length), 3.0)
+                        / (48.0 * test.Bare("deflection", Dimension.Length));
+                case "coreModulus":
+                    return fields.Quantity(given[0], Dimension.Modulus) * SecondMoment(0.5 * (instrument.CoreDiameter
+                        ?? throw fields.Wrong("coreDiameter", "the diameter of the core whose coreModulus is given")),
+                        0.0);
+                default:
+                    return fields.Quantity(given[0], Dimension.Modulus)
+                        * SecondMoment(instrument.Radius, instrument.InnerRadius);
             }
-            double second = 0.25 * Math.PI
-                * (Math.Pow(instrument.Radius, 4.0) - Math.Pow(instrument.InnerRadius, 4.0));
-            return fields.Quantity("flexuralModulus", Dimension.Modulus) * second;
+        }
+
+        private static double SecondMoment(double radius, double inner) =>
+            0.25 * Math.PI * (Math.Pow(radius, 4.0) - Math.Pow(inner, 4.0));
+
+        // A tip load P is that at which the last 10 mm, clamped at one end and free at the other, buckle:
+        // P = pi^2 EI/(4 l^2). The tip of this EI follows the distal sections, of which the last may taper to it.
+        private static double? ReadTipStiffness(InstrumentFields fields)
+        {
+            if (!fields.Has("tipLoad"))
+            {
+                return fields.Has("tipLength") ? throw fields.Wrong("tipLoad", "the load of the tip with this tipLength")
+                    : (double?)null;
+            }
+            return 4.0 * fields.Quantity("tipLoad", Dimension.Force) * FreeTip * FreeTip / (Math.PI * Math.PI);
         }
 
         private static void ReadSections(InstrumentFields fields, Instrument instrument)
         {
+            double? tip = ReadTipStiffness(fields);
             foreach (InstrumentFields section in fields.List("distalSections", "length", "bendingStiffness",
                 "coreDiameter", "profile"))
             {
                 instrument.Sections.Add(new DistalSection
                 {
                     Length = section.Quantity("length", Dimension.Length),
-                    BendingStiffness = section.Quantity("bendingStiffness", Dimension.Stiffness),
+                    BendingStiffness = tip.HasValue && !section.Has("bendingStiffness") ? tip.Value
+                        : section.Quantity("bendingStiffness", Dimension.Stiffness),
                     CoreDiameter = ReadCore(section, instrument),
                     IsTapered = section.Word("profile", Profiles) == "linear",
                 });
             }
+            if (tip.HasValue)
+            {
+                double length = fields.Quantity("tipLength", Dimension.Length);
+                instrument.Sections.Add(new DistalSection { Length = length, BendingStiffness = tip.Value });
+            }
             if (instrument.DistalLength > instrument.Length)
             {
                 throw fields.Wrong("length", "at least the " + Millimetres(instrument.DistalLength)
-                    + " mm of the distalSections");
+                    + " mm of the distalSections" + (tip.HasValue ? " and the tip" : ""));
             }
         }
 

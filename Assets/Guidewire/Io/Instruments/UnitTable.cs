@@ -24,12 +24,15 @@ namespace Guidewire.Io
         /// <summary>The quantity is a density, kg/m^3.</summary>
         Density,
 
+        /// <summary>The quantity is a force, N.</summary>
+        Force,
+
         /// <summary>The quantity is a plain number.</summary>
         Number,
     }
 
     /// <summary>The units of instruments' files and of tables, and their size in SI: a French is a third of a
-    /// millimetre, an inch 25.4 mm.</summary>
+    /// millimetre, an inch 25.4 mm, a gram as a force its standard weight.</summary>
     internal static class UnitTable
     {
         private static readonly (string Unit, Dimension Of, double Size)[] Units =
@@ -51,6 +54,9 @@ namespace Guidewire.Io
             ("N mm2", Dimension.Stiffness, 1e-6),
             ("kg/m3", Dimension.Density, 1.0),
             ("g/cm3", Dimension.Density, 1e3),
+            ("N", Dimension.Force, 1.0),
+            ("mN", Dimension.Force, 1e-3),
+            ("g", Dimension.Force, 9.80665e-3),
             ("", Dimension.Number, 1.0),
         };
 
@@ -126,6 +132,8 @@ namespace Guidewire.Io
                     return ("a stiffness EI or GJ", "1.2e-3 N m2");
                 case Dimension.Density:
                     return ("a density", "6450 kg/m3");
+                case Dimension.Force:
+                    return ("a force", "2 g");
                 default:
                     return ("a number without a unit", "0.05");
             }

@@ -78,6 +78,48 @@ namespace Guidewire.Core.Tests
                 .With.Message.Contains("coreDiameter").And.Message.Contains("at most the diameter"));
         }
 
+        // 2 g over 10 mm, clamped and free: EI = 4 P l^2/pi^2; a core: E pi d^4/64; a span of three points: F s^3/(48 u).
+        [TestCase("'coreDiameter': {'value': '0.5 mm', %}, 'coreModulus': {'value': '60 GPa', %}",
+            60e9 * Math.PI * 0.0625e-12 / 64.0)]
+        [TestCase("'supportForce': {'value': '1.2 N', 'span': '50 mm', 'deflection': '5 mm', %}",
+            1.2 * 125e-6 / (48.0 * 5e-3))]
+        public void DataSheet_GivesTheStiffnessOfShaftAndTip(string shaft, double stiffness)
+        {
+            const string Origin = "'basis': 'measured', 'source': 'sheet'";
+            double tip = 4.0 * 2.0 * 9.80665e-3 * 1e-4 / (Math.PI * Math.PI);
+            JObject content = JObject.Parse(Own);
+            content.Remove("flexuralModulus");
+            content.Remove("radiopaque");
+            content["tip"] = JObject.Parse("{'shape': 'straight', " + Origin + "}");
+            var taper = (JObject)content["distalSections"]![0]!;
+            taper.Remove("bendingStiffness");
+            content["distalSections"] = new JArray(taper);
+            content.Merge(JObject.Parse("{" + shaft.Replace("%", Origin) + ", 'tipLoad': {'value': '2 g', " + Origin
+                + "}, 'tipLength': {'value': '30 mm', " + Origin + "}}"));
+            Write("own", content.ToString());
+            MaterialParameters material = Load("'instrument': 'own'").Values.Simulation.Material;
+            Assert.That(CrossSection.At(material, 10.0).BendStiffness1, Is.EqualTo(stiffness).Within(1e-12 * stiffness));
+            Assert.That(CrossSection.At(material, 970.001).BendStiffness1, Is.EqualTo(tip).Within(1e-12 * tip));
+            Assert.That(CrossSection.At(material, 889.9).BendStiffness1, Is.EqualTo(stiffness).Within(1e-12 * stiffness));
+            double before = CrossSection.At(material, 968.0).BendStiffness1;
+            Assert.That(before, Is.GreaterThan(tip).And.LessThan(tip + 0.06 * (stiffness - tip)));
+            content.Remove("tipLength");
+            Write("own", content.ToString());
+            Assert.That(() => Load("'instrument': 'own'"),
+                Throws.TypeOf<ParameterException>().With.Message.Contains("tipLength = (missing)"));
+        }
+
+        [TestCase("'coreModulus': {'value': '60 GPa', 'basis': 'measured', 'source': 'here'}",
+            "coreModulus = {\"value\":\"60 GPa\"")]
+        [TestCase("'tipLength': {'value': '3 cm', 'basis': 'measured', 'source': 'here'}", "tipLoad = (missing)")]
+        [TestCase("'tipLoad': {'value': '2', 'basis': 'measured', 'source': 'here'}", "this has no unit")]
+        public void WrongDataSheet_IsRefused(string member, string expected)
+        {
+            Write("own", Own.Replace("'torsionalRatio'", member + ", 'torsionalRatio'"));
+            Assert.That(() => Load("'instrument': 'own'"),
+                Throws.TypeOf<ParameterException>().With.Message.Contains(expected));
+        }
+
         // A ring of 0.1 mm in a wall from 0.5 to 1 mm; 9.307/mm of solid platinum.
         [Test]
         public void Marker_IsASectionThatOnlyPicturesSee()

@@ -7,25 +7,38 @@ oscillation |A exp(-t/tau) cos(w t + p)| is fitted to all samples first, and eac
 decay and frequency through three samples. The thesis takes the largest
 samples. Faster modes raise the first peaks, and with them tau: by 4 % at 100 iterations of the default run.
 `slowest_time` is the tau of the samples from a period after the first peak on.
+
+`read_relaxation` measures the tip of any run whose wire is let go. Where loads or a shape of its own decide about the
+new rest, that is found together with the oscillation.
 """
 
 from __future__ import annotations
 
 import math
 import warnings
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Any
 
 import numpy as np
 from scipy.optimize import curve_fit, least_squares
 from scipy.signal import find_peaks
 
+from guidewire.logs.logs import read_log
+from guidewire.logs.runs import Run, read_run
 
 _ROUNDING = 1e-10  # of the largest distance: peaks below it are noise of the last digits, not of the oscillation
 _FEWEST = 3  # peaks, of a fit
 _LATER = 2  # peaks of the absolute error in a period, after which faster modes are gone
 _PERIODS = (1.0, 0.8, 0.9, 1.1, 1.25)  # over what the peaks say
 _POOR = 0.05  # of the motion: what the fit may leave out without a word
+_ROUNDS = 12  # at most, in which the new rest and the oscillation about it are found in turns
+_SETTLED = 1e-5  # of the motion: a change of the new rest that ends them
+_NEVER = 1e9  # s, the default of tipForceReleaseTime
+_DRIVEN = ("vessel", "obstacles", "sheath", "catheters", "loadTables", "proximalMotionFile", "distalMotionFile")
+_LOADS = ("gravity", "distributedForce", "tipForce", "tipFollowerForce", "tipMoment", "pointLoads")
+_SHAPES = ("startFile", "start", "restCurvature", "wireSections")
 
 
 class RelaxationError(Exception):
@@ -90,6 +103,101 @@ def relaxation_error(positions: np.ndarray, rest: np.ndarray, displacement: np.n
     if length == 0.0:
         raise RelaxationError("without a displacement there is nothing to relax")
     return np.abs((positions - rest - displacement) @ (displacement / length))
+
+
+def is_released(parameters: Mapping[str, Any]) -> bool:
+    """Whether parameters are those of a wire that is let go, and whose tip then moves freely.
+
+    Parameters
+    ----------
+    parameters : by key; those that are left out have their defaults.
+    """
+    if parameters.get("drive", "hold") != "hold" or parameters.get("distalEnd", "free") != "free":
+        return False
+    if any(parameters.get(key) for key in _DRIVEN):
+        return False
+    if parameters.get("displacement", 10.0 if _is_pbd(parameters) else 0.0) or _release(parameters) > 0.0:
+        return True
+    return parameters.get("initialState", "straight") == "straight" and (
+        parameters.get("startShape", "straight") != "straight"
+        or any(_is_set(parameters.get(key)) for key in (*_LOADS, *_SHAPES)))
+
+
+def read_relaxation(run: Run | str | Path) -> Relaxation:
+    """Relaxation of the tip of a wire that is let go, about the rest that it comes to.
+
+    Parameters
+    ----------
+    run : a run with a log, or its folder. The wire is displaced at the start, its tip force ends, or its start is not
+        its rest.
+
+    Raises
+    ------
+    RelaxationError : the wire is not let go, or its tip does not swing about a rest.
+    guidewire.logs.logs.LogError : the run cannot be read, or left no log.
+
+    Warns
+    -----
+    RelaxationWarning : the slowest mode leaves more than 5 % of the motion.
+    """
+    run = run if isinstance(run, Run) else read_run(run)
+    if not is_released(run.parameters):
+        raise RelaxationError("the wire is not let go: it is driven, held at its tip, or touches walls")
+    log = read_log(run.folder)
+    start = _release(run.parameters)
+    # The last step is logged too where logEvery skips it.
+    steps = np.diff(log.steps, prepend=log.steps[0])
+    taken = (log.time >= start) & ((steps == steps[1:2]) | (steps == 0))
+    time, tip = log.time[taken], log.positions[taken, 0]
+    if _is_pbd(run.parameters) and not _is_set(run.parameters.get("gravity")):
+        found = fit_relaxation(time, relaxation_error(tip, run.rest_positions[-1], run.displacement))
+    else:
+        found = _about_its_rest(time, tip)
+    if not found.time_error < found.time:
+        raise RelaxationError(f"the peaks do not decide the relaxation time: {found.time:.3g} s with a standard error "
+                              f"of {found.time_error:.1g} s")
+    return found
+
+
+def _is_pbd(parameters: Mapping[str, Any]) -> bool:
+    return parameters.get("solver", "pbd") == "pbd"
+
+
+def _is_set(value: Any) -> bool:
+    """Whether a load or shape is there: a vector may be three numbers or an object of them."""
+    if isinstance(value, Mapping):
+        return any(value.values())
+    return any(value) if isinstance(value, list) else bool(value)
+
+
+def _release(parameters: Mapping[str, Any]) -> float:
+    """Time at which the tip force ends, s; 0 where none does."""
+    time = parameters.get("tipForceReleaseTime", _NEVER)
+    ends = isinstance(time, (int, float)) and time < _NEVER
+    return time if ends and _is_set(parameters.get("tipForce")) else 0.0
+
+
+def _about_its_rest(time: np.ndarray, tip: np.ndarray) -> Relaxation:
+    """Fit along the direction in which the tip, (k, 3) in units, moves most. Given decay and frequency, the rest is
+    the constant of a linear fit; given the rest, they are those of the distances from it. The first ones are those of
+    the differences from step to step, in which no rest appears."""
+    moved = tip - tip.mean(axis=0)
+    if len(time) <= _FEWEST or not np.all(np.isfinite(tip)):
+        return fit_relaxation(time, np.linalg.norm(moved, axis=-1))
+    motion = moved @ np.linalg.svd(moved, full_matrices=False)[2][0]
+    rest, size = math.nan, float(np.ptp(motion))
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore", RelaxationWarning)
+        found = fit_relaxation(0.5 * (time[1:] + time[:-1]), np.abs(np.diff(motion)))
+        for _ in range(_ROUNDS):
+            later = time >= found.peak_times[min(_LATER, len(found.peak_times) - 1)]
+            decay, turn = np.exp(-time[later] / found.slowest_time), 2.0 * math.pi / found.period * time[later]
+            basis = np.stack([np.ones(np.sum(later)), decay * np.cos(turn), decay * np.sin(turn)], axis=1)
+            before, rest = rest, float(np.linalg.lstsq(basis, motion[later], rcond=None)[0][0])
+            found = fit_relaxation(time, np.abs(motion - rest))
+            if abs(rest - before) < _SETTLED * size:
+                break
+    return fit_relaxation(time, np.abs(motion - rest))
 
 
 @dataclass(frozen=True)
