@@ -1,5 +1,6 @@
 using System;
 using System.Collections.Generic;
+using System.Diagnostics;
 using System.IO;
 using System.Reflection;
 using System.Threading;
@@ -39,10 +40,12 @@ internal sealed class Listener : ITestListener
 
 internal static class Program
 {
-    private const int Patience = 300;    // s of wall time, after which a test hangs
+    private const double Patience = 5.0;    // times the first run, after which a test hangs
 
     private static void Main(string[] numbers)
     {
+        TextWriter output = Console.Out;    // the runner takes the console's while it runs
+        double allowed = double.PositiveInfinity;
         var runner = new NUnitTestAssemblyRunner(new DefaultTestAssemblyBuilder());
         runner.Load(Assembly.LoadFrom(Path.Combine(AppContext.BaseDirectory, "Guidewire.Core.Tests.dll")),
             new Dictionary<string, object> { ["NumberOfTestWorkers"] = 0, ["StopOnError"] = true });
@@ -54,11 +57,14 @@ internal static class Program
             Breaks.Number = int.Parse(number);
             using var watch = new Timer(_ =>
             {
-                Console.WriteLine(number + "\tfound\t" + listener.Count + "\t0\thangs: " + listener.Running);
+                output.WriteLine(number + "\tfound\t" + listener.Count + "\t0\thangs: " + listener.Running);
+                output.Flush();
                 Environment.Exit(0);
-            }, null, 1000 * Patience, Timeout.Infinite);
+            }, null, (long)Math.Min(1e3 * allowed, uint.MaxValue - 1.0), Timeout.Infinite);
+            long start = Stopwatch.GetTimestamp();
             runner.Run(listener, quick);
-            Console.WriteLine(number + (listener.Failed.Length > 0 ? "\tfound\t" : "\tmissed\t") + listener.Count + "\t"
+            allowed = Math.Min(allowed, Patience * Stopwatch.GetElapsedTime(start).TotalSeconds);
+            output.WriteLine(number + (listener.Failed.Length > 0 ? "\tfound\t" : "\tmissed\t") + listener.Count + "\t"
                 + (Environment.CpuUsage.TotalTime - before).TotalSeconds.ToString("F1") + "\t" + listener.Failed);
         }
     }
