@@ -72,14 +72,12 @@ def to_markdown() -> str:
 
 
 def _to_markdown(rows: tuple[Quantity, ...]) -> str:
-    lines = ["| array | shape | unit | in logs with | json log | answer | summary.json | meaning |", "|---" * 8 + "|"]
+    lines = ["| array | shape | unit | in logs with | json log | summary.json | meaning |", "|---" * 7 + "|"]
     for row in rows:
         shape = ", ".join(part for part in (_SHAPES[row.place], str(row.width) if row.width > 1 else "") if part)
         switch = _SWITCHES.get(row.switch, f"`log{row.switch.title()}`")
-        places = (f"{row.group}.{row.key}" if row.group else row.key, row.answer,
+        places = (None if row.key is None else f"{row.group}.{row.key}" if row.group else row.key,
                   f"{row.group}.{row.summary}" if row.summary else None)
-        if row.key is None:
-            places = (None, *places[1:])
         cells = [f"`{row.name}`", shape, "-" if row.unit == "1" else row.unit, switch,
                  *(f"`{place}`" if place else "" for place in places), row.help]
         lines.append("| " + " | ".join(cells) + " |")

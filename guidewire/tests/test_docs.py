@@ -194,6 +194,12 @@ def test_the_table_of_warnings_is_the_runners_own(runner_command):
     assert block.group(1) == warnings, "put the output of the runner's --warnings between the two marks of docs/runs.md"
 
 
+def explained_of_a_summary():
+    """Keys of summary.json that the page of runs explains, and of its hub the table of quantities."""
+    hub = [row.summary for row in WIRE if row.group == "hub" and row.summary]
+    return [*table_keys(section(RUNS, "## summary.json")), *hub]
+
+
 @pytest.mark.parametrize("parameters, nested", [
     ("params/collision-wall.json", {"versions"}), ("params/cantilever.json", {"solver", "versions", "hub", "extremes"}),
 ])
@@ -201,7 +207,7 @@ def test_every_key_of_a_summary_is_explained(live, tmp_path, parameters, nested)
     summary = json.loads((run(live, tmp_path, ROOT / parameters, maxSimulationSteps=1)
                           / "summary.json").read_text())
     assert {key for key, value in summary.items() if isinstance(value, dict)} == nested
-    explained = table_keys(section(RUNS, "## summary.json"))
+    explained = explained_of_a_summary()
     assert set(summary) <= set(explained)
     for key in nested:
         assert set(summary[key]) <= set(explained)
@@ -213,7 +219,7 @@ def test_every_explained_key_of_a_summary_is_one(live, tmp_path):
                           / "summary.json").read_text())
     coaxial = json.loads((run(live, tmp_path / "coaxial", ROOT / "params/catheter.json", maxSimulationSteps=2)
                           / "summary.json").read_text())
-    explained = table_keys(section(RUNS, "## summary.json"))
+    explained = explained_of_a_summary()
     assert set(explained) == {*summary, *summary["solver"], *summary["versions"], *summary["hub"], *summary["extremes"],
                               *coaxial, *coaxial["hubs"][0]}
     for hub in coaxial["hubs"]:
@@ -261,7 +267,7 @@ def test_every_key_of_a_studys_table_is_explained(fake, tmp_path):
     assert {*table, *table["runs"][0]} == set(table_keys(section(explained, "### study.json")))
     with open(tmp_path / "small" / "runs.csv", newline="") as file:
         columns = set(next(csv.reader(file)))
-    summary = set(table_keys(section(RUNS, "## summary.json")))
+    summary = set(explained_of_a_summary())
     assert columns - {*study.grid.axes[0].keys} - summary <= set(table_keys(section(explained, "### runs.csv")))
 
 

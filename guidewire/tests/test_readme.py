@@ -17,6 +17,12 @@ def test_the_readme_has_at_most_900_words_and_its_first_screen_150():
     assert len(TEXT.split()) <= 900 and len(OPENING.split()) <= 150
 
 
+def test_the_pages_have_at_most_38_000_words_with_their_tables():
+    pages = [ROOT / "README.md", ROOT / "CONTRIBUTING.md", *(ROOT / "docs").glob("*.md")]
+    words = [word for page in pages for word in page.read_text(encoding="utf-8").split() if word != "|"]
+    assert 30_000 < len(words) <= 38_000
+
+
 def test_the_first_screen_has_the_film_and_two_commands_and_no_placeholder():
     assert OPENING.count("![") == 1 and ".gif" in OPENING
     assert "python3 guidewire.py demo" in OPENING and f"python3 guidewire.py view params/{SHOWN_FILE.name}" in OPENING

@@ -244,17 +244,20 @@ namespace Guidewire.Core
         /// <summary>Gives the kind of a name.</summary>
         internal static WarningKind Find(string name) => Kinds.Find(kind => kind.Name == name)!;
 
-        /// <summary>The table as Markdown, as docs/runs.md shows it.</summary>
+        /// <summary>The table as Markdown, as docs/runs.md shows it, a part for each time at which a run warns.</summary>
         public static string ToMarkdown()
         {
-            var text = new StringBuilder("| line | told | `reliable` | meaning |\n|---|---|---|---|\n");
-            foreach (WarningKind kind in Kinds)
+            var text = new StringBuilder();
+            foreach ((WarningPlace place, string when) in new[] { (WarningPlace.Start, "before the run"),
+                (WarningPlace.Reason, "after the reason"), (WarningPlace.End, "at the end") })
             {
-                text.Append("| ").Append(kind.Line).Append(" | ")
-                    .Append(kind.Place == WarningPlace.Start ? "before the run" : kind.Place == WarningPlace.Reason
-                        ? "after the reason" : "at the end")
-                    .Append(kind.IsReliable ? " | is not changed | " : " | is false | ").Append(kind.Meaning)
-                    .Append(" |\n");
+                text.Append(text.Length == 0 ? "" : "\n").Append("| ").Append(when)
+                    .Append(" | `reliable` | meaning |\n|---|---|---|\n");
+                foreach (WarningKind kind in Kinds.FindAll(kind => kind.Place == place))
+                {
+                    text.Append("| ").Append(kind.Line).Append(kind.IsReliable ? " | - | " : " | false | ")
+                        .Append(kind.Meaning).Append(" |\n");
+                }
             }
             return text.ToString();
         }
