@@ -124,7 +124,7 @@ namespace Guidewire.Io
         private static double? Number(GivenParameters given, string key)
         {
             return given.TryGet(key, out (JToken Value, string Source) said)
-                && NumberEntry.TryNumber(said.Value, out double number) && number > 0.0 ? number : (double?)null;
+                && Kinds.TryNumber(said.Value, out double number) && number > 0.0 ? number : (double?)null;
         }
 
         // A wall that states no coefficient of friction gets the instrument's.

@@ -107,7 +107,7 @@ namespace Guidewire.Io
 
         private static double Finite(JToken value)
         {
-            return NumberEntry.TryNumber(value, out double number) && Math.Abs(number) <= 1e9 ? number
+            return Kinds.TryNumber(value, out double number) && Math.Abs(number) <= 1e9 ? number
                 : throw new FormatException();
         }
     }

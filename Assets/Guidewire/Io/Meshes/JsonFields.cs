@@ -73,7 +73,7 @@ namespace Guidewire.Io
             {
                 return missing.Value;
             }
-            return value != null && NumberEntry.TryNumber(value, out double number) && IsSmall(number)
+            return value != null && Kinds.TryNumber(value, out double number) && IsSmall(number)
                 ? number : throw Wrong(name, OneNumber);
         }
 
@@ -85,7 +85,7 @@ namespace Guidewire.Io
             {
                 return missing.Value;
             }
-            return value != null && VectorEntry.TryVector(value, out Vector3d vector) && IsSmall(vector)
+            return value != null && Kinds.TryVector(value, out Vector3d vector) && IsSmall(vector)
                 ? vector : throw Wrong(name, ThreeNumbers);
         }
 
@@ -107,7 +107,7 @@ namespace Guidewire.Io
             var vectors = new List<Vector3d>();
             foreach (JToken item in _object[name] as JArray ?? throw Wrong(name, "a list of [x, y, z]"))
             {
-                vectors.Add(VectorEntry.TryVector(item, out Vector3d vector) && IsSmall(vector) ? vector
+                vectors.Add(Kinds.TryVector(item, out Vector3d vector) && IsSmall(vector) ? vector
                     : throw WrongItem(name, vectors.Count, item, ThreeNumbers));
             }
             return vectors.ToArray();
@@ -117,7 +117,7 @@ namespace Guidewire.Io
         public double[] Numbers(string name, int count)
         {
             JToken? value = _object[name];
-            if (value != null && NumberEntry.TryNumber(value, out double same) && IsSmall(same))
+            if (value != null && Kinds.TryNumber(value, out double same) && IsSmall(same))
             {
                 var all = new double[count];
                 Array.Fill(all, same);
@@ -127,7 +127,7 @@ namespace Guidewire.Io
             foreach (JToken item in value as JArray
                 ?? throw Wrong(name, "a number, 1e9 at most, or a list of such numbers"))
             {
-                numbers.Add(NumberEntry.TryNumber(item, out double number) && IsSmall(number) ? number
+                numbers.Add(Kinds.TryNumber(item, out double number) && IsSmall(number) ? number
                     : throw WrongItem(name, numbers.Count, item, OneNumber));
             }
             return numbers.ToArray();
@@ -143,7 +143,7 @@ namespace Guidewire.Io
                 foreach (JProperty property in
                     (value as JObject ?? throw Wrong(name, "named points {\"name\": [x, y, z]}")).Properties())
                 {
-                    points.Add(VectorEntry.TryVector(property.Value, out Vector3d point) && IsSmall(point) ? point
+                    points.Add(Kinds.TryVector(property.Value, out Vector3d point) && IsSmall(point) ? point
                         : throw Wrong(name, "named points {\"name\": [x, y, z]}"));
                 }
             }

@@ -166,7 +166,7 @@ namespace Guidewire.Io
 
         private static double NotNegative(JProperty property, string source, string where, string unit)
         {
-            return NumberEntry.TryNumber(property.Value, out double number) && number >= 0.0
+            return Kinds.TryNumber(property.Value, out double number) && number >= 0.0
                 && number <= double.MaxValue ? number
                 : throw new ParameterException(source, where + "." + property.Name,
                     property.Value.ToString(Formatting.None), "a number >= 0" + unit);

@@ -81,13 +81,13 @@ namespace Guidewire.Io
         private static VesselEnd? End(JToken value, Anatomy anatomy, out double distance)
         {
             distance = 0.0;
-            if (VectorEntry.TryVector(value, out Vector3d point))
+            if (Kinds.TryVector(value, out Vector3d point))
             {
                 VesselEnd nearest = anatomy.Nearest(point);
                 distance = Vector3d.Distance(nearest.Centre, point);
                 return nearest;
             }
-            if (NumberEntry.TryNumber(value, out double number))
+            if (Kinds.TryNumber(value, out double number))
             {
                 foreach (VesselEnd end in anatomy.Ends)
                 {
@@ -107,7 +107,7 @@ namespace Guidewire.Io
             name = value.Type == JTokenType.String ? (string)value! : value.ToString(Formatting.None);
             VesselEnd? end = null;
             int target;
-            if (VectorEntry.TryVector(value, out Vector3d point))
+            if (Kinds.TryVector(value, out Vector3d point))
             {
                 int near = path.Locate(point);
                 // The lumen may be wider than its sphere, up to half as much again.

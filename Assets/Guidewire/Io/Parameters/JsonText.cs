@@ -21,6 +21,9 @@ namespace Guidewire.Io
             return JToken.ReadFrom(reader);
         }
 
+        /// <summary>The value that a text on the command line stands for, or null where it stands for none.</summary>
+        public static JToken? Given(string text) => StrictJson.FindError(text) == null ? Parse(text) : null;
+
         /// <summary>The object that a file holds.</summary>
         /// <exception cref="ParameterException">The file cannot be read, is not JSON or holds no object.</exception>
         public static JObject ReadObject(string file) =>

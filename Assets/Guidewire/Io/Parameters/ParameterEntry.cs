@@ -25,31 +25,31 @@ namespace Guidewire.Io
         public string Unit { get; }
 
         /// <summary>The unit where the wire is a material, if that is another one; else null.</summary>
-        public string? MaterialUnit { get; internal set; }
+        public string? MaterialUnit { get; private set; }
 
         /// <summary>What it means, in one phrase.</summary>
         public string Help { get; }
 
         /// <summary>The methods that take it. To the others it says nothing: it is refused on the command line, and
         /// passed over, with a line that says so, in a file.</summary>
-        public IReadOnlyList<Solver> Methods { get; internal set; } = Array.Empty<Solver>();
+        public IReadOnlyList<Solver> Methods { get; private set; } = Array.Empty<Solver>();
 
         /// <summary>Whether a method that does not take the key refuses it in a file too, if it has an effect: a run
         /// without its wall or load would simulate something else.</summary>
         public bool IsRefusedElsewhere { get; private set; }
 
         /// <summary>The keys that say it for the other methods, or null.</summary>
-        public string? Instead { get; internal set; }
+        public string? Instead { get; private set; }
 
         /// <summary>What is allowed, as a noun phrase with the unit.</summary>
         public abstract string Allowed { get; }
 
         /// <summary>The words to choose from; empty where the value is not one of a few words.</summary>
-        public virtual IReadOnlyList<string> Choices => Array.Empty<string>();
+        public abstract IReadOnlyList<string> Choices { get; }
 
         /// <summary>Whether the value only says where results go: such a key does not enter the parameter
         /// hash.</summary>
-        public bool IsOutputPath { get; internal set; }
+        public bool IsOutputPath { get; private set; }
 
         /// <summary>The methods that take it, as they follow "solver": "pbd, xpbd or direct".</summary>
         public string MethodWords
@@ -59,7 +59,7 @@ namespace Guidewire.Io
                 var words = new List<string>();
                 foreach (Solver method in Methods)
                 {
-                    words.Add(ChoiceEntry<Solver>.Word(method.ToString()));
+                    words.Add(Kinds.Word(method.ToString()));
                 }
                 string last = words[words.Count - 1];
                 words.RemoveAt(words.Count - 1);
@@ -89,7 +89,7 @@ namespace Guidewire.Io
                         text.Add(value);
                         methods.Add(new List<string>());
                     }
-                    methods[index].Add(ChoiceEntry<Solver>.Word(method.ToString()));
+                    methods[index].Add(Kinds.Word(method.ToString()));
                 }
                 for (int k = 1; k < text.Count; k++)
                 {
@@ -115,6 +115,34 @@ namespace Guidewire.Io
         /// <summary>Gives the default with this method, as JSON text.</summary>
         public string Default(Solver method) => Write(new RunParameters(method)).ToString(Formatting.None);
 
+        /// <summary>Names the unit where the wire is a material.</summary>
+        internal ParameterEntry OfMaterial(string unit)
+        {
+            MaterialUnit = unit;
+            return this;
+        }
+
+        /// <summary>Names the keys that say it for the other methods.</summary>
+        internal ParameterEntry Replacing(string instead)
+        {
+            Instead = instead;
+            return this;
+        }
+
+        /// <summary>Says that the value only says where results go.</summary>
+        internal ParameterEntry AsOutputPath()
+        {
+            IsOutputPath = true;
+            return this;
+        }
+
+        /// <summary>Names the methods that take the key.</summary>
+        internal ParameterEntry With(IReadOnlyList<Solver> methods)
+        {
+            Methods = methods;
+            return this;
+        }
+
         /// <summary>Names the methods that take the key; the others refuse it in a file too.</summary>
         internal ParameterEntry OnlyWith(IReadOnlyList<Solver> methods)
         {
@@ -139,25 +167,18 @@ namespace Guidewire.Io
         internal abstract bool TryRead(RunParameters target, JToken value);
 
         /// <summary>The fields of an object that it holds; empty where a reader of its own knows them.</summary>
-        internal virtual IReadOnlyList<string> Fields => Array.Empty<string>();
+        internal abstract IReadOnlyList<string> Fields { get; }
 
         /// <summary>What a field of an object that it holds allows; null where there is no such field, or a reader of
         /// its own knows.</summary>
-        internal virtual string? AllowedOf(string field) => null;
+        internal abstract string? AllowedOf(string field);
 
         /// <summary>The present word for a word of older files; null for any other value.</summary>
-        internal virtual string? NewerWord(JToken value) => null;
+        internal abstract string? NewerWord(JToken value);
 
         /// <summary>The JSON value that a text on the command line stands for, or null where it stands for
         /// none.</summary>
-        internal virtual JToken? FromText(string text)
-        {
-            if (StrictJson.FindError(text) != null)
-            {
-                return null;
-            }
-            return JsonText.Parse(text);
-        }
+        internal abstract JToken? FromText(string text);
 
         /// <summary>The object among the parameters whose properties the group's keys are.</summary>
         private protected Func<RunParameters, object> GroupOf { get; private set; } = parameters => parameters;

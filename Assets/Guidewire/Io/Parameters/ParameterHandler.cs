@@ -234,7 +234,7 @@ namespace Guidewire.Io
                     || (entry.IsRefusedElsewhere && HasEffect(entry, given)))
                 {
                     throw Refused(entry.Key, "solver " + entry.MethodWords + "; this run has solver "
-                        + ChoiceEntry<Solver>.Word(Method.ToString())
+                        + Kinds.Word(Method.ToString())
                         + (entry.Instead == null ? "" : ", which takes " + entry.Instead));
                 }
                 _ignored.Add(entry.Key);
@@ -242,7 +242,7 @@ namespace Guidewire.Io
             }
             if (_ignored.Count > 0)
             {
-                AddWarning(WarningTable.IgnoredKeys, ChoiceEntry<Solver>.Word(Method.ToString()),
+                AddWarning(WarningTable.IgnoredKeys, Kinds.Word(Method.ToString()),
                     string.Join(", ", _ignored));
             }
         }

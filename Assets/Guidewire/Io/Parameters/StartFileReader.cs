@@ -95,7 +95,7 @@ namespace Guidewire.Io
             bool isRead = value is JObject given && given.Count == HubKeys.Length;
             for (int k = 0; k < parts.Length && isRead; k++)
             {
-                isRead = value[HubKeys[k]] is JToken part && NumberEntry.TryNumber(part, out parts[k]);
+                isRead = value[HubKeys[k]] is JToken part && Kinds.TryNumber(part, out parts[k]);
             }
             return isRead ? (parts[0], parts[1]) : throw new ParameterException(file, path, value.ToString(
                 Newtonsoft.Json.Formatting.None), "{\"insertion\": a number (m), \"turn\": a number (rad)}");
@@ -116,7 +116,7 @@ namespace Guidewire.Io
             }
             for (int i = 0; i < count; i++)
             {
-                if (!VectorEntry.TryVector(array[i], out vectors[i]))
+                if (!Kinds.TryVector(array[i], out vectors[i]))
                 {
                     throw new ParameterException(file, key + "[" + i + "]", array[i].ToString(),
                         "three numbers [x, y, z]");
@@ -162,7 +162,7 @@ namespace Guidewire.Io
             bool valid = value is JArray four && four.Count == 4;
             for (int k = 0; k < 4 && valid; k++)
             {
-                valid = NumberEntry.TryNumber(value[k]!, out parts[k]);
+                valid = Kinds.TryNumber(value[k]!, out parts[k]);
             }
             var orientation = new Quaterniond(parts[0], parts[1], parts[2], parts[3]);
             return valid && orientation.LengthSquared > 1e-12 ? orientation

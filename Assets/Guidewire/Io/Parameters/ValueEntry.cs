@@ -1,47 +1,85 @@
 using System;
+using System.Collections.Generic;
 using Newtonsoft.Json.Linq;
 
 namespace Guidewire.Io
 {
     /// <summary>A key that holds one value: the property of the same name in the parameters of the key's group or,
     /// where these have none of that name and type, in RunParameters.</summary>
-    internal abstract class ValueEntry<T> : ParameterEntry
+    internal sealed class ValueEntry<T> : ParameterEntry
     {
-        private protected ValueEntry(string key, string unit, string help)
+        private readonly Kind<T> _kind;
+        private string _property;
+        private Func<RunParameters, T>? _getter;
+        private Action<RunParameters, T>? _setter;
+
+        /// <summary>A key of this kind.</summary>
+        public ValueEntry(string key, string unit, Kind<T> kind, string help)
             : base(key, unit, help)
         {
-            Property = NamedProperty.Of(key);
+            _kind = kind;
+            _property = NamedProperty.Of(key);
         }
-
-        /// <summary>The property's name.</summary>
-        public string Property { get; internal set; }
-
-        /// <summary>Reads the value where that takes more than a property, with Setter; else null.</summary>
-        public Func<RunParameters, T>? Getter { get; internal set; }
-
-        /// <summary>Takes over the value, with Getter; else null.</summary>
-        public Action<RunParameters, T>? Setter { get; internal set; }
 
         /// <inheritdoc/>
-        internal override JToken Write(RunParameters source) => new JValue((object?)Get(source));
+        public override string Allowed => WithUnit(_kind.Allowed);
 
-        private protected T Get(RunParameters source) =>
-            Getter == null ? NamedProperty.Get<T>(Owner(source), Property) : Getter(source);
+        /// <inheritdoc/>
+        public override IReadOnlyList<string> Choices => _kind.Choices;
 
-        private protected void Set(RunParameters target, T value)
+        /// <inheritdoc/>
+        internal override IReadOnlyList<string> Fields => _kind.Fields;
+
+        /// <summary>Names the property that holds the value.</summary>
+        public ValueEntry<T> In(string property)
         {
-            if (Setter == null)
-            {
-                NamedProperty.Set(Owner(target), Property, value);
-                return;
-            }
-            Setter(target, value);
+            _property = property;
+            return this;
         }
+
+        /// <summary>Says how the value is read and taken over where that takes more than a property.</summary>
+        public ValueEntry<T> By(Func<RunParameters, T> getter, Action<RunParameters, T> setter)
+        {
+            (_getter, _setter) = (getter, setter);
+            return this;
+        }
+
+        /// <inheritdoc/>
+        internal override JToken Write(RunParameters source) => _kind.Write(_getter != null ? _getter(source)
+            : NamedProperty.Get<T>(Owner(source), _property));
+
+        /// <inheritdoc/>
+        internal override bool TryRead(RunParameters target, JToken value)
+        {
+            if (!_kind.TryRead(value, out T read))
+            {
+                return false;
+            }
+            if (_setter != null)
+            {
+                _setter(target, read);
+            }
+            else
+            {
+                NamedProperty.Set(Owner(target), _property, read);
+            }
+            return true;
+        }
+
+        /// <inheritdoc/>
+        internal override string? AllowedOf(string field) => _kind.AllowedOf(field);
+
+        /// <inheritdoc/>
+        internal override string? NewerWord(JToken value) => _kind.NewerWord(value);
+
+        /// <inheritdoc/>
+        internal override JToken? FromText(string text) =>
+            _kind.FromText != null ? _kind.FromText(text) : JsonText.Given(text);
 
         private object Owner(RunParameters parameters)
         {
             object group = GroupOf(parameters);
-            return NamedProperty.IsOf<T>(group, Property) ? group : parameters;
+            return NamedProperty.IsOf<T>(group, _property) ? group : parameters;
         }
     }
 }

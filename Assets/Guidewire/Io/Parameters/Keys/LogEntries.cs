@@ -9,35 +9,23 @@ namespace Guidewire.Io
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "log", "what is written", p => p, new ParameterEntry[]
         {
-            new IntegerEntry("logEvery", "steps", 1, 1_000_000_000, "every k-th step is logged"),
-            new ChoiceEntry<LoggedSpheres>("logSpheres", "which spheres are logged"),
-            new ChoiceEntry<LogFormat>("logFormat",
+            Key.Whole("logEvery", "steps", 1, 1_000_000_000, "every k-th step is logged"),
+            Key.Choice<LoggedSpheres>("logSpheres", "which spheres are logged"),
+            Key.Choice<LogFormat>("logFormat",
                 "format of the log: positions.json, or positions.npz with arrays of 64-bit or 32-bit numbers"),
-            new SwitchEntry("logOrientations", "whether orientations are logged too"),
-            new SwitchEntry("logStrains",
+            Key.Switch("logOrientations", "whether orientations are logged too"),
+            Key.Switch("logStrains",
                 "whether each log entry also has \"stress\": curvature, couple, strain and force along the wire, "
-                + "angular velocities and energies")
-            {
-                Methods = Takers.Material,
-            },
-            new SwitchEntry("logHub",
+                + "angular velocities and energies").With(Takers.Material),
+            Key.Switch("logHub",
                 "whether each log entry also has \"hub\": insertion, turn, force, torque, direction of the tip, twist, "
-                + "largest curvature")
-            {
-                Methods = Takers.Only(Solver.Direct),
-            },
-            new SwitchEntry("logContacts",
+                + "largest curvature").With(Takers.Only(Solver.Direct)),
+            Key.Switch("logContacts",
                 "whether each log entry also has \"contact\": the walls' forces and the first sphere's reaction; xpbd "
                 + "has them only between walls")
-            {
-                Getter = p => p.LogContacts,
-                Setter = (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v,
-                Methods = Takers.All,
-            },
-            new TextEntry("logFilePath", "folder of the results, unless -out gives one")
-            {
-                IsOutputPath = true,
-            },
+                .By(p => p.LogContacts, (p, v) => p.LogContacts = p.Simulation.Method.StatesReactions = v)
+                .With(Takers.All),
+            Key.Text("logFilePath", "folder of the results, unless -out gives one").AsOutputPath(),
         });
     }
 }

@@ -7,10 +7,10 @@ namespace Guidewire.Io
         public static ParameterGroup Group { get; } = new ParameterGroup(
             "pbd", "mass and stiffness per iteration of the wire", p => p.Simulation.Pbd, new ParameterEntry[]
         {
-            new NumberEntry("totalMass", "mass units", NumberRange.Positive, "M, distributed evenly over the spheres"),
-            new NumberEntry("stretchStiffness", "", NumberRange.NotNegative,
+            Key.Number("totalMass", "mass units", NumberRange.Positive, "M, distributed evenly over the spheres"),
+            Key.Number("stretchStiffness", "", NumberRange.NotNegative,
                 "k_A, stiffness of the stretch constraint per iteration; unstable from 2 on"),
-            new NumberEntry("bendStiffness", "units", NumberRange.NotNegative,
+            Key.Number("bendStiffness", "units", NumberRange.NotNegative,
                 "k_B, stiffness of the bend-twist constraint per iteration; unstable above L/n"),
         },
             Takers.Pbd);

@@ -57,7 +57,7 @@ namespace Guidewire.Core.Tests
             foreach (Integrator scheme in MethodTable.Of(Solver.Direct).Integrators)
             {
                 yield return Scene("direct", Clamped + "\"gravity\": [0, -9.81, 0], \"massDamping\": 2,"
-                    + " \"materialDamping\": 1e-4, \"integrator\": \"" + ChoiceEntry<Integrator>.Word(scheme.ToString())
+                    + " \"materialDamping\": 1e-4, \"integrator\": \"" + Kinds.Word(scheme.ToString())
                     + "\"");
             }
             foreach (string solver in new[] { "xpbd", "direct" })
