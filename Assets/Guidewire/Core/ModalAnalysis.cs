@@ -33,7 +33,7 @@ namespace Guidewire.Core
                 return;
             }
             var gradient = new RodVector[_system.VectorCount];
-            // The rest shape is stable: a negative pivot is that of a neutral motion, of which rounding makes either sign.
+            // The rest shape is stable: a negative pivot is that of a neutral motion, whose sign is rounding's.
             _system.Factorise(terms.All, scene.Shape, gradient, new RodVector[_system.VectorCount], 0.0);
             double fastest = 0.0;
             for (int j = 0; j < scene.Rod.ElementCount; j++)

@@ -244,7 +244,8 @@ namespace Guidewire.Core
         /// <summary>Gives the kind of a name.</summary>
         internal static WarningKind Find(string name) => Kinds.Find(kind => kind.Name == name)!;
 
-        /// <summary>The table as Markdown, as docs/runs.md shows it, a part for each time at which a run warns.</summary>
+        /// <summary>The table as Markdown, as docs/runs.md shows it, a part for each time at which a run
+        /// warns.</summary>
         public static string ToMarkdown()
         {
             var text = new StringBuilder();

@@ -141,7 +141,8 @@ namespace Guidewire.Io
         {
             if (!fields.Has("tipLoad"))
             {
-                return fields.Has("tipLength") ? throw fields.Wrong("tipLoad", "the load of the tip with this tipLength")
+                return fields.Has("tipLength")
+                    ? throw fields.Wrong("tipLoad", "the load of the tip with this tipLength")
                     : (double?)null;
             }
             return 4.0 * fields.Quantity("tipLoad", Dimension.Force) * FreeTip * FreeTip / (Math.PI * Math.PI);

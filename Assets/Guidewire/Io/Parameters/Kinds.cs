@@ -117,7 +117,8 @@ namespace Guidewire.Io
             return new Kind<T>("one of \"" + string.Join("\", \"", words) + "\"", (JToken token, out T value) =>
             {
                 string? word = token.Type == JTokenType.String ? (string?)token : null;
-                int index = word == null ? -1 : Array.IndexOf(words, newer.TryGetValue(word, out string? now) ? now : word);
+                int index = word == null ? -1
+                    : Array.IndexOf(words, newer.TryGetValue(word, out string? now) ? now : word);
                 value = index < 0 ? default : (T)Enum.Parse(typeof(T), Enum.GetNames(typeof(T))[index]);
                 return index >= 0;
             }, value => new JValue(Word(value.ToString())))

@@ -78,7 +78,7 @@ namespace Guidewire.Core.Tests
                 .With.Message.Contains("coreDiameter").And.Message.Contains("at most the diameter"));
         }
 
-        // 2 g over 10 mm, clamped and free: EI = 4 P l^2/pi^2; a core: E pi d^4/64; a span of three points: F s^3/(48 u).
+        // 2 g over 10 mm, clamped and free: EI = 4 P l^2/pi^2; a core: E pi d^4/64; three points: F s^3/(48 u).
         [TestCase("'coreDiameter': {'value': '0.5 mm', %}, 'coreModulus': {'value': '60 GPa', %}",
             60e9 * Math.PI * 0.0625e-12 / 64.0)]
         [TestCase("'supportForce': {'value': '1.2 N', 'span': '50 mm', 'deflection': '5 mm', %}",
@@ -98,9 +98,11 @@ namespace Guidewire.Core.Tests
                 + "}, 'tipLength': {'value': '30 mm', " + Origin + "}}"));
             Write("own", content.ToString());
             MaterialParameters material = Load("'instrument': 'own'").Values.Simulation.Material;
-            Assert.That(CrossSection.At(material, 10.0).BendStiffness1, Is.EqualTo(stiffness).Within(1e-12 * stiffness));
+            Assert.That(CrossSection.At(material, 10.0).BendStiffness1, Is.EqualTo(stiffness)
+                .Within(1e-12 * stiffness));
             Assert.That(CrossSection.At(material, 970.001).BendStiffness1, Is.EqualTo(tip).Within(1e-12 * tip));
-            Assert.That(CrossSection.At(material, 889.9).BendStiffness1, Is.EqualTo(stiffness).Within(1e-12 * stiffness));
+            Assert.That(CrossSection.At(material, 889.9).BendStiffness1, Is.EqualTo(stiffness)
+                .Within(1e-12 * stiffness));
             double before = CrossSection.At(material, 968.0).BendStiffness1;
             Assert.That(before, Is.GreaterThan(tip).And.LessThan(tip + 0.06 * (stiffness - tip)));
             content.Remove("tipLength");

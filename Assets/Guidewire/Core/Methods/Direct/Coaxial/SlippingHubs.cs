@@ -72,7 +72,8 @@ namespace Guidewire.Core
                 i += sense;
                 sum += _step.ForceOf(i);
                 double excess = _slips[i].Limit.Excess(sum);
-                force = sense * excess > 0.0 ? sense * Math.Max(sense * force, own.Of(sense) + Math.Abs(excess)) : force;
+                force = sense * excess > 0.0
+                    ? sense * Math.Max(sense * force, own.Of(sense) + Math.Abs(excess)) : force;
             }
             return force;
         }

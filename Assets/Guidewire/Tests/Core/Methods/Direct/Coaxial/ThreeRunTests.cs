@@ -107,8 +107,8 @@ namespace Guidewire.Core.Tests
             Assert.That(least, Is.LessThan(1e-6), "mm: they meet");
         }
 
-        // The wire's hub comes to the inner catheter's after 100 mm and with it to the outer one's after 30 mm more; then
-        // the outer one draws both back.
+        // The wire's hub comes to the inner catheter's after 100 mm and with it to the outer one's after 30 mm more.
+        // Then the outer one draws both back.
         [Test]
         public void HubPressedAgainstOthers_CarriesThemAlong()
         {
