@@ -30,7 +30,7 @@ const look = async () => [...await page.evaluate("[viewer.stage.drawn, viewer.xr
   processor()];
 
 await page.evaluate("document.activeElement.blur()");
-await page.click(`header button[data-views=${views}]`);
+await page.evaluate(`document.querySelector("button[data-views=${views}]").click()`);
 await page.keyboard.down("w");
 await page.waitForTimeout(1500);
 const before = await look();

@@ -45,6 +45,7 @@ _PLACED = ("vessel", "sheath", "guidewireOffset", "contactDistance")    # what b
 _GROUND, _TISSUE, _METAL, _GOAL = (10, 14, 19), (196, 62, 52), (255, 226, 160), (62, 230, 160)
 _TURNS = (0.0, 30.0, -30.0, 60.0, -60.0, 90.0)    # of the C-arm, degrees
 _BACKGROUND = 0.75    # of a picture, as of Session.picture
+_MOMENTS = 80    # of a course
 _SEEN = 0.8    # part of its file's drive after which a scene is pictured
 _POLICY = ("default-src 'self'; script-src 'self' blob: 'wasm-unsafe-eval'; img-src 'self' data:; object-src 'none'; "
            "base-uri 'none'")
@@ -62,6 +63,7 @@ class _Scene:
     files : what it needs, by their names there, itself among them.
     picture : of the vessel and the instruments.
     mission : what there is to achieve; None: nothing.
+    ghost : course of its own drive to the target; None without a mission.
     """
 
     file: str
@@ -70,6 +72,7 @@ class _Scene:
     files: dict[str, Path]
     picture: Image.Image
     mission: Mission | None
+    ghost: dict[str, list[float]] | None
 
 
 def write_site(out: Path, scenes: Sequence[Path], is_compiled_ahead: bool, build_runner: Callable[[], list[str]]
@@ -122,7 +125,7 @@ def _write(folder: Path, scenes: Sequence[_Scene], choices: dict[str, list[str]]
         scene.picture.save(folder / picture)
         meshes = [name for name in scene.files if not name.endswith(_TEXTS)]
         listed.append({"file": scene.file, "title": scene.title, "sentence": scene.sentence, "picture": picture,
-                       "meshes": meshes, **({"mission": asdict(scene.mission)} if scene.mission else {})})
+                       "meshes": meshes, **({"mission": {**asdict(scene.mission), "ghost": scene.ghost}} if scene.mission else {})})
         texts |= {name: file for name, file in scene.files.items() if name.endswith(_TEXTS)}
         for name in meshes:
             (folder / "files" / name).parent.mkdir(parents=True, exist_ok=True)
@@ -149,10 +152,11 @@ def _read(file: Path) -> _Scene:
     checking.check_file(file)
     try:
         with session_of(file, native=False) as session:
-            steps = int(_SEEN * session.parameters["maxSimulationSteps"])
-            session.step(steps=max(1, steps))
+            steps = int(session.parameters["maxSimulationSteps"])
+            session.step(steps=max(1, int(_SEEN * steps)))
             picture = _picture(session)
             named = [file, *_named(session.parameters)]
+            ghost = _course(session, steps) if mission_of(file) else None
     except SessionError as error:
         raise PreparationError(str(error)) from error
     files = {}
@@ -166,7 +170,24 @@ def _read(file: Path) -> _Scene:
             raise PreparationError(f"{file}: names {name}: a site takes files of the scene's own folder and below")
         files[above + Path(name).as_posix()] = Path(one)
     _, sentence = SCENES.get(file.stem, ("", ""))
-    return _Scene(next(iter(files)), title_of(file), sentence, files, picture, mission)
+    return _Scene(next(iter(files)), title_of(file), sentence, files, picture, mission, ghost)
+
+
+def _course(session: Session, steps: int) -> dict[str, list[float]]:
+    """Return the course of a scene's own drive, as report.js has it: s, mm of the way to the target, N at a wall."""
+    millimetres = 1e3 * session.parameters.get("metresPerUnit", 1e-3)
+    course: dict[str, list[float]] = {"time": [], "way": [], "force": []}
+    state = session.reset()
+    first = state.place.left
+    while True:
+        forces = [state.contact_forces, *(one.contact_forces for one in state.catheters)]
+        largest = max(float(np.linalg.norm(one, axis=1).max()) for one in forces)
+        left = 0.0 if state.place.is_at_target else state.place.left
+        for name, value in (("time", state.time), ("way", round(millimetres * (first - left), 1) + 0.0), ("force", largest)):
+            course[name].append(float(f"{value:.4g}"))
+        if state.place.is_at_target or state.outcome:
+            return course
+        state = session.step(steps=max(1, steps // _MOMENTS))
 
 
 def _picture(session: Session) -> Image.Image:

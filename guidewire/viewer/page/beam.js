@@ -1,5 +1,5 @@
 // @ts-check
-import { make } from "./panel.js";
+import { make, named } from "./panel.js";
 
 const MOST = 150; // pictures of a cine loop
 const RATES = /** @type {[string, number][]} */ ([["continuous", Infinity], ["30 a second", 30], ["15 a second", 15],
@@ -17,21 +17,23 @@ export class Beam {
     this.seconds = 0;
     /** Pictures of the run that the beam's pulses made, however many of them this computer has drawn. */
     this.pictures = 0;
+    /** Times of the run between which it was on, s. @type {[number, number][]} */
+    this.spans = [];
     this._rate = Infinity;
     this._last = -Infinity; // ms
     this._time = NaN; // s of the run
-    this.button = make("button", { id: "pedal", onclick: () => this.set(!this.isOn), title: "pedal (key X)" }, "beam");
-    this.rates = make("select", { id: "pulses", onchange: () => {
+    this.button = named("button", "beam", { id: "pedal", onclick: () => this.set(!this.isOn), title: "pedal (key X)" }, "☢ ",
+      make("span", { className: "wide" }, "beam"));
+    this.rates = named("select", "pulses of the beam", { id: "pulses", onchange: () => {
       this._rate = RATES[this.rates.selectedIndex][1];
       changed();
     } }, ...RATES.map(([text]) => make("option", {}, text)));
-    this.rates.setAttribute("aria-label", "pulses of the beam");
     this.set(true);
   }
 
   /** Another run: nothing was taken yet. */
   restart() {
-    [this.seconds, this.pictures, this._time] = [0, 0, NaN];
+    [this.seconds, this.pictures, this._time, this.spans] = [0, 0, NaN, []];
   }
 
   /** @param {boolean} isOn */
@@ -56,6 +58,9 @@ export class Beam {
   pass(time) {
     if (time <= this._time) return; // one looks back
     const seconds = this.isOn ? time - this._time || 0 : 0;
+    const last = this.spans.at(-1);
+    if (seconds && last?.[1] === this._time) last[1] = time;
+    else if (seconds) this.spans.push([this._time, time]);
     this.seconds += seconds;
     this.pictures += seconds * Math.min(this._rate, CONTINUOUS);
     this._time = time;
@@ -71,8 +76,7 @@ export class Cine {
     this._pictures = [];
     this.isRecording = this.isShown = false;
     this.record = make("button", { id: "record", onclick: () => this._record(!this.isRecording) }, "record cine");
-    this._slider = make("input", { type: "range", min: 0, step: 1, value: 0, oninput: () => this._show(Number(this._slider.value)) });
-    this._slider.setAttribute("aria-label", "picture of the cine loop");
+    this._slider = named("input", "picture of the cine loop", { type: "range", min: 0, step: 1, value: 0, oninput: () => this._show(Number(this._slider.value)) });
     this.loop = make("button", { id: "loop", onclick: () => this._play(!this.isShown) }, "cine loop");
     this._bar = make("span", { className: "tools", id: "cineBar" }, this._slider);
     this.element = make("span", { className: "tools" }, this.record, this.loop, this._bar);

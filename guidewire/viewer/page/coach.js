@@ -1,14 +1,16 @@
 // @ts-check
 /** Tells a first visitor, in one bubble at the wire's tip, to push, then to turn; never again once both were done. */
 import { byId, make } from "./panel.js";
+import { say } from "./words.js";
 
 const DONE = "guidewire-coached=1"; // a cookie, since each run of the server has an address of its own
+const TOOLS = 84; // points of the picture's foot that its tools take
 const HELD = 0.3; // s of the run for which a hand has to do what is asked
 
-/** What is asked, by which keys, with which part of the round pad, and what for.
+/** What is asked, by which keys, with which part of the pads, and what for.
  * @type {["push" | "turn", string[], string, string][]} */
-const STEPS = [["push", ["W"], "the upper edge of the round pad", "to push the wire."],
-  ["turn", ["A", "D"], "a side of the round pad", "to turn its tip."]];
+const STEPS = [["push", ["W"], "the upper edge of the left pad", "to push the wire."],
+  ["turn", ["A", "D"], "a side of the right pad", "to turn its tip."]];
 
 export class Coach {
   /** @param {import("./xray.js").Xray} xray */
@@ -28,9 +30,10 @@ export class Coach {
     if (!step || this._bubble.dataset.step === String(this._step)) return;
     this._bubble.dataset.step = String(this._step);
     const [, keys, pad, aim] = step;
-    this._bubble.replaceChildren(make("strong", {}, `${this._step + 1} of ${STEPS.length}`), " Hold ",
-      make("span", { className: "byKey" }, ...keys.flatMap((key, k) => [k ? " or " : "", make("kbd", {}, key)])),
-      make("span", { className: "byPad" }, pad), ` ${aim} `, make("button", { onclick: () => this._end() }, "skip"));
+    this._bubble.replaceChildren(say("Hold"), " ",
+      make("span", { className: "byKey" }, ...keys.flatMap((key, k) => [k ? "/" : "", make("kbd", {}, key)])),
+      make("span", { className: "byPad" }, pad), " ", make("strong", {}, aim), make("div", { className: "line" },
+        say("{0} of {1}", this._step + 1, STEPS.length), make("button", { onclick: () => this._end() }, "skip")));
   }
 
   /** The run went on while a hand steered. @param {{push: number, turn: number}} steering @param {number} seconds */
@@ -53,7 +56,7 @@ export class Coach {
     const { offsetWidth, offsetHeight } = this._bubble;
     this._bubble.style.left = `${within((x / arm.columns) * canvas.clientWidth + 24, canvas.clientWidth - offsetWidth)}px`;
     this._bubble.style.top = `${within((y / arm.rows) * canvas.clientHeight - offsetHeight - 24,
-      canvas.clientHeight - offsetHeight)}px`;
+      canvas.clientHeight - offsetHeight - TOOLS)}px`;
   }
 
   _end() {

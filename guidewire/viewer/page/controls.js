@@ -1,6 +1,7 @@
 // @ts-check
-import { byId, make } from "./panel.js";
+import { byId, make, menu, named } from "./panel.js";
 import { whileHeld } from "./steering.js";
+import { say } from "./words.js";
 
 /** @typedef {import("./live.js").Status} Status */
 
@@ -27,13 +28,17 @@ export class Controls {
     byId("controls").replaceChildren(...(status.hand ? [...this._names(status), ...this._values(status)] : []));
   }
 
-  /** The buttons anew; the one that a keyboard has reached stays reached. @param {Status} status */
+  /** The buttons anew; the one that a keyboard has reached stays reached, and what is open stays open.
+   * @param {Status} status */
   _fill(status) {
-    const reached = [...byId("bar").querySelectorAll("button, select, input")].indexOf(document.activeElement);
-    byId("bar").replaceChildren(...(status.hand ? this._bar(status)
+    const bar = byId("bar");
+    const all = () => [...bar.querySelectorAll("button, select, input, summary")];
+    const [reached, isOpen] = [all().indexOf(document.activeElement), byId("rest")?.open];
+    bar.replaceChildren(...(status.hand ? this._bar(status)
       : status.isFree ? [this._button("take control", { do: "take" })]
       : [make("span", {}, "another page is steering; when it is closed you can take over")]));
-    if (reached >= 0) byId("bar").querySelectorAll("button, select, input")[reached]?.focus();
+    if (isOpen && byId("rest")) byId("rest").open = true;
+    if (reached >= 0) all()[reached]?.focus();
   }
 
   /** @param {string} text @param {object} message */
@@ -41,52 +46,51 @@ export class Controls {
     return make("button", { onclick: () => this._live.send(message) }, text);
   }
 
-  /** @param {Status} status */
+  /** In three ranks: what steers, what is used often, and the rest. @param {Status} status */
   _bar(status) {
     const live = this._live;
     const isOver = status.outcome !== "" || live.isGone(status);
     const drive = status.isSteered ? "watch the recorded drive" : "steer by hand";
-    const more = make("button", { id: "more", onclick: () => byId("bar").classList.toggle("open") }, "more");
-    more.setAttribute("aria-label", "more buttons");
-    const saving = make("button", { id: "save", className: "second", onclick: () => live.saveSteering(), title: status.steered
-      || "the table repeats the motion: key driveFile" }, "save steering");
-    saving.disabled = status.steered !== "";
-    const second = (/** @type {any} */ button) => {
-      button.classList.add("second");
-      return button;
-    };
+    const saving = make("button", { id: "save", onclick: () => live.saveSteering(), disabled: status.steered !== "",
+      title: status.steered || "the table repeats the motion: key driveFile" }, "save steering");
+    const often = status.isSteered && !isOver;
+    const group = (/** @type {any[]} */ ...children) => make("span", { className: "group" }, ...children);
     return [
-      ...(status.isSteered ? [this._pad(), ...this._drives(),
-        ...(status.instruments.length > 1 ? [this._hold(status)] : []),] : []),
-      make("span", { className: "buttons" },
-        ...(status.isSteered && !isOver ? [live.injector.button,
-          ...(live.injector.isUseful ? [] : [make("span", { className: "why" }, "no centreline, no blood flow")]), this._fine()] : []),
-        ...(live.canExchange && !isOver ? [this._exchange()] : []), ...(isOver ? [] : [this._pause(status),
-          second(this._button("step", { do: "step" }))]),
-        make("button", { onclick: () => live.restart() }, "start anew"),
-        make("button", { id: "reporting", onclick: () => live.report() }, "report"),
-        this._slider(status.isPaused && live.frames.newest > 0), saving,
-        make("button", { className: "second", onclick: () => live.leave(drive, () =>
-          live.send({ do: "open", scene: status.scene, hand: !status.isSteered })) }, drive),
-        this._paces(status), this._cases(status), more),
+      ...(status.isSteered ? [this._pads(), ...this._drives()] : []),
+      group(...(status.isSteered && status.instruments.length > 1 ? [this._hold(status)] : []),
+        ...(often ? [live.injector.button, ...(live.injector.isUseful ? []
+          : [make("span", { className: "why" }, "no centreline, no blood flow")])] : []),
+        ...(isOver ? [] : [this._pause(status)]), ...(often ? [this._fine()] : []),
+        menu("rest", "more buttons", make("button", { onclick: () => live.restart() }, "start anew"),
+          make("button", { id: "reporting", onclick: () => live.report() }, "report"),
+          ...(isOver ? [] : [this._button("step", { do: "step" })]),
+          ...(live.canExchange && !isOver ? [this._exchange()] : []), saving,
+          make("button", { onclick: () => live.leave(drive, () =>
+            live.send({ do: "open", scene: status.scene, hand: !status.isSteered })) }, drive),
+          make("button", { className: "phone", onclick: () => document.body.classList.toggle("more") }, "forces and settings"),
+          this._slider(status.isPaused && live.frames.newest > 0), this._paces(status), this._cases(status))),
     ];
   }
 
-  _pad() {
-    const label = (/** @type {string} */ side, /** @type {string} */ text) => make("span", { className: side }, text);
-    const pad = make("div", { id: "pad" }, label("up", "push"), label("left", "turn left"), label("right", "turn right"),
-      label("down", "pull"));
-    pad.setAttribute("role", "application");
-    pad.setAttribute("aria-label", "touch: up pushes, down pulls, sideways turns");
-    this._live.steering.listen(pad);
-    return pad;
+  /** For two thumbs, or two fingers. */
+  _pads() {
+    const pad = (/** @type {string} */ id, /** @type {string} */ name, /** @type {string[]} */ [low, high], /** @type {number} */ axis) => {
+      const made = named("div", name, { id, className: "pad" }, make("span", { className: "low" }, low),
+        make("span", { className: "high" }, high));
+      made.setAttribute("role", "application");
+      this._live.steering.listen(made, axis);
+      return made;
+    };
+    return make("div", { className: "pads" }, pad("slide", "slide pad: up pushes, down pulls", ["push ↑", "pull ↓"], 0),
+      pad("spin", "turn pad: sideways turns", ["↺ turn", "turn ↻"], 1));
   }
 
   _drives() {
     const { steering } = this._live;
-    const held = (/** @type {string} */ text, /** @type {string} */ key, /** @type {string} */ cap) =>
-      make("button", { className: "drive", ...whileHeld(() => steering.hold(key), () => steering.release()) }, text, " ", make("kbd", {}, cap));
-    return [held("push", "w", "W"), held("pull", "s", "S"), held("turn left", "a", "A"), held("turn right", "d", "D")];
+    const held = (/** @type {string} */ text, /** @type {string} */ key) => make("button", { className: key === "w" ? "drive on" : "drive",
+      ...whileHeld(() => steering.hold(key), () => steering.release()) }, text, " ", make("kbd", {}, key.toUpperCase()));
+    return [[["push", "w"], ["pull", "s"]], [["turn left", "a"], ["turn right", "d"]]].map((pair) =>
+      make("span", { className: "group" }, ...pair.map(([text, key]) => held(text, key))));
   }
 
   _fine() {
@@ -103,57 +107,52 @@ export class Controls {
   }
 
   _exchange() {
-    return make("button", { id: "exchange", className: "second", onclick: () => this._live.exchange(),
-      title: "another instrument over the wire" }, "exchange ", make("kbd", {}, "Q"));
+    return make("button", { id: "exchange", onclick: () => this._live.exchange(), title: "another instrument over the wire" },
+      "exchange ", make("kbd", {}, "Q"));
   }
 
   /** @param {Status} status */
   _pause(status) {
     const text = status.isWaiting ? "begin" : status.isPaused ? "go on" : "pause";
-    const made = this._button(text, { do: "pause", value: !status.isPaused });
-    made.id = "pause";
-    return made;
+    return Object.assign(this._button(text, { do: "pause", value: !status.isPaused }), { id: "pause" });
   }
 
   /** It keeps its place while it can do nothing. @param {boolean} isUseful */
   _slider(isUseful) {
     const { newest, shown } = this._live.frames;
-    const back = make("input", { type: "range", id: "back", min: 0, step: 1, max: newest, value: shown,
+    const back = named("input", "look back", { type: "range", id: "back", min: 0, step: 1, max: newest, value: shown,
       oninput: () => this._live.lookBack(Number(back.value)) });
-    back.setAttribute("aria-label", "look back");
     back.style.visibility = isUseful ? "visible" : "hidden";
     return back;
   }
 
   /** @param {Status} status */
   _paces(status) {
-    const paces = make("select", { id: "pace", className: "second",
+    const paces = named("select", "speed", { id: "pace",
       onchange: () => this._live.send({ do: "pace", value: Number(paces.value) }) },
     ...status.paces.map((pace) =>
-      make("option", { value: pace, selected: pace === status.pace }, `${pace} x real time`)));
-    paces.setAttribute("aria-label", "speed");
+      make("option", { value: pace, selected: pace === status.pace }, say("{0} x real time", pace))));
     return paces;
   }
 
   /** @param {Status} status */
   _cases(status) {
-    const cases = make("select", { id: "scenes", className: "second", onchange: () => this._live.leave(
-      `open ${cases.selectedOptions[0].textContent}`, () => this._live.send({ do: "open", scene: cases.value }),
+    const cases = named("select", "case", { id: "scenes", onchange: () => this._live.leave(
+      say("open {0}", cases.selectedOptions[0].textContent), () => this._live.send({ do: "open", scene: cases.value }),
       () => { cases.value = status.scene; }) },
     ...status.scenes.map((scene, k) =>
       make("option", { value: scene, selected: scene === status.scene }, status.titles[k])));
-    cases.setAttribute("aria-label", "case");
     return cases;
   }
 
   /** @param {Status} status */
   _names(status) {
     return status.named.map((names, k) => {
-      const select = make("select", { onchange: () => this._live.leave(`begin anew with ${select.value}`,
+      const select = make("select", { onchange: () => this._live.leave(say("begin anew with {0}", select.value),
         () => this._live.send({ do: "name", instrument: k, name: select.value }), () => { select.value = status.chosen[k]; }) },
       ...[...(status.chosen[k] ? [] : [""]), ...names].map((name) =>
         make("option", { value: name, selected: name === status.chosen[k], disabled: name === "" }, name)));
-      return make("label", {}, k === 0 ? "instrument" : `catheter${status.named.length > 2 ? ` ${k}` : ""}`, select);
+      return make("label", {}, say(k === 0 ? "instrument" : "catheter"), status.named.length > 2 && k ? ` ${k}` : "", select);
     });
   }
 

@@ -3,25 +3,28 @@ import { brief, ink, prepare } from "./colours.js";
 
 const SECOND = "#e08214"; // of the second run
 const BOTTOM = 16;
+const ALIGNED = 44; // points beside curves that stand over one another
 const GAP = 4; // points between an axis and what stands beside it
 const MOST_DIGITS = 12;
 
 /**
  * Draws curves with their axes.
  * @param {HTMLCanvasElement} canvas
- * @param {{x: ArrayLike<number>, y: ArrayLike<number>}[]} curves
+ * @param {{x: ArrayLike<number>, y: ArrayLike<number>, colour?: string, dash?: number[]}[]} curves colour: of the page's tokens
  * @param {string} xLabel
  * @param {string} yLabel
- * @param {number} [cursor] x of a line through all
+ * @param {number} [cursor] x of a line through all @param {[number, number][]} [shades] from which x to which it is shaded, of
+ *     curves over one another
+ * @returns {(point: number) => number} x of a point of the canvas
  */
-export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
+export function drawCurves(canvas, curves, xLabel, yLabel, cursor, shades) {
   const pen = prepare(canvas);
   const [width, height] = [canvas.clientWidth, canvas.clientHeight];
   const [left, right] = range(curves.map((curve) => curve.x));
   const [low, high] = range(curves.map((curve) => curve.y));
   const [lowText, highText] = endLabels(low, high);
   const [leftText, rightText] = endLabels(left, right);
-  const margin = GAP + Math.max(pen.measureText(lowText).width, pen.measureText(highText).width);
+  const margin = GAP + Math.max(shades ? ALIGNED : 0, pen.measureText(lowText).width, pen.measureText(highText).width);
   const toX = (/** @type {number} */ x) => margin + ((x - left) / (right - left || 1)) * (width - margin - GAP);
   const clearance = height - BOTTOM - 20;
   const toY = (/** @type {number} */ y) => height - BOTTOM - 4 - ((y - low) / (high - low || 1)) * clearance;
@@ -35,8 +38,13 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
   const end = rightText === leftText ? xLabel : `${rightText}  ${xLabel}`;
   pen.fillText(end, width - GAP - pen.measureText(end).width, height - 4);
   if (low < 0 && high > 0) line(pen, margin, toY(0), width - GAP, toY(0));
-  curves.forEach(({ x, y }, k) => {
-    pen.strokeStyle = k === 0 ? ink("--ink") : SECOND;
+  for (const [from, to] of shades ?? []) {
+    pen.fillStyle = `${ink("--caution")}38`;
+    pen.fillRect(toX(from), 14, toX(to) - toX(from), height - BOTTOM - 16);
+  }
+  curves.forEach(({ x, y, colour, dash }, k) => {
+    pen.strokeStyle = colour ? ink(colour) : k === 0 ? ink("--ink") : SECOND;
+    pen.setLineDash(dash ?? []);
     pen.beginPath();
     const stride = Math.max(1, Math.floor(x.length / 2000)); // more points than that are not seen
     for (let i = 0, isDown = false; i < x.length; i += stride) {
@@ -53,8 +61,10 @@ export function drawCurves(canvas, curves, xLabel, yLabel, cursor) {
   });
   if (cursor !== undefined && cursor >= left && cursor <= right) {
     pen.strokeStyle = "#c33";
+    pen.setLineDash([]);
     line(pen, toX(cursor), 14, toX(cursor), height - BOTTOM - 2);
   }
+  return (point) => left + ((point - margin) / (width - margin - GAP)) * (right - left);
 }
 
 /**

@@ -2,7 +2,7 @@
 import { Dial, Gauge } from "./gauges.js";
 import { byId, make } from "./panel.js";
 import { Score, apart, largestForce, limitsOf, newtons } from "./score.js";
-import { placeName } from "./target.js";
+import { fixed, say } from "./words.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
@@ -31,21 +31,18 @@ export class Desk {
     this._insertion = new Dial("insertion", (millimetres) => (2 * Math.PI * millimetres) / MILLIMETRES_A_TURN);
     this._turn = new Dial("turn", (turn) => turn);
     if (this.isLive) this._turn.listen(() => this.turn, (turn) => this.onDial(turn));
-    const target = recording.described?.target;
-    this._left = make("output", {});
-    this._routeDone = make("i", {});
     this._events = make("div", { className: "card", id: "events", hidden: true });
     this._gauges = make("div", { id: "gauges" });
-    const card = make("div", { className: "card" },
-      ...(target ? [make("div", { className: "line" }, make("span", {}, `to ${placeName(target.name)}`), this._left),
-        make("div", { className: "route" }, this._routeDone)]
-        : [make("div", { className: "line" }, make("span", {}, "tip from its start"), this._left)]));
     this._legend = make("div", { className: "card", id: "legend" }, ...recordings.flatMap((one) =>
       one.instruments.map((instrument) => make("div", {}, swatch(instrument.colour),
         recordings.length > 1 ? `${instrument.name}, ${one.title}` : instrument.name))));
     byId("desk").replaceChildren(this._gauges,
-      make("div", { className: "dials" }, this._insertion.element, this._turn.element), card, this._events, this._legend);
-    byId("scoreReading").hidden = !target;
+      make("div", { className: "dials" }, this._insertion.element, this._turn.element), this._events, this._legend);
+    const hasTarget = Boolean(recording.described?.target);
+    byId("scoreReading").hidden = !hasTarget;
+    byId("way").hidden = false;
+    byId("way").querySelector(".track").hidden = !hasTarget;
+    document.body.toggleAttribute("data-target", hasTarget);
     this._makeGauges();
   }
 
@@ -59,7 +56,8 @@ export class Desk {
     this._hub = new Gauge("force at the hub", isForce && limits ? limits.hub : null);
     this._wall = new Gauge("largest wall force", isForce && wire ? wire.wall : null);
     const basis = isForce && limits && wire ? [make("p", { className: "basis" },
-      `Red: 5 cm of shaft bow out at ${newtons(limits.hub[1])}; twice the ${newtons(wire.wall[0])} at which the wire's tip buckles.`)]
+      say("Red: 5 cm of shaft bow out at {0}; twice the {1} at which the wire's tip buckles.", newtons(limits.hub[1]),
+        newtons(wire.wall[0])))]
       : [];
     this._gauges?.replaceChildren(this._hub.element, this._wall.element, ...basis);
   }
@@ -91,20 +89,28 @@ export class Desk {
     const [tip, base] = this.score.begun;
     const inserted = recording.channels.has(`${hub}Insertion`) ? 1000 * at(`${hub}Insertion`)
       : millimetres * apart(x.subarray(0, 3), base);
-    this._insertion?.show(inserted, `${inserted.toFixed(1)}\nmm`);
+    this._insertion?.show(inserted, `${fixed(inserted, 1)} mm`);
     const turn = at(`${hub}Turn`);
     this.turn = turn;
     this._turn?.show(turn, `${Math.round((turn * 180) / Math.PI)}°`);
-    byId("clock").textContent = `${at("time").toFixed(1)} s`;
+    byId("clock").textContent = `${fixed(at("time"), 1)} s`;
     byId("score").textContent = String(this.score.points);
     this._showEvents();
-    if (!this._left || !this._routeDone) return;
-    if (recording.described?.target) {
-      const { left, reachedAt, best } = this.score;
-      this._left.textContent = Number.isFinite(reachedAt) ? `reached at ${reachedAt.toFixed(1)} s`
-        : `${(millimetres * left).toFixed(0)} mm`;
-      this._routeDone.style.width = `${100 * best}%`;
-    } else this._left.textContent = `${(millimetres * apart(x.subarray(-3), tip)).toFixed(0)} mm`;
+    this._showWay(millimetres, apart(x.subarray(-3), tip));
+  }
+
+  /** How far it is to the target; without one how far the tip has come. @param {number} millimetres of a unit
+   * @param {number} moved units */
+  _showWay(millimetres, moved) {
+    const { left, first, reachedAt, best } = /** @type {Score} */ (this.score);
+    const hasTarget = Number.isFinite(left);
+    byId("done").textContent = hasTarget ? `${fixed(millimetres * (first - left), 0)} mm`
+      : say("tip {0} mm from its start", fixed(millimetres * moved, 0));
+    byId("left").textContent = !hasTarget ? "" : Number.isFinite(reachedAt) ? say("reached at {0} s", fixed(reachedAt, 1))
+      : say("{0} mm to go", fixed(millimetres * left, 0));
+    const [bar, knob] = byId("way").querySelector(".track").children;
+    bar.style.width = `${100 * best}%`;
+    knob.style.left = `${hasTarget ? Math.max(0, Math.min(100, 100 * (1 - left / (first || 1)))) : 0}%`;
   }
 
   _showEvents() {
@@ -114,7 +120,7 @@ export class Desk {
     this._events.dataset.count = String(mishaps.length);
     this._events.replaceChildren(make("div", { className: "line" }, make("span", {}, "events"),
       make("output", {}, String(mishaps.length))), ...mishaps.slice(-MOST_EVENTS).map(({ time, text }) =>
-      make("div", { className: "event" }, `${time.toFixed(1)} s: ${text}`)));
+      make("div", { className: "event" }, `${fixed(time, 1)} s: ${text}`)));
   }
 }
 

@@ -1,7 +1,8 @@
 // @ts-check
 import { brief } from "./colours.js";
-import { make } from "./panel.js";
+import { make, named } from "./panel.js";
 import { newtons } from "./score.js";
+import { say } from "./words.js";
 
 const BANDS = ["good", "caution", "stop"];
 const WORDS = ["normal", "caution", "too high"];
@@ -16,10 +17,9 @@ export class Gauge {
     this._word = make("span", { className: "word" });
     this._peak = make("i", { className: "peak" });
     this._bar = make("i", { className: "fill" });
-    this.element = make("div", { className: "gauge" }, make("span", { className: "label" }, label), this._value,
+    this.element = named("div", label, { className: "gauge" }, make("span", { className: "label" }, label), this._value,
       this._word, make("div", { className: limits ? "bar bands" : "bar" }, this._bar, this._peak));
     this.element.setAttribute("role", "meter");
-    this.element.setAttribute("aria-label", label);
     for (const [name, value] of [["min", 0], ["max", 1], ["now", 0]]) this.element.setAttribute(`aria-value${name}`, String(value));
     if (limits) {
       this.element.style.setProperty("--caution-at", `${(100 * limits[0]) / this._most}%`);
@@ -37,7 +37,7 @@ export class Gauge {
     const band = this._limits ? Number(size >= this._limits[0]) + Number(size >= this._limits[1]) : 0;
     this._value.textContent = unit === "N" ? newtons(value) : brief(value, 3);
     this.element.title = unit === "N" ? "" : `unit: ${unit}`;
-    this._word.textContent = this._limits ? WORDS[band] : `largest ${unit === "N" ? newtons(peak) : brief(peak, 3)}`;
+    this._word.textContent = this._limits ? say(WORDS[band]) : say("largest {0}", unit === "N" ? newtons(peak) : brief(peak, 3));
     this.element.dataset.band = BANDS[band];
     this._bar.style.width = `${Math.min(100, (100 * size) / most)}%`;
     this._peak.style.left = `${Math.min(100, (100 * peak) / most)}%`;
@@ -47,17 +47,17 @@ export class Gauge {
   }
 }
 
-/** A round dial with a hand, and the number in its middle. */
+/** A round dial with a hand, and the number beside it. */
 export class Dial {
   /** @param {string} label @param {(value: number) => number} angle rad of the hand, clockwise from above */
   constructor(label, angle) {
     this._angle = angle;
     this._hand = make("i", { className: "hand" });
     this._value = make("output", {});
-    this.element = make("div", { className: "dial" }, make("div", { className: "face" }, this._hand, this._value),
-      make("span", { className: "label" }, label));
+    this.element = make("div", { className: "dial" }, make("div", { className: "face" }, this._hand),
+      make("span", { className: "label" }, label), this._value);
     this.element.setAttribute("role", "img");
-    this._label = label;
+    this._label = say(label);
   }
 
   /** Lets a hand turn it, as a torque device. @param {() => number} now rad @param {(turn: number) => void} turned told
@@ -65,7 +65,7 @@ export class Dial {
   listen(now, turned) {
     const face = /** @type {HTMLElement} */ (this.element.firstChild);
     face.classList.add("turned");
-    face.title = "drag to turn";
+    face.title = say("drag to turn");
     let [before, aim] = [0, 0];
     const angle = (/** @type {PointerEvent} */ { clientX, clientY }) => {
       const { left, top, width, height } = face.getBoundingClientRect();

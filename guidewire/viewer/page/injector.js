@@ -1,6 +1,7 @@
 // @ts-check
-import { byId, make } from "./panel.js";
+import { byId, make, named } from "./panel.js";
 import { whileHeld } from "./steering.js";
+import { fixed, say } from "./words.js";
 
 /**
  * @typedef {{agent: {parts: string, injected: number, held: number, isActive: boolean, isInjecting: boolean}}} Told what
@@ -21,10 +22,8 @@ export class Injector {
     this._isDown = false;
     this._amount = make("input", { type: "number", min: 0.1, max: MOST, step: "any", value: 6, required: true });
     this._rate = make("input", { type: "number", min: 0.1, max: 50, step: "any", value: 3, required: true });
-    this._how = make("select", {}, make("option", {}, "by pump"), make("option", {}, BY_HAND));
-    this._how.setAttribute("aria-label", "injection");
-    this._where = make("select", {});
-    this._where.setAttribute("aria-label", "place of injection");
+    this._how = named("select", "injection", {}, make("option", { value: "" }, "by pump"), make("option", { value: BY_HAND }, BY_HAND));
+    this._where = named("select", "place of injection", {});
     this._said = make("output", {});
     this._element = make("div", { className: "card", id: "contrast" },
       make("div", { className: "line" }, make("span", {}, "contrast injected"), this._said),
@@ -38,7 +37,7 @@ export class Injector {
     this._hasVessel = Boolean(recording.described?.cells);
     if (!goesOn) this.injected = 0;
     this._show();
-    const places = [...recording.instruments.map(({ name }) => `tip of ${name}`), INLET];
+    const places = [...recording.instruments.map(({ name }) => say("tip of {0}", name)), INLET];
     this._where.replaceChildren(...places.map((place) => make("option", {}, place)));
     this._where.selectedIndex = places.length - 1;
     byId("desk").querySelector("#legend")?.before(this._element);
@@ -54,7 +53,7 @@ export class Injector {
   get button() {
     const button = make("button", { id: "inject", ...whileHeld(() => this.press(), () => this.release()) }, "inject ", make("kbd", {}, "E"));
     button.disabled = !this._hasVessel;
-    button.title = this._hasVessel ? "contrast into the blood" : "this vessel has no centreline along which blood could flow";
+    button.title = say(this._hasVessel ? "contrast into the blood" : "this vessel has no centreline along which blood could flow");
     return button;
   }
 
@@ -84,6 +83,6 @@ export class Injector {
   }
 
   _show() {
-    this._said.textContent = `${this.injected.toFixed(1)} ml`;
+    this._said.textContent = `${fixed(this.injected, 1)} ml`;
   }
 }

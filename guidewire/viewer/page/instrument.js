@@ -1,6 +1,7 @@
 // @ts-check
-import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh, MeshLambertMaterial } from "three";
+import { BufferAttribute, BufferGeometry, Group, Line, LineBasicMaterial, Mesh } from "three";
 
+import { metal } from "./tissue.js";
 import { Tube } from "./tube.js";
 
 const OPACITY = 0.55; // opacity of a catheter: one sees what is inside
@@ -14,9 +15,9 @@ export class DrawnInstrument {
   constructor(spheres, isCatheter, tinted) {
     this.spheres = spheres;
     this.tube = new Tube(spheres - 1);
-    const look = isCatheter ? { vertexColors: true, transparent: true, opacity: OPACITY } : { vertexColors: true };
-    this._surface = new Mesh(this.tube.geometry, tinted(new MeshLambertMaterial(look)));
-    this._line = new Line(new BufferGeometry(), tinted(new LineBasicMaterial(look)));
+    const look = isCatheter ? { transparent: true, opacity: OPACITY } : {};
+    this._surface = new Mesh(this.tube.geometry, tinted(metal(look)));
+    this._line = new Line(new BufferGeometry(), tinted(new LineBasicMaterial({ vertexColors: true, ...look })));
     for (const name of ["position", "color"]) {
       this._line.geometry.setAttribute(name, new BufferAttribute(new Float32Array(3 * spheres), 3));
     }

@@ -4,13 +4,14 @@ import { brief } from "./colours.js";
 import { Controls } from "./controls.js";
 import { ask } from "./dialog.js";
 import { Injector } from "./injector.js";
-import { judge, keepBest } from "./missions.js";
+import { bestOf, judge, keepBest } from "./missions.js";
 import { Model } from "./model.js";
-import { byId, make } from "./panel.js";
+import { byId, make, named } from "./panel.js";
 import { Recording } from "./recording.js";
-import { rowsOf, save, showReport } from "./report.js";
+import { courseOf, Debrief, rowsOf, save, thinned } from "./report.js";
 import { Steering } from "./steering.js";
 import { placeName } from "./target.js";
+import { fixed, say } from "./words.js";
 
 /**
  * What is said of the run, as guidewire/viewer/live.py or run.js sends it.
@@ -76,6 +77,7 @@ export class Live {
     this.injector = new Injector((message) => this.send(message));
     this._controls = new Controls(this);
     this._coach = new Coach(xray);
+    this._debrief = new Debrief((frame) => this.lookBack(frame));
     /** What is to be achieved. @type {(import("./missions.js").Mission & {file: string}) | null} */
     this.mission = null;
     /** Told where a scene is shown. @type {(scene: string) => void} */
@@ -111,7 +113,8 @@ export class Live {
   /** @param {string} button of a gamepad */
   _press(button) {
     const card = byId("card");
-    if (card.open) pressCard(card, button);
+    if (!byId("start").hidden) pressGallery(button);
+    else if (card.open || "debrief" in document.body.dataset) pressCard(card.open ? card : byId("debrief"), button);
     else if (button === "exchange") this.exchange();
     else if (button === "pause") this.pause(!this.status?.isPaused);
     else if (button === "reset") this.restart();
@@ -157,14 +160,14 @@ export class Live {
   /** Asks before a run that has begun is lost. @param {string} what takes its place @param {() => void} go opens it
    * @param {() => void} stay called where it does not */
   async leave(what, go, stay = () => {}) {
-    if (this._time === 0 || await this._mayLose(what, "leave", "stay")) go();
+    if (this._time === 0 || await this._mayLose(say(what), "leave", "stay")) go();
     else stay();
   }
 
   /** Begins the run anew; asks where much of it would be lost. */
   async restart() {
     const isGone = !this.status || this.status.outcome || this.isGone(this.status);
-    if (isGone || this._time <= LOSS || await this._mayLose("start anew", "start anew", "go on")) this.send({ do: "reset" });
+    if (isGone || this._time <= LOSS || await this._mayLose(say("start anew"), "start anew", "go on")) this.send({ do: "reset" });
   }
 
   /** Whether the run may end; it stands while one reads. @param {string} what @param {string} yes @param {string} no */
@@ -173,7 +176,7 @@ export class Live {
     const isGoing = this.status && !this.status.isPaused;
     if (isGoing) this.pause(true);
     const answer = await ask(`${what}?`, [make("p", {},
-      `The run of ${brief(this._time, 3)} s ends with it. Steering and report can be saved before.`)], [yes, no]);
+      say("The run of {0} s ends with it. Steering and report can be saved before.", fixed(this._time, 1)))], [yes, no]);
     if (answer !== yes && isGoing) this.pause(false);
     return answer === yes;
   }
@@ -211,12 +214,11 @@ export class Live {
   /** Exchanges the held instrument: it is withdrawn, another one is chosen, and advanced over the wire. */
   async exchange() {
     if (!this.status || !this.canExchange || this.status.outcome) return;
-    const { held, instruments, named, chosen, exchangesAsked } = this.status;
+    const { held, instruments, named: choices, chosen, exchangesAsked } = this.status;
     this.steering.release();
-    const select = make("select", {}, ...named[held].map((name) =>
+    const select = named("select", "what takes its place", {}, ...choices[held].map((name) =>
       make("option", { value: name, selected: name === chosen[held] }, name)));
-    select.setAttribute("aria-label", "what takes its place");
-    const answer = await ask(`exchange ${instruments[held]}`, [make("ol", {}, make("li", {}, "Withdraw it: pull (S)."),
+    const answer = await ask(say("exchange {0}", instruments[held]), [make("ol", {}, make("li", {}, "Withdraw it: pull (S)."),
       make("li", {}, "Choose what takes its place: ", select), make("li", {}, "Advance that: push (W)."))],
     ["cancel", "exchange"]);
     if (answer !== "exchange") return;
@@ -229,7 +231,7 @@ export class Live {
     if (exchangesAsked < this._exchangesAsked) return;
     this._exchangesAsked = Infinity;
     if (problem) ask("not exchanged", [make("p", {}, `${problem[0].toUpperCase()}${problem.slice(1)}.`)], ["close"]);
-    else this._panel.tell([`${instruments[held]} has its tip where the other one had it: advance it`]);
+    else this._panel.tell([say("{0} has its tip where the other one had it: advance it", instruments[held])]);
   }
 
   /** @param {number} push @param {number} turn from -1 to 1 @param {number} otherPush of the next instrument
@@ -260,7 +262,7 @@ export class Live {
     const before = this.status;
     this.status = status;
     if (isNew && status.opened) {
-      byId("note").textContent = "loading the vessel";
+      byId("note").textContent = say("loading the vessel");
       const recorded = await this._connection.recording(status.opened);
       if (recorded) this._open(new Recording(recorded), status.opened);
     }
@@ -349,31 +351,40 @@ export class Live {
     this._isReported = true;
     this.steering.release();
     this.pause(true);
-    const answer = await this.report();
-    if (answer === "start anew") this.send({ do: "reset" });
-    else if (answer === "go on") this.pause(false);
-    else if (answer === "all missions") byId("gallery").click();
+    await this.report();
   }
 
-  /** Shows what the case came to. @returns {Promise<string>} what is to be done then */
+  /** Shows what the case came to, and does what is answered. */
   async report() {
     const { score } = this._desk;
-    if (!this.model || !score) return "";
+    if (!this.model || !score || "debrief" in document.body.dataset) return;
+    if (!this.status?.isPaused) this.pause(true);
     const { recording } = this.model;
     const isDone = Number.isFinite(score.reachedAt);
-    const name = placeName(recording.described?.target?.name ?? "");
-    const { seconds, pictures } = this._xray.beam;
+    const { seconds, pictures, spans } = this._xray.beam;
     const judged = this.mission && isDone ? judge(this.mission, score, seconds, this.injector.injected) : null;
-    if (this.mission && judged) keepBest(this.mission.file, judged.result);
-    return showReport(rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,
-      contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }), isDone ? `${name} reached` : "report", isDone
-      ? ["start anew", "go on", ...(this.mission ? ["all missions"] : [])] : ["close"]);
+    const best = this.mission && bestOf(this.mission.file);
+    if (this.mission && judged) keepBest(this.mission.file, { ...judged.result, course: thinned(courseOf(recording, score.first)) });
+    const ghost = best?.course ? { course: best.course, name: "ghost: your best" }
+      : this.mission?.ghost ? { course: this.mission.ghost, name: "ghost: the recorded drive" } : null;
+    byId("title").focus();
+    const answer = await this._debrief.show({ recording, score, beam: spans, ghost, stars: judged?.text ?? "",
+      title: isDone ? "target reached" : "report",
+      rows: rowsOf(recording, score, { case: this.title, beam: seconds, pictures, stars: judged?.text,
+        contrast: this.injector.injected, exchanges: this.status?.exchanges ?? [] }),
+      answers: isDone ? [...(this.mission ? ["all missions"] : []), "go on", "try again"] : ["close"] });
+    this._back = null;
+    this.show();
+    this.label();
+    if (answer === "try again") this.send({ do: "reset" });
+    else if (answer === "go on") this.pause(false);
+    else if (answer === "all missions") byId("gallery").click();
   }
 
   /** The case as it is called. */
   get title() {
     const { scenes = [], titles = [], scene = "" } = this.status ?? {};
-    return titles[scenes.indexOf(scene)] ?? nameOf(scene);
+    return say(titles[scenes.indexOf(scene)] ?? nameOf(scene));
   }
 
   /** Shows the newest frame with what is chosen beside it. */
@@ -418,12 +429,14 @@ export class Live {
     const { recording, frame } = this.model;
     const [time, step, stepTime] = ["time", "step", "stepTime"].map((name) => recording.at(name, frame)[0]);
     const rate = recording.at("realTime", frame)[0];
-    this._stage.label(0, `t = ${brief(time)} s   step ${step}${
-      Number.isFinite(rate) ? `\n${brief(stepTime, 3)} ms a step: ${brief(rate, 3)} times real time` : ""}`);
+    this._stage.label(0, say("t = {0} s   step {1}", brief(time), step) + (Number.isFinite(rate)
+      ? `\n${say("{0} ms a step: {1} times real time", brief(stepTime, 3), brief(rate, 3))}` : ""));
     const target = recording.described?.target;
-    byId("title").textContent = target ? `${this.title}, to ${placeName(target.name)}` : this.title;
+    byId("title").textContent = this.title;
+    byId("goal").textContent = this.mission ? say(this.mission.goal) : target ? say("to {0}", say(placeName(target.name))) : "";
+    byId("par").textContent = this.mission ? say("par {0} s", this.mission.par) : "";
     if (!byId("start") || byId("start").hidden) document.title = `${this.title} · Guidewire`;
-    byId("mood").textContent = this._mood();
+    byId("mood").textContent = say(this._mood());
     this._note(rate);
   }
 
@@ -434,9 +447,10 @@ export class Live {
     const isSlow = !isPaused && rate < SLOW * Math.min(pace, 1);
     const note = byId("note");
     note.classList.toggle("loud", Boolean(isReminded));
-    note.textContent = this._back !== null ? "looking back" : outcome ? "ended"
-      : !hand ? "" : isWaiting ? "ready: push to begin" : isReminded ? "paused: nothing moves until \"go on\" (space)" : isPaused ? "paused"
-      : isSlow ? `slower than real time: ${brief(rate, 2)} x` : isSteered ? "" : "moved by the recorded drive";
+    note.textContent = isSlow && hand && !outcome && this._back === null ? say("slower than real time: {0} x", brief(rate, 2))
+      : say(this._back !== null ? "looking back" : outcome ? "ended"
+        : !hand ? "" : isWaiting ? "ready: push to begin" : isReminded ? "paused: nothing moves until \"go on\" (space)"
+        : isPaused ? "paused" : isSteered ? "" : "moved by the recorded drive");
   }
 
   /** Whether there is no runner any more. @param {Status} status */
@@ -452,7 +466,7 @@ export class Live {
     for (const [k, file] of files.entries()) {
       const { ok, text } = await this._connection.steered(k);
       if (!ok) {
-        this._panel.say([`nothing was saved: ${text}`]);
+        this._panel.say([say("nothing was saved: {0}", text)]);
         return;
       }
       save(file, text, "text/csv");
@@ -464,11 +478,10 @@ export class Live {
     }).join(""); // quotes that sh, zsh, PowerShell and cmd take alike
     const steps = this.model ? this.model.recording.at("step", this.model.recording.count - 1)[0] : 0;
     const command = `python3 guidewire.py run "${this.status.file}" ${keys}--set maxSimulationSteps=${steps} --set deltaThreshold=0`;
-    this._panel.tell([`${files.join(", ")}: put ${files.length > 1 ? "them" : "it"} where you start guidewire.py, and repeat the run there with`,
-      command]);
+    this._panel.tell([say("{0}: put it where you start guidewire.py, and repeat the run there with", files.join(", ")), command]);
     const copy = make("button", { onclick: async () => {
       await navigator.clipboard.writeText(command);
-      copy.textContent = "copied";
+      copy.textContent = say("copied");
     } }, "copy the command");
     byId("said").append("\n", copy);
   }
@@ -484,13 +497,21 @@ export class Live {
   }
 }
 
-/** What a gamepad's button does with a card: A answers, B closes, up chooses the next of its list.
- * @param {HTMLDialogElement} card @param {string} button */
+/** What a gamepad's button does with a card or the report: A answers, B closes, up chooses the next of its list.
+ * @param {any} card @param {string} button */
 function pressCard(card, button) {
   const select = card.querySelector("select");
-  if (button === "pause") /** @type {HTMLElement} */ (card.querySelector("button.on")).click();
-  else if (button === "inject") card.close();
+  if (button === "pause") card.querySelector("button.on").click();
+  else if (button === "inject") card.close?.();
   else if (button === "exchange" && select) select.selectedIndex = (select.selectedIndex + 1) % select.options.length;
+}
+
+/** The same in the gallery: A opens the picture that is reached, the shoulders go to another one. @param {string} button */
+function pressGallery(button) {
+  const cards = /** @type {HTMLElement[]} */ ([...byId("start").querySelectorAll(".scenes button")]);
+  const at = Math.max(0, cards.indexOf(/** @type {HTMLElement} */ (document.activeElement)));
+  if (button === "pause") cards[at]?.click();
+  else if (button === "hold" || button === "beam") cards[(at + (button === "beam" ? 1 : cards.length - 1)) % cards.length]?.focus();
 }
 
 /** A scene as one calls it. @param {string} file */
@@ -499,6 +520,6 @@ function nameOf(file) {
 }
 
 export const LIVE_KEYS = /** @type {[string, string][]} */ ([
-  ["round pad", "up pushes, down pulls, sideways turns"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
-  ["R", "start anew"], ["I", "select the next instrument"], ["Q", "exchange it for another one"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam; up: exchange"],
+  ["pads", "left: up pushes, down pulls; right: sideways turns"], ["W S, up down", "push and pull"], ["A D, left right", "turn"], ["U J, K L", "push and pull, turn the next instrument"], ["G", "fine steering"], ["space", "pause, go on"], ["N", "one step"],
+  ["R", "start anew"], ["I", "select the next instrument"], ["Q", "exchange it for another one"], ["E", "inject contrast"], ["gamepad", "left stick steers, right stick the next instrument; A pauses, B injects, X fine, Y starts anew, shoulders: next instrument, beam; up: exchange; in the gallery the shoulders choose and A opens"],
 ]);

@@ -1,9 +1,11 @@
 // @ts-check
 /**
  * A scene with something to achieve. It stands in guidewire/viewer/cases.py, and a test wins it with a recorded drive.
- * @typedef {{goal: string, par: number}} Mission what is to be reached, and a good time for it, s
- * @typedef {{stars: number, time: number, points: number}} Result
+ * @typedef {{goal: string, par: number, ghost?: import("./report.js").Course}} Mission what is to be reached, a good time for
+ *     it, s, and the course of that drive
+ * @typedef {{stars: number, time: number, points: number, course?: import("./report.js").Course}} Result
  */
+import { say } from "./words.js";
 
 const GENTLE = 90; // points, which only wall forces lower once the target is reached
 const SPARING = 10; // ml of contrast
@@ -21,12 +23,12 @@ export function missionOf(scenes, file) {
  */
 export function judge({ par }, { reachedAt, points }, beam, contrast) {
   const parts = /** @type {[boolean, string][]} */ ([
-    [reachedAt <= par, `within ${par} s`], [points >= GENTLE, `${GENTLE} points for low wall forces`],
-    [beam <= par && contrast <= SPARING, `beam for at most ${par} s with at most ${SPARING} ml`]]);
+    [reachedAt <= par, say("within {0} s", par)], [points >= GENTLE, say("{0} points for low wall forces", GENTLE)],
+    [beam <= par && contrast <= SPARING, say("beam for at most {0} s with at most {1} ml", par, SPARING)]]);
   const stars = parts.filter(([isWon]) => isWon).length;
   const missed = parts.filter(([isWon]) => !isWon).map(([, text]) => text);
   return { result: { stars, time: reachedAt, points },
-    text: `${starsOf(stars)}${missed.length ? `, missed: ${missed.join("; ")}` : ""}` };
+    text: `${starsOf(stars)}${missed.length ? say(", missed: {0}", missed.join("; ")) : ""}` };
 }
 
 /** @param {number} count */

@@ -1,21 +1,25 @@
 // @ts-check
 import {
-  BackSide, BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, FrontSide, Group, Line,
-  LineBasicMaterial, LineSegments, Mesh, MeshLambertMaterial, Vector2, Vector3,
+  BufferAttribute, BufferGeometry, Color, CylinderGeometry, DoubleSide, Group, Line, LineBasicMaterial, LineSegments, Mesh,
+  MeshLambertMaterial, Sprite, Vector2, Vector3,
 } from "three";
 
 import { ramp, roundUp, row } from "./colours.js";
 import { DrawnInstrument } from "./instrument.js";
 import { throughTips } from "./path.js";
+import { glow, ringAt, tissue } from "./tissue.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
 /** Layer of walls behind the wire, and of those that tint it. */
 export const [BEHIND, BEFORE] = [1, 2];
-const PLAIN = "#ff9d2e"; // of a wire that is not coloured and has no instrument
+const [STEEL, GOLD] = ["#dfe7ee", "#ffb84a"].map((colour) => new Color(colour)); // of a wire that is not coloured, and of its tip
+const TIP = 20; // mm of it
+const FOLD = 6; // mm of a vessel's wall that has one fold
+const GLOW = 30; // points of the screen, at least
 const ARROWS = 0x7fe07f;
 const LONGEST_ARROW = 0.2; // fraction of the wire's length
-const LEAST_RADIUS = 2; // points of the screen that a wire takes so that it is seen
+const LEAST_RADIUS = 2.5; // points of the screen that a wire takes so that it is seen
 const SHEATH_COLOUR = 0x8fa9c4;
 const SHEATH = 2; // radius of a sheath over that of the widest instrument in it
 
@@ -40,14 +44,19 @@ export class Model {
     this.arrows = new LineSegments(new BufferGeometry(), this._tinted(new LineBasicMaterial({ color: ARROWS })));
     this.arrows.geometry.setAttribute("position", new BufferAttribute(new Float32Array(6 * spheres), 3));
     this.arrows.frustumCulled = false;
-    for (const wall of recording.walls) this.walls.add(...surfaces(wall));
+    const { target } = recording.described ?? {};
+    this._glow = glow(0xffa03c);
+    if (target) this.group.add(ringAt(target));
+    for (const wall of recording.walls) this.walls.add(...surfaces(wall, recording.millimetres));
     this._moves = 0; // of walls, that are in the picture
-    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls);
+    this.group.add(...this.drawn.map((one) => one.group), this.arrows, this.walls, this._glow);
     this._sheath = recording.sheath && makeSheath(recording.sheath, SHEATH * Math.max(
       ...recording.centrelines.map((_, k) => recording.radiusOf(k))), [
       this._tinted(new MeshLambertMaterial({ color: SHEATH_COLOUR })),
       this._tinted(new LineBasicMaterial({ color: SHEATH_COLOUR }))]);
     if (this._sheath) this.group.add(this._sheath);
+    /** Whether it takes its instrument's colour where no channel colours it: it lies over another run. */
+    this.isPlain = false;
     /** Name of the channel that colours the wire; "" for none. */
     this.colour = "";
     /** How many times thicker than it is the wire is drawn; null: as much as it takes to be seen. @type {number | null} */
@@ -105,6 +114,8 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
       this.recording.radiusOf(k) * this._drawnThickness,
       k === 0 ? path.along.findIndex((place) => place >= first) : 0));
     this._sheath?.children[0].scale.set(this._drawnThickness, 1, this._drawnThickness);
+    this._glow.position.fromArray(this.watchedTip);
+    this._glow.scale.setScalar(Math.max(9 * this.recording.radius * this._drawnThickness, GLOW * this.unitsPerPoint));
     this._paint(full);
     this._point(positions, first);
   }
@@ -156,10 +167,9 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
   /** Lets go of what the picture's memory holds of it. */
   dispose() {
     this.group.traverse((part) => {
-      if (part instanceof Mesh || part instanceof Line) {
-        part.geometry.dispose();
-        part.material.dispose();
-      }
+      if (!(part instanceof Mesh || part instanceof Line || part instanceof Sprite)) return;
+      if (!(part instanceof Sprite)) part.geometry.dispose(); // which all of them share
+      part.material.dispose();
     });
   }
 
@@ -167,11 +177,21 @@ gl_FragColor.rgb = gl_FragColor.rgb * (1.0 - tint.a) + tint.rgb;`)}`;
   _paint(shared) {
     const channel = this.colour ? this.recording.channels.get(this.colour) : undefined;
     const [wire] = this.drawn;
-    this.drawn.slice(channel ? 1 : 0).forEach((one) => {
-      const { r, g, b } = new Color(this.recording.instruments[this.drawn.indexOf(one)]?.colour ?? PLAIN);
+    this.drawn.slice(1).forEach((one) => {
+      const { r, g, b } = new Color(this.recording.instruments[this.drawn.indexOf(one)]?.colour);
       one.paint((_, colour) => colour.splice(0, 3, r, g, b));
     });
-    if (!channel) return;
+    if (!channel) {
+      let [from, left] = [this._lengths.length, TIP / this.recording.millimetres];
+      while (from > 0 && left > 0) left -= this._lengths[--from];
+      const last = this._along.length - 1;
+      const body = this.isPlain ? new Color(this.recording.instruments[0]?.colour ?? GOLD) : STEEL;
+      wire.paint((point, colour) => {
+        const { r, g, b } = this._along[Math.min(Math.floor(point), last)] >= from ? GOLD : body;
+        colour.splice(0, 3, r, g, b);
+      });
+      return;
+    }
     const values = this.recording.at(channel.name, this.frame);
     const full = shared ?? this.full(channel.name);
     const colours = this._ramps[channel.isSigned ? 1 : 0];
@@ -239,18 +259,16 @@ function makeSheath(ends, radius, [surface, stroke]) {
   return new Group().add(tube, new Line(new BufferGeometry().setFromPoints([back, exit]), stroke));
 }
 
-/** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall */
-function surfaces(wall) {
+/** A wall as one looks into it: its far side, and its near side faintly. @param {import("./recording.js").Wall} wall
+ * @param {number} millimetres of a unit */
+function surfaces(wall, millimetres) {
   const geometry = new BufferGeometry();
   geometry.setAttribute("position", new BufferAttribute(wall.vertices, 3));
   geometry.setIndex(new BufferAttribute(wall.triangles, 1));
   geometry.computeVertexNormals();
-  const make = (/** @type {import("three").MeshLambertMaterialParameters} */ look) =>
-    new Mesh(geometry, new MeshLambertMaterial({ transparent: true, depthWrite: false, ...look }));
-  // Triangles of a vessel face the lumen: of the far wall one sees the front.
-  const parts = wall.kind === "obstacle" ? [make({ color: 0x7399bf, opacity: 0.35, side: DoubleSide })]
-    : [make({ color: 0xb8998f, opacity: 0.12, side: BackSide }),
-      make({ color: 0xb8998f, opacity: 0.5, side: FrontSide })];
+  const parts = (wall.kind === "obstacle" ? [new MeshLambertMaterial({ transparent: true, depthWrite: false, color: 0x7399bf, opacity: 0.35,
+    side: DoubleSide })] : [tissue(false, FOLD / millimetres), tissue(true, FOLD / millimetres)])
+    .map((look) => new Mesh(geometry, look));
   parts.forEach((part, k) => part.layers.set(k === 0 ? BEFORE : BEHIND));
   return parts;
 }

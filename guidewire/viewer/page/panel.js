@@ -1,6 +1,7 @@
 // @ts-check
 import { brief, drawScale } from "./colours.js";
 import { drawCurves } from "./curves.js";
+import { say } from "./words.js";
 
 /** @typedef {import("./model.js").Model} Model */
 
@@ -11,13 +12,29 @@ const RELIABLE = /^([^:]*: )?(finished|converged), reliable:/;
 export const byId = (id) => document.getElementById(id);
 
 /**
- * An element with properties and children.
- * @param {string} tag @param {object} properties @param {...(Node | string)} children @returns {any}
+ * An element with properties and children. Texts of the page are put into its language.
+ * @param {string} tag @param {Record<string, any>} properties @param {...(Node | string)} children @returns {any}
  */
 export function make(tag, properties, ...children) {
   const element = Object.assign(document.createElement(tag), properties);
-  element.append(...children);
+  if (properties.title) element.title = say(properties.title);
+  element.append(...children.map((child) => (typeof child === "string" ? say(child) : child)));
   return element;
+}
+
+/** The same with a name that readers of the screen say. @param {string} tag @param {string} name
+ * @param {Record<string, any>} properties @param {...(Node | string)} children @returns {any} */
+export function named(tag, name, properties, ...children) {
+  const element = make(tag, properties, ...children);
+  element.setAttribute("aria-label", say(name));
+  return element;
+}
+
+/** What opens over the page by a button, and closes with a click elsewhere or Escape. @param {string} id
+ * @param {string} name of the button @param {...Node} children */
+export function menu(id, name, ...children) {
+  return make("details", { id }, named("summary", name, { className: "key", title: name }, "⋯"),
+    make("div", { className: "sheet" }, ...children));
 }
 
 /** What stands beside the picture: what colours the wire, curves, facts. */
@@ -51,7 +68,7 @@ export class Panel {
     const channels = [...recording.channels.values()];
     const along = channels.filter((channel) => channel.place === "sphere" || channel.place === "element");
     const overTime = channels.filter((channel) => channel.place === "frame" && channel.label);
-    fill(byId("colour"), [...along.map((channel) => [channel.name, channel.label]), ["", "plain"]], 0);
+    fill(byId("colour"), [["", "metal"], ...along.map((channel) => [channel.name, channel.label])], 0);
     fill(byId("first"), overTime.map((channel) => [channel.name, channel.label]), 0);
     fill(byId("second"), overTime.map((channel) => [channel.name, channel.label]), 1);
     byId("facts").replaceChildren(...models.flatMap((model) => [
@@ -99,6 +116,7 @@ export class Panel {
     const full = coloured.length ? Math.max(...coloured.map((model) => model.full(name))) : 1;
     this.models.forEach((model, k) => {
       model.colour = k < this._coloured ? name : "";
+      model.isPlain = k >= this._coloured;
       model.thickness = Number(byId("thickness").value) || null;
       model.walls.visible = byId("walls").checked && (k === 0 || this._coloured > 1);
       model.arrows.visible = byId("arrows").checked;

@@ -1,7 +1,8 @@
 // @ts-check
 import { brief } from "./colours.js";
 import { Model } from "./model.js";
-import { byId, make } from "./panel.js";
+import { byId, make, named } from "./panel.js";
+import { say } from "./words.js";
 
 /** @typedef {import("./recording.js").Recording} Recording */
 
@@ -28,21 +29,17 @@ export class Replay {
     this.areOver = false;
     this.time = this._times(0)[0];
     this._end = Math.max(...recordings.map((_, k) => this._times(k).at(-1) ?? 0));
-    this._slider = make("input", { type: "range", min: 0, max: 1, step: "any", value: 0, id: "slider" });
-    this._slider.setAttribute("aria-label", "time");
+    this._slider = named("input", "time", { type: "range", min: 0, max: 1, step: "any", value: 0, id: "slider" });
     this._slider.oninput = () => this.go(this._start + Number(this._slider.value) * (this._end - this._start));
     const speeds = SPEEDS.map((speed) => make("option", { value: speed }, `${speed} x`));
-    this._speed = make("select", { id: "speed" }, ...speeds);
-    this._speed.setAttribute("aria-label", "speed");
+    this._speed = named("select", "speed", { id: "speed" }, ...speeds);
     const whole = this._end - this._start;
     this._speed.value = SPEEDS.find((speed) => whole / speed <= SECONDS) ?? SPEEDS.at(-1);
-    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick, /** @type {string} */ name = "") => {
-      const made = make("button", { onclick }, text);
-      if (name) made.setAttribute("aria-label", name);
-      return made;
-    };
-    this._play = button("play", () => this.play(!this.isPlaying));
-    this._over = button("", () => this.arrange(!this.areOver));
+    const button = (/** @type {string} */ text, /** @type {() => void} */ onclick, /** @type {string} */ name) =>
+      named("button", name, { onclick }, text);
+    this._play = make("button", { onclick: () => this.play(!this.isPlaying) }, "play");
+    this._over = make("button", { onclick: () => this.arrange(!this.areOver) });
+    if (recordings.length > 1) document.body.dataset.views = "space";
     byId("bar").replaceChildren(button("|<", () => this.go(this._start), "to the start"),
       button("<", () => this.step(-1), "previous frame"), this._play, button(">", () => this.step(1), "next frame"),
       this._slider, this._speed,
@@ -62,7 +59,7 @@ export class Replay {
   /** Side by side, or superimposed. @param {boolean} areOver */
   arrange(areOver) {
     this.areOver = areOver;
-    this._over.textContent = areOver ? "side by side" : "superimposed";
+    this._over.textContent = say(areOver ? "side by side" : "superimposed");
     this._stage.set(areOver ? [this.models] : this.models.map((model) => [model]));
     this._panel.set(this.models, areOver);
     this._desk.set(this.models.map(({ recording }) => recording));
@@ -87,7 +84,7 @@ export class Replay {
   /** @param {boolean} isPlaying */
   play(isPlaying) {
     this.isPlaying = isPlaying;
-    this._play.textContent = isPlaying ? "pause" : "play";
+    this._play.textContent = say(isPlaying ? "pause" : "play");
     if (!isPlaying) return;
     if (this.time >= this._end) this.time = this._start;
     let before = performance.now();
@@ -110,7 +107,7 @@ export class Replay {
     this._xray.ask();
     byId("title").textContent = this.models.map(({ recording }) => recording.title).join(" and ");
     document.title = `${byId("title").textContent} · Guidewire`;
-    byId("mood").textContent = this.isPlaying ? "replay" : "replay, paused";
+    byId("mood").textContent = say(this.isPlaying ? "replay" : "replay, paused");
     const texts = this.models.map(({ recording }, k) =>
       `${recording.title}\nt = ${brief(this._times(k)[frames[k]])} s   step ${recording.at("step", frames[k])[0]}`);
     if (this.areOver) this._stage.label(0, `${texts[0]}\norange: ${texts[1]}`);

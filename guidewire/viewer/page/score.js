@@ -1,5 +1,6 @@
 // @ts-check
 import { progress } from "./target.js";
+import { fixed, say } from "./words.js";
 
 const PER_CAUTION = 1; // points a second of a wall force in the yellow band
 const PER_STOP = 5; // in the red one
@@ -115,15 +116,15 @@ export class Score {
     const hub = Math.abs(at("hubForce"));
     this.hubForce = Math.max(this.hubForce, hub || 0);
     this._move(frame, at("hubInsertion"));
-    this._note("wall", force >= stop, force < caution, `wall force of ${newtons(force)}, above ${newtons(stop)}`);
+    this._note("wall", force >= stop, force < caution, say("wall force of {0}, above {1}", newtons(force), newtons(stop)));
     const most = this._limits?.hub[1] ?? Infinity;
-    this._note("hub", hub >= most, hub < 0.9 * most, `force at the hub of ${newtons(hub)}: the shaft bows out`);
+    this._note("hub", hub >= most, hub < 0.9 * most, say("force at the hub of {0}: the shaft bows out", newtons(hub)));
     const strain = strainOf(recording, frame);
-    this._note("kink", strain >= FOLDED, strain < 0.5 * FOLDED, `wire kinked: ${(100 * strain).toFixed(1)} % strain`);
+    this._note("kink", strain >= FOLDED, strain < 0.5 * FOLDED, say("wire kinked: {0} % strain", fixed(100 * strain, 1)));
     if (!recording.channels.has("lumen")) return;
     const [left, isAt, isInside] = recording.at("lumen", frame);
     this._wasInside ||= isInside > 0;
-    this._note("left", this._wasInside && !isInside, isInside > 0, "the wire has left the vessel");
+    this._note("left", this._wasInside && !isInside, isInside > 0, say("the wire has left the vessel"));
     if (Number.isNaN(left)) return;
     if (Number.isNaN(this.first)) this.first = left;
     const done = progress(this.first, [left, isAt]);
@@ -186,8 +187,8 @@ function strainOf(recording, frame) {
 export function newtons(value) {
   const size = Math.abs(value);
   const [number, unit] = size < 0.1 ? [1000 * value, "mN"] : [value, "N"];
-  const text = number.toFixed(Math.abs(number) < 10 ? (unit === "mN" ? 1 : 2) : 0);
-  return `${Number(text) === 0 ? text.replace("-", "") : text} ${unit}`;
+  const digits = Math.abs(number) < 10 ? (unit === "mN" ? 1 : 2) : 0;
+  return `${fixed(Number(number.toFixed(digits)) || 0, digits)} ${unit}`;
 }
 
 /** @param {ArrayLike<number>} a @param {ArrayLike<number>} b */

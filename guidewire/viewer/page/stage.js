@@ -10,7 +10,8 @@ import { BEFORE, BEHIND } from "./model.js";
 
 /** @typedef {import("./model.js").Model} Model */
 
-const BACKGROUND = new Color(20 / 255, 23 / 255, 31 / 255);
+/** @type {Record<string, import("three").Color>} */
+const BACKGROUNDS = { dark: new Color(15 / 255, 22 / 255, 30 / 255), light: new Color(228 / 255, 234 / 255, 238 / 255) };
 
 /** Points of a texture where they stand. */
 const COPY = `precision mediump float;
@@ -113,6 +114,7 @@ export class Stage {
     this._isRequested = false;
     this._rest = 0; // timer
     this.followsTip = true;
+    this._background = BACKGROUNDS.dark;
     this._isFollowing = this._isTurning = false;
     /** Pictures drawn so far. */
     this.drawn = 0;
@@ -121,6 +123,13 @@ export class Stage {
     /** Told where wires are drawn thicker or thinner, since the camera went nearer or farther. @type {() => void} */
     this.onThickness = () => {};
     new ResizeObserver(() => this.ask()).observe(canvas);
+  }
+
+  /** @param {string} theme "dark" or "light" */
+  setTheme(theme) {
+    this._background = BACKGROUNDS[theme];
+    for (const pane of this._panes) pane.seen = "";
+    this.ask();
   }
 
   /** Whether anything can be drawn here. */
@@ -295,7 +304,7 @@ export class Stage {
     target.setSize(width, height);
     this._renderer.setRenderTarget(target);
     const isAll = target !== pane.before; // else it lies over what else there is
-    this._renderer.setClearColor(isAll ? BACKGROUND : 0x000000, isAll ? 1 : 0);
+    this._renderer.setClearColor(isAll ? this._background : 0x000000, isAll ? 1 : 0);
     this._renderer.clear();
     if (layer === null) return;
     this._camera.layers.set(layer);

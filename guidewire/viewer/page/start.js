@@ -1,8 +1,9 @@
 // @ts-check
 /** Where a page without a server begins: its missions as pictures, the scene of the address, and files of one's own. */
 import { bestOf, missionOf, starsOf } from "./missions.js";
-import { byId, make } from "./panel.js";
+import { byId, make, named } from "./panel.js";
 import { sceneOf } from "./rims.js";
+import { fixed, say } from "./words.js";
 
 /**
  * @typedef {{file: string, title: string, sentence: string, picture: string, meshes: string[],
@@ -44,7 +45,7 @@ export function offer(site, live, connection) {
       "Drop a mesh (.obj, .stl, mm), a parameter file with its meshes, or the folder of a vessel, or ", input,
       " Of a mesh alone the widest open end is the inlet. Files stay in this browser.");
     box.replaceChildren(make("h1", {}, "Guidewire"), make("p", {}, "Steer a wire through a vessel, by X-ray."),
-      ...(missions.length ? [make("p", { className: "stars" }, `${stars} of ${3 * missions.length} ★`)] : []), said,
+      ...(missions.length ? [make("p", { className: "stars" }, say("{0} of {1} ★", stars, 3 * missions.length))] : []), said,
       ...(missions.length ? [cards(missions)] : []),
       ...(practice.length ? [make("h2", {}, "Free practice"), cards(practice)] : []));
     cover(true);
@@ -53,7 +54,7 @@ export function offer(site, live, connection) {
   };
 
   const open = (/** @type {string} */ scene, /** @type {OwnFile[]} */ files = []) =>
-    live.leave(`open ${site.scenes.find(({ file }) => file === scene)?.title ?? scene}`, () => {
+    live.leave(say("open {0}", say(site.scenes.find(({ file }) => file === scene)?.title ?? scene)), () => {
       loading.show("loading the simulator");
       connection.send({ do: "open", scene, files });
     });
@@ -109,8 +110,8 @@ export function offer(site, live, connection) {
       live.label();
     } else if (found) open(found.file);
     else {
-      showGallery(asked.has("own") ? "Files of your own are not kept: drop them again."
-        : name === null ? "" : `there is no scene "${name}" here: choose one of these`);
+      showGallery(asked.has("own") ? say("Files of your own are not kept: drop them again.")
+        : name === null ? "" : say("there is no scene \"{0}\" here: choose one of these", name));
     }
   };
   addEventListener("popstate", route);
@@ -123,7 +124,7 @@ function card({ file, title, sentence, picture, mission }, isNext, open) {
   const made = make("button", { onclick: () => open(file) }, make("img", { src: picture, alt: "" }),
     make("strong", {}, title),
     make("span", {}, mission ? mission.goal : sentence),
-    ...(mission ? [make("span", { className: "par" }, `par ${mission.par} s${best ? `, best ${best.time.toFixed(1)} s` : ""}`,
+    ...(mission ? [make("span", { className: "par" }, say("par {0} s", mission.par) + (best ? say(", best {0} s", fixed(best.time, 1)) : ""),
       make("b", { title: best ? "your best" : "not won yet" }, starsOf(best?.stars ?? 0)))] : []),
     ...(isNext ? [make("em", {}, "next for you")] : []));
   if (isNext) made.className = "next";
@@ -135,15 +136,15 @@ class Loading {
   /** @param {() => void} cancel */
   constructor(cancel) {
     this._said = make("p", { role: "status" });
-    this._bar = make("progress", { max: 1 });
-    this._bar.setAttribute("aria-label", "loading");
+    this._bar = named("progress", "loading", { max: 1 });
     byId("loading").replaceChildren(this._said, this._bar, make("button", { onclick: cancel }, "cancel"));
   }
 
   /** @param {string} what @param {number} [part] from 0 to 1; none: not known @returns {Promise<void>} when it is seen */
   show(what, part) {
     byId("loading").hidden = false;
-    this._said.textContent = `${what[0].toUpperCase()}${what.slice(1)}.`;
+    const said = say(what);
+    this._said.textContent = `${said[0].toUpperCase()}${said.slice(1)}.`;
     if (part === undefined) this._bar.removeAttribute("value");
     else this._bar.value = part;
     return new Promise((done) => setTimeout(done, 50));

@@ -74,31 +74,24 @@ export class Steering {
     this._update();
   }
 
-  /** A finger on a pad: up pushes, right turns clockwise. @param {HTMLElement} pad */
-  listen(pad) {
-    const move = (/** @type {PointerEvent} */ event) => {
-      const box = pad.getBoundingClientRect();
-      const part = (/** @type {number} */ at, /** @type {number} */ low, /** @type {number} */ size) =>
-        limited((2 * (at - low)) / size - 1);
-      this._touch = [-part(event.clientY, box.top, box.height), part(event.clientX, box.left, box.width)]
-        .map((value) => (Math.abs(value) < DEAD_ZONE ? 0 : value));
-      pad.style.setProperty("--x", String(this._touch[1]));
-      pad.style.setProperty("--y", String(-this._touch[0]));
+  /** A finger on a pad that pushes (up) or turns (right is clockwise). @param {HTMLElement} pad @param {number} axis 0: it
+   * pushes; 1: it turns */
+  listen(pad, axis) {
+    const take = (/** @type {number} */ value) => {
+      this._touch[axis] = Math.abs(value) < DEAD_ZONE ? 0 : value;
+      pad.style.setProperty(axis ? "--x" : "--y", String(axis ? value : -value));
       this._update();
+    };
+    const move = (/** @type {PointerEvent} */ event) => {
+      const { left, top, width, height } = pad.getBoundingClientRect();
+      take(limited(axis ? (2 * (event.clientX - left)) / width - 1 : 1 - (2 * (event.clientY - top)) / height));
     };
     pad.addEventListener("pointerdown", (event) => {
       pad.setPointerCapture(event.pointerId);
       move(event);
     });
     pad.addEventListener("pointermove", (event) => event.buttons && move(event));
-    for (const end of ["pointerup", "pointercancel"]) {
-      pad.addEventListener(end, () => {
-        this._touch = [0, 0];
-        pad.style.setProperty("--x", "0");
-        pad.style.setProperty("--y", "0");
-        this._update();
-      });
-    }
+    for (const end of ["pointerup", "pointercancel"]) pad.addEventListener(end, () => take(0));
   }
 
   /** Reads gamepads for as long as there is one. */

@@ -3,8 +3,9 @@ import { Beam, Cine } from "./beam.js";
 import { SecondPlane } from "./biplane.js";
 import { Fluoroscopy } from "./fluoroscopy.js";
 import { PIXELS, plainLook } from "./look.js";
-import { byId, make } from "./panel.js";
+import { byId, make, menu, named } from "./panel.js";
 import { PlainFluoroscopy } from "./plain.js";
+import { fixed, say } from "./words.js";
 
 /** @typedef {import("./model.js").Model} Model */
 /** @typedef {import("./carm.js").Point} Point */
@@ -48,6 +49,11 @@ export class Xray {
     this.drawn = 0;
     /** Told after every picture. @type {() => void} */
     this.onDrawn = () => {};
+    /** Told where the buttons of views are made anew. @type {() => void} */
+    this.onViews = () => {};
+    this.together = make("button", { id: "together" }, "turn as one");
+    this.together.title = say("C-arm and 3D picture turn together");
+    this.together.setAttribute("aria-pressed", "true");
     /** Told where the C-arm was turned. @type {() => void} */
     this.onTurned = () => {};
     this._isRequested = false;
@@ -55,7 +61,6 @@ export class Xray {
     /** @type {Point | undefined} */
     this._middle = undefined;
     document.body.dataset.xray = "none";
-    byId("armTools").classList.toggle("folded", matchMedia("(max-width: 700px), (max-height: 500px)").matches);
     this._makeTools();
     this._makeArm();
     new ResizeObserver(() => this._fill()).observe(byId("xray"));
@@ -86,6 +91,7 @@ export class Xray {
     this.beam.restart();
     this._table = [0, 0, 0];
     this._makeTools();
+    this._makeArm();
     this._zoom = 1;
     this._fill();
     byId("measured").onchange = () => this.ask();
@@ -164,7 +170,7 @@ export class Xray {
 
   /** Asks for a picture when the screen takes the next one and the beam gives it. */
   ask() {
-    if (this._isRequested || !this._models?.length || document.body.dataset.views === "space") return;
+    if (this._isRequested || !this._models?.length) return;
     byId("xray").classList.toggle("off", !this.beam.isOn);
     const { wait } = this.beam;
     this._isRequested = true;
@@ -246,27 +252,32 @@ export class Xray {
 
   _label() {
     const { lao, cranial, field } = this.fluoroscopy.look;
-    byId("arm").textContent = `${this.fluoroscopy.angles.join("  ")}\n${Math.round(field ?? 0)} mm${
-      this._patient ? "" : "\nfront assumed"}${
-      this.fluoroscopy.look.vessel === "map" && !this.fluoroscopy.hasMap ? "\nno injection seen from here" : ""}${this.beam.isOn ? "" : "\nbeam off: last image"}\nbeam ${
-      this.beam.seconds.toFixed(1)} s`;
+    byId("arm").textContent = [this.fluoroscopy.angles.join("  "), [`${Math.round(field ?? 0)} mm`, say("beam {0} s", fixed(this.beam.seconds, 1))].join(" · "),
+      ...(this._patient ? [] : [say("front assumed")]),
+      ...(this.fluoroscopy.look.vessel === "map" && !this.fluoroscopy.hasMap ? [say("no injection seen from here")] : []),
+      ...(this.beam.isOn ? [] : [say("beam off: last image")])].join("\n");
+    /** @type {any} */ (document.querySelector("#carm g")).style.transform = `rotate(${lao}deg)`;
     this._measure(field ?? 1);
     const [left, up] = [byId("lao"), byId("cranial")];
     if (left) [left.value, up.value] = [String(lao), String(cranial)];
-    for (const button of byId("armTools").querySelectorAll("button[data-lao]")) {
+    for (const button of byId("carmTools").querySelectorAll("button[data-lao]")) {
       button.setAttribute("aria-pressed", String(Number(button.dataset.lao) === Math.round(lao)
         && Number(button.dataset.cranial) === Math.round(cranial)));
     }
-    const target = this._models[0].recording.described?.target;
-    const mark = byId("reticle");
-    mark.hidden = !target;
-    if (!target) return;
+    const [{ recording, watchedTip }] = this._models;
+    const target = recording.described?.target;
+    this._mark("tipMark", watchedTip);
+    this._mark("reticle", target?.points.at(-1));
+    byId("reticle").lastElementChild.textContent = target ? byId("left").textContent : "";
+  }
+
+  /** Marks a place of the picture. @param {string} id of the mark @param {ArrayLike<number>} [place] units */
+  _mark(id, place) {
     const { arm } = this.fluoroscopy;
-    const [x, y] = arm.project(target.points[target.points.length - 1], 0, [0, 0, 0]);
-    const canvas = byId("fluoroscopy");
-    mark.hidden = !(x > 0 && x < arm.columns && y > 0 && y < arm.rows);
-    mark.style.transform = `translate(${(x / arm.columns) * canvas.clientWidth}px, ${
-      (y / arm.rows) * canvas.clientHeight}px)`;
+    const [x, y] = place ? arm.project(place, 0, [0, 0, 0]) : [-1, -1];
+    const { clientWidth, clientHeight } = byId("fluoroscopy");
+    byId(id).hidden = !(x > 0 && x < arm.columns && y > 0 && y < arm.rows);
+    byId(id).style.transform = `translate(${(x / arm.columns) * clientWidth}px, ${(y / arm.rows) * clientHeight}px)`;
   }
 
   /** The bar of the scale. @param {number} field mm of the shorter side */
@@ -282,13 +293,13 @@ export class Xray {
   /** Sliders and stored views. */
   _makeArm() {
     const slider = (/** @type {string} */ id, /** @type {string} */ label, /** @type {number} */ most) => make("label", {},
-      `${label} `, make("input", { type: "range", id, min: -most, max: most, step: 1, value: 0,
+      label, " ", make("input", { type: "range", id, min: -most, max: most, step: 1, value: 0,
         oninput: () => this.point(Number(byId("lao").value), Number(byId("cranial").value)) }));
     const stored = make("span", { className: "tools" });
     const show = () => stored.replaceChildren(...this._stored.map((view, k) => make("button", { onclick: () => {
       byId("field").value = String(this._field = view.field);
       this.point(view.lao, view.cranial);
-    } }, `view ${k + 1}`)));
+    } }, say("view {0}", k + 1))));
     const store = make("button", { id: "store", onclick: () => {
       const { lao, cranial } = this.fluoroscopy.look;
       this._stored = [...this._stored, { lao, cranial, field: this._field }].slice(-4);
@@ -298,7 +309,12 @@ export class Xray {
       this._table = [0, 0, 0];
       this.ask();
     } }, "table back");
-    byId("carmTools").replaceChildren(slider("lao", "left and right", 180), slider("cranial", "cranial and caudal", MOST_CRANIAL),
+    const views = (this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
+      const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
+      Object.assign(button.dataset, { lao, cranial });
+      return button;
+    });
+    byId("carmTools").replaceChildren(make("p", { className: "tools" }, ...views), slider("lao", "left and right", 180), slider("cranial", "cranial and caudal", MOST_CRANIAL),
       make("p", { className: "tools" }, store, home, stored), make("p", { className: "basis" },
         "Shift and dragging, or Shift and arrows, move the table."));
   }
@@ -308,12 +324,11 @@ export class Xray {
     const { fluoroscopy } = this;
     if (!(fluoroscopy instanceof Fluoroscopy)) return [];
     const shifts = [0, 1].map((axis) => {
-      const field = make("input", { type: "number", min: -20, max: 20, step: 1, value: 0, title: "pixel shift of the mask",
+      const field = named("input", `pixel shift of the mask, ${axis ? "down" : "right"}`, { type: "number", min: -20, max: 20, step: 1, value: 0,
         oninput: () => {
           fluoroscopy.look.shift[axis] = Number(field.value) || 0;
           this.ask();
         } });
-      field.setAttribute("aria-label", `pixel shift of the mask, ${axis ? "down" : "right"}`);
       field.hidden = true;
       return field;
     });
@@ -337,39 +352,27 @@ export class Xray {
       this.ask();
     } }, "tip close up");
     close.setAttribute("aria-pressed", String(this._isClose));
-    const vessel = make("select", { id: "vessel", onchange: () => {
+    const vessel = named("select", "vessel", { id: "vessel", onchange: () => {
       this.fluoroscopy.look.vessel = vessel.value;
       this.ask();
     } }, ...[["roadmap", "drawn road map"], ["contrast", "filled vessel"], ["none", "no contrast"],
       ...(this._models[0]?.recording.described?.cells ? [["map", "road map of the injection"]] : [])].map(([value, text]) =>
       make("option", { value }, text)));
-    vessel.setAttribute("aria-label", "vessel");
-    const near = make("button", { onclick: () => this.zoom(1 / 1.25) }, "+");
-    near.setAttribute("aria-label", "nearer");
-    const far = make("button", { onclick: () => this.zoom(1.25) }, "−");
-    far.setAttribute("aria-label", "farther");
-    const fields = make("select", { id: "field", onchange: () => {
+    const fields = named("select", "field of view", { id: "field", onchange: () => {
       this._field = Number(fields.value);
       this._zoom = 1;
       this.ask();
     } }, make("option", { value: 0 }, "fit"), ...FIELDS.map((field) => make("option", { value: field }, `${field} mm`)));
-    fields.setAttribute("aria-label", "field of view");
     fields.value = String(this._field);
-    const tools = byId("armTools");
-    const fold = make("button", { id: "fold", onclick: () => this._fold(!tools.classList.contains("folded")) });
-    tools.replaceChildren(fold, this.beam.button, this.beam.rates, ...this._subtraction(), this.cine.element,...(this._patient ? VIEWS : PLAIN_VIEWS).map(([name, lao, cranial]) => {
-      const button = make("button", { onclick: () => this.point(lao, cranial) }, name);
-      Object.assign(button.dataset, { lao, cranial });
+    const views = [["both", "X-ray and 3D"], ["xray", "X-ray alone"], ["space", "3D and X-ray"], ["biplane", "biplane"]].map(([name, text]) => {
+      const button = make("button", {}, text);
+      button.dataset.views = name;
       return button;
-    }), vessel, fields, close, make("span", { className: "tools" }, near, far));
-    this._fold(tools.classList.contains("folded"));
-  }
-
-  /** Folds the tools to the side, but for the pedal. @param {boolean} isFolded */
-  _fold(isFolded) {
-    byId("armTools").classList.toggle("folded", isFolded);
-    byId("fold").textContent = isFolded ? "X-ray tools ▸" : "fold ◂";
-    byId("fold").setAttribute("aria-expanded", String(!isFolded));
+    });
+    byId("armTools").replaceChildren(vessel, this.beam.button, named("button", "nearer", { onclick: () => this.zoom(1 / 1.25) }, "+"),
+      named("button", "farther", { onclick: () => this.zoom(1.25) }, "−"), menu("xrayMore", "more of the X-ray", this.beam.rates, fields,
+        ...this._subtraction(), this.cine.element, close, named("span", "views", { className: "tools" }, ...views), this.together));
+    this.onViews();
   }
 }
 

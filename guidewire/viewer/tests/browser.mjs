@@ -15,6 +15,13 @@ const until = async (page, expression) => {
   }
   throw new Error(`not within 2 minutes: ${expression}`);
 };
+// Menus that hold it are opened.
+const reveal = async (locator) => {
+  await locator.evaluate((one) => {
+    for (let menu = one.closest("details"); menu; menu = menu.parentElement.closest("details")) menu.open = true;
+  });
+  return locator;
+};
 const protocols = new WeakMap();
 const protocol = async (page) => {
   if (!protocols.has(page)) protocols.set(page, await page.context().newCDPSession(page));
@@ -27,8 +34,8 @@ const orders = {
   down: (page, key) => page.keyboard.down(key),
   up: (page, key) => page.keyboard.up(key),
   press: (page, key) => page.keyboard.press(key),
-  choose: async (page, [selector, value]) => void await page.selectOption(selector, value),
-  click: (page, text) => page.getByRole("button", { name: text, exact: true }).click(),
+  choose: async (page, [selector, value]) => void await (await reveal(page.locator(selector))).selectOption(value),
+  click: async (page, name) => (await reveal(page.getByRole("button", { name, exact: true, includeHidden: true }).first())).click(),
   // A finger: where in an element, from 0 to 1 across and down; without a place it is lifted.
   touch: async (page, [selector, across, down]) => {
     const isDown = across !== undefined;

@@ -19,6 +19,7 @@ from guidewire.viewer import live
 from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.tests.browsing import from_npm
+from guidewire.viewer.tests.test_desk_browser import DEBRIEF
 from guidewire.viewer.tests.test_view_browser import GAMEPAD
 
 SCENES = ("insertion", "sheath", "catheter-branch")
@@ -181,8 +182,8 @@ def test_a_catheter_and_its_wire_are_steered_into_a_branch_and_the_runner_repeat
 @LONG
 def test_a_finger_and_a_gamepad_steer_without_a_server(browse, address):
     seen = browse(
-        ["open", f"{address}?scene=sheath"], OPEN, ["touch", ["#pad", 0.5, 0.02]],
-        ["until", f"{HUB} > 0.005"], ["touch", ["#pad"]], ["until", "viewer.shown.steering.push === 0"],
+        ["open", f"{address}?scene=sheath"], OPEN, ["touch", ["#slide", 0.5, 0.02]],
+        ["until", f"{HUB} > 0.005"], ["touch", ["#slide"]], ["until", "viewer.shown.steering.push === 0"],
         ["see", GAMEPAD], ["see", f"pad.axes[1] = -1; window.before = {HUB}"],
         ["until", f"{HUB} > before + 0.005"], ["see", "pad.buttons[0].pressed = true"], PAUSED,
         ["see", f"[viewer.shown._connection.constructor.name, {STEP}]"], size=(390, 844))["seen"]
@@ -201,9 +202,8 @@ def test_a_first_visitor_wins_a_mission_by_keys_and_finds_the_stars_in_the_galle
         ["open", address], ["until", f"{CARDS} === 4"], ["axe", None], ["see", "document.activeElement.innerText"],
         ["press", "Enter"], OPEN, ["see", "[location.search, document.title, viewer.shown.status.isWaiting]"],
         ["axe", None], ["see", "document.getElementById('coach').innerText"], FASTEST,
-        ["down", "w"], ["until", "document.getElementById('card').open"], ["up", "w"], ["see", f"{report}.innerText"],
-        ["axe", None], ["press", "Enter"], ["until", "!document.getElementById('card').open"],
-        ["until", GALLERY],
+        ["down", "w"], ["until", DEBRIEF], ["up", "w"], ["see", f"{report}.textContent"],
+        ["axe", None], ["click", "all missions"], ["until", f"!({DEBRIEF})"], ["until", GALLERY],
         ["see", "[location.search, document.title, document.querySelector('#start .scenes button').innerText]"],
         ["back", None], ["until", f"!({GALLERY})"], ["see", "[location.search, document.title]"],
         ["see", "new Promise((done) => { addEventListener('popstate', done); history.back(); })"], ["until", GALLERY],

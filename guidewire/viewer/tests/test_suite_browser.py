@@ -12,7 +12,7 @@ from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 from guidewire.viewer import live
 from guidewire.viewer.tests.browsing import DRAWN
-from guidewire.viewer.tests.test_desk_browser import PAUSED, STATUS, near_target, text
+from guidewire.viewer.tests.test_desk_browser import DEBRIEF, PAUSED, STATUS, near_target, text
 from guidewire.viewer.tests.test_view import serving
 from guidewire.viewer.tests.test_view_browser import GAMEPAD, HUB, HUB_OF_CATHETER
 
@@ -76,7 +76,7 @@ def test_agent_is_injected_by_key_and_counted_and_seen_and_subtracted_and_mapped
                     " x.parts = agent; }"], ["see", GREY],
             ["see", f"{VIEW}.look.isSubtracted = false; {GREY}"], ["see", f"{VIEW}.parts = null; {GREY}"],
             ["see", f"{VIEW}.look.vessel = 'map'; {GREY}"], ["picture", str(tmp_path / "map.png")],
-            ["click", "report"], ["see", "document.getElementById('report').innerText"], size=(1000, 700))["seen"]
+            ["click", "report"], ["see", "document.getElementById('report').textContent"], size=(1000, 700))["seen"]
     assert seen[1] == pytest.approx(0.75) and seen[2] < 0.6
     assert float(seen[3].split()[0]) > 1 and "ml" in seen[-1]
     subtracted, full, empty, mapped = (levels(grey) for grey in seen[5:9])
@@ -95,19 +95,19 @@ def test_a_case_is_done_by_fingers_and_by_a_gamepad(browse, runner_command, tmp_
     tap = [["touch", ["#inject", 0.5, 0.5]], ["touch", ["#inject"]]]
     button = [["see", "pad.buttons[1].pressed = true"], ["until", f"{INJECTED} > 0"],
               ["see", "pad.buttons[1].pressed = false"]]
-    push = [["touch", ["#pad", 0.5, 0.02]]] if means == "finger" else [["see", "pad.axes[1] = -1"]]
-    rest = [["touch", ["#pad"]]] if means == "finger" else [["see", "pad.axes[1] = 0"]]
+    push = [["touch", ["#slide", 0.5, 0.02]]] if means == "finger" else [["see", "pad.axes[1] = -1"]]
+    rest = [["touch", ["#slide"]]] if means == "finger" else [["see", "pad.axes[1] = 0"]]
     with serving(tmp_path, near_target(tmp_path), with_three=True) as (address, _):
         seen = browse(
             ["open", address], DRAWN, ["see", GAMEPAD] if means == "gamepad" else ["see", "0"],
-            ["touch", ["#fold", 0.5, 0.5]], ["touch", ["#fold"]], ["until", "!document.querySelector('.folded')"],
+            ["see", "document.getElementById('xrayMore').open = true"],
             ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"{VIEW}.hasMask"],
             *(tap if means == "finger" else button), ["until", f"{INJECTED} > 1 && {VIEW}.hasMap"],
             ["touch", ["#subtract", 0.5, 0.5]], ["touch", ["#subtract"]], ["until", f"!{VIEW}.look.isSubtracted"],
             ["choose", ["#vessel", "map"]], *push,
-            ["until", "document.getElementById('card').open"], *rest, PAUSED,
-            ["see", "document.getElementById('report').innerText"], ["picture", str(tmp_path / "case.png")],
-            ["see", "document.querySelector('#card .on').click()"], ["until", f"!{STATUS}.isPaused"],
+            ["until", DEBRIEF], *rest, PAUSED,
+            ["see", "document.getElementById('report').textContent"], ["picture", str(tmp_path / "case.png")],
+            ["click", "go on"], ["until", f"!{STATUS}.isPaused"],
             ["see", "viewer.shown.steering.push"],
             size=(390, 844))["seen"]
     assert "reached at" in seen[-3] and "contrast" in seen[-3] and seen[-1] == 0
