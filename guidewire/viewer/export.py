@@ -40,9 +40,9 @@ def page_of_packed(boot: str = "") -> str:
 
 
 def modules_of(files: Mapping[str, Path]) -> bytes:
-    """Return the page's modules in one block, which boot.js takes: JSON of their texts by name, packed."""
+    """Return the page's modules and words in one block, which boot.js takes: JSON of their texts by name, packed."""
     texts = {name: path.read_text(encoding="utf-8") for name, path in files.items()
-             if path.suffix == ".js" and name != _BOOT}
+             if path.suffix in (".js", ".json") and name != _BOOT}
     return pack(json.dumps(texts).encode())
 
 

@@ -34,13 +34,15 @@ LONGEST_MESSAGE = 4096  # bytes; what a page says is short
 _SECONDS_TO_CLOSE = 2.0
 _HEARTBEAT = 10.0  # s
 _TYPES = {".html": "text/html", ".css": "text/css", ".js": "text/javascript"}
+_WORDS = "application/json"
 _INLINE = re.compile(r"<script type=\"importmap\">(.*?)</script>", re.DOTALL)
 
 
 def page_files(parts: Mapping[str, Path]) -> dict[str, Path]:
     """Return every file of the page by its name in the address."""
     own = {path.name: path for path in PAGE.iterdir() if path.suffix in _TYPES}
-    return {**own, **parts}
+    words = {f"words/{path.name}": path for path in (PAGE / "words").glob("*.json")}
+    return {**own, **words, **parts}
 
 
 class Server:
@@ -141,7 +143,7 @@ class Server:
         name = request.match_info["name"] or "index.html"
         if name in self._files:
             path = self._files[name]
-            return web.Response(body=path.read_bytes(), content_type=_TYPES[path.suffix], charset="utf-8")
+            return web.Response(body=path.read_bytes(), content_type=_TYPES.get(path.suffix, _WORDS), charset="utf-8")
         if name == "show.json":
             shown = {"isLive": self._live is not None, "recordings": len(self._recordings)}
             return web.Response(text=json.dumps(shown), content_type="application/json")

@@ -8,6 +8,7 @@ const IMPORT = /^((?:import|export)[\w\s{},*$]*)(["'])(?:\.\/|three\/addons\/con
 const start = async () => {
   const inside = document.querySelector("script[data-modules]");
   const modules = await unpack(inside ? packedIn(inside) : (await fetch("page.json.gz")).body).json();
+  /** @type {any} */ (globalThis).guidewireWords = modules;
   /** @type {Record<string, string>} */
   const addresses = {};
   const link = (/** @type {string} */ name) => {

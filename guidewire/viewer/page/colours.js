@@ -1,4 +1,6 @@
 // @ts-check
+import { fixed } from "./words.js";
+
 // Grey to red as in the pictures of guidewire/figures/render.py; where the sign counts, blue stands for values below zero.
 const GREY = [0.82, 0.84, 0.88];
 const RED = [0.95, 0.1, 0.05];
@@ -36,7 +38,8 @@ export function brief(value, digits = 4) {
   if (!Number.isFinite(value)) return "-";
   const size = Math.abs(value);
   const isFar = size !== 0 && (size < 1e-3 || size >= 1e5);
-  return isFar ? String(value.toExponential(Math.max(digits - 3, 1))) : String(Number(value.toPrecision(digits)));
+  const text = isFar ? value.toExponential(Math.max(digits - 3, 1)) : String(Number(value.toPrecision(digits)));
+  return text.replace(".", fixed(0.1, 1)[1]);
 }
 
 /**

@@ -52,7 +52,7 @@ export class WorkerConnection {
     this.onmessage = () => {};
     /** @type {Connection["onclose"]} */
     this.onclose = () => {};
-    /** Told what is being loaded, and the part of it that is there. @type {(what: string, part?: number) => void} */
+    /** Told what is being loaded, and the part of it that is there. @type {(what: string, part?: number, megabytes?: number) => void} */
     this.onloading = () => {};
     this._site = site;
     this._opened = this._number = this._awaited = 0;
@@ -110,7 +110,7 @@ export class WorkerConnection {
 
   /** @param {any} data */
   _hear(data) {
-    if (data.loading) this.onloading(data.loading, data.part);
+    if (data.loading) this.onloading(data.loading, data.part, data.megabytes);
     if (data.heard >= this._awaited) clearTimeout(this._timer);
     if (data.recording) [this._recording, this._opened] = [data.recording, data.opened];
     if (data.frame) this.onmessage(data.frame);

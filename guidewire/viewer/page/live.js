@@ -294,6 +294,7 @@ export class Live {
   /** @param {Recording} recording @param {number} opened number of its scene */
   _open(recording, opened) {
     this._opened = opened;
+    this.closeReport();
     for (const frame of this._early.filter(([, of]) => of === opened)) recording.append(frame.subarray(2));
     this._early = this._early.filter(([, of]) => of > opened);
     const exchanges = this.status?.exchanges.length ?? 0;
@@ -379,6 +380,11 @@ export class Live {
     if (answer === "try again") this.send({ do: "reset" });
     else if (answer === "go on") this.pause(false);
     else if (answer === "all missions") byId("gallery").click();
+  }
+
+  /** The report goes, where it is shown: something else is looked at. */
+  closeReport() {
+    this._debrief.close("");
   }
 
   /** The case as it is called. */

@@ -94,7 +94,7 @@ export class Panel {
     const [model] = this.models;
     if (!model) return;
     const times = model.shownThickness;
-    byId("thicker").textContent = times > 1 ? `drawn with ${brief(times, 2)} times its true radius` : "";
+    byId("thicker").textContent = times > 1 ? say("drawn with {0} times its true radius", brief(times, 2)) : "";
   }
 
   /** Takes the next of the colours. */
@@ -160,7 +160,7 @@ export class Panel {
     if (!shown.length) return;
     const [{ channel }] = shown;
     const curves = shown.map(({ x, y }) => ({ y, x: channel.place === "sphere" ? x : middles(x) }));
-    drawCurves(byId("along"), curves, "arc length, units", `${channel.label}, ${channel.unit}`);
+    drawCurves(byId("along"), curves, say("arc length, units"), `${say(channel.label)}, ${channel.unit}`);
   }
 
   /** @param {string} which of the two */
@@ -170,7 +170,7 @@ export class Panel {
     if (!drawn.length) return;
     const { label, unit } = drawn[0].recording.channel(name);
     const curves = drawn.map(({ recording }) => ({ x: recording.overTime("time"), y: recording.overTime(name) }));
-    drawCurves(byId(`${which}Curve`), curves, "t, s", `${label}, ${unit}`, this._time);
+    drawCurves(byId(`${which}Curve`), curves, "t, s", `${say(label)}, ${unit}`, this._time);
   }
 }
 

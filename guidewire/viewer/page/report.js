@@ -131,6 +131,8 @@ export class Debrief {
     /** @type {{name: string, label: string, canvas: any}[]} */
     this._strips = [];
     this._frame = 0;
+    /** Ends it, where it is shown. @type {(answer: string) => void} */
+    this.close = () => {};
     new ResizeObserver(() => this._draw()).observe(this._box);
   }
 
@@ -171,9 +173,10 @@ export class Debrief {
       return made;
     };
     return new Promise((done) => {
-      const answer = (/** @type {string} */ text) => {
+      const answer = this.close = (/** @type {string} */ text) => {
         delete document.body.dataset.debrief;
         this._box.hidden = true;
+        this.close = () => {};
         done(text);
       };
       const saving = make("button", { onclick: () =>

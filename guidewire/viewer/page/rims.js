@@ -2,45 +2,77 @@
 /** A scene for a mesh alone: its open ends are found, and a wire starts at the widest. `guidewire.py anatomy` finds much
  * more: closed ends, defects, the centreline. */
 
-/** @typedef {number[]} Point */
+/** @typedef {number[]} Point @typedef {{path: string, bytes: Uint8Array}} OwnFile
+ * @typedef {(what: string, part: number) => void} Tell */
 
-/** @param {string} text of an .obj file @returns {[Point[], number[][]]} vertices and faces */
-function readObj(text) {
-  const rows = text.split("\n").map((line) => line.trim().split(/\s+/));
-  const vertices = rows.filter(([word]) => word === "v").map((row) => row.slice(1, 4).map(Number));
-  return [vertices, rows.filter(([word]) => word === "f").map((row) => row.slice(1).map((one) => {
-    const index = parseInt(one, 10);
-    return index < 0 ? vertices.length + index : index - 1;
-  }))];
+const READING = "reading your mesh";
+const ENDS = "looking for the open ends of your mesh";
+const OFTEN = 0x3ffff; // lines, triangles or sides after which it is said how far one is
+
+/** @param {Uint8Array} bytes of an .obj file @param {Tell} tell @returns {[Point[], number[][]]} vertices and faces */
+function readObj(bytes, tell) {
+  const text = new TextDecoder().decode(bytes);
+  /** @type {Point[]} */
+  const vertices = [];
+  /** @type {number[][]} */
+  const faces = [];
+  for (let from = 0, line = 0; from < text.length; line++) {
+    const end = text.indexOf("\n", from) + 1 || text.length + 1;
+    const [word, ...rest] = text.slice(from, end - 1).trim().split(/\s+/);
+    if (word === "v") vertices.push(rest.slice(0, 3).map(Number));
+    else if (word === "f") {
+      faces.push(rest.map((one) => {
+        const index = parseInt(one, 10);
+        return index < 0 ? vertices.length + index : index - 1;
+      }));
+    }
+    from = end;
+    if (!(line & OFTEN)) tell(READING, from / text.length);
+  }
+  return [vertices, faces];
 }
 
-/** @param {Uint8Array} bytes of an .stl file, in text or not @returns {[Point[], number[][]]} */
-function readStl(bytes) {
+/** @param {Uint8Array} bytes of an .stl file, in text or not @param {Tell} tell @returns {[Point[], number[][]]} */
+function readStl(bytes, tell) {
   const view = new DataView(bytes.buffer, bytes.byteOffset, bytes.byteLength);
   const count = bytes.length > 84 ? view.getUint32(80, true) : 0;
-  const corners = bytes.length === 84 + 50 * count
-    ? Array.from({ length: 3 * count }, (_, k) => [0, 4, 8].map((at) =>
-      view.getFloat32(84 + 50 * Math.floor(k / 3) + 12 + 12 * (k % 3) + at, true)))
-    : [...new TextDecoder().decode(bytes).matchAll(/vertex\s+(\S+)\s+(\S+)\s+(\S+)/g)].map((one) =>
-      one.slice(1).map(Number));
   /** @type {Map<string, number>} */
   const known = new Map();
-  const indices = corners.map((corner) => known.get(String(corner)) ?? known.set(String(corner), known.size).size - 1);
-  const vertices = [...known.keys()].map((text) => text.split(",").map(Number));
-  return [vertices, Array.from({ length: corners.length / 3 }, (_, t) => indices.slice(3 * t, 3 * t + 3))];
+  /** @type {Point[]} */
+  const vertices = [];
+  /** @type {number[][]} */
+  const faces = [];
+  const add = (/** @type {Point} */ corner, /** @type {number} */ part) => {
+    const name = String(corner);
+    if (!known.has(name)) known.set(name, vertices.push(corner) - 1);
+    if (faces.at(-1)?.length !== 3 && faces.length) faces.at(-1)?.push(known.get(name) ?? 0);
+    else faces.push([known.get(name) ?? 0]);
+    if (faces.length % OFTEN === 1) tell(READING, part);
+  };
+  if (bytes.length === 84 + 50 * count) {
+    for (let k = 0; k < 3 * count; k++) {
+      add([0, 4, 8].map((at) => view.getFloat32(84 + 50 * Math.floor(k / 3) + 12 + 12 * (k % 3) + at, true)), k / (3 * count));
+    }
+  } else {
+    const text = new TextDecoder().decode(bytes);
+    for (const one of text.matchAll(/vertex\s+(\S+)\s+(\S+)\s+(\S+)/g)) add(one.slice(1).map(Number), one.index / text.length);
+  }
+  return [vertices, faces];
 }
 
-/** Closed lines of edges that one face alone has. @param {number[][]} faces */
-function rimsOf(faces) {
-  /** @type {Map<string, [number, number]>} */
+/** Closed lines of edges that one face alone has. @param {number[][]} faces @param {number} vertices their number
+ * @param {Tell} tell */
+function rimsOf(faces, vertices, tell) {
+  /** @type {Map<number, [number, number]>} */
   const open = new Map();
-  for (const face of faces) {
+  faces.forEach((face, index) => {
     face.forEach((a, k) => {
       const b = face[(k + 1) % face.length];
-      const key = a < b ? `${a} ${b}` : `${b} ${a}`;
+      const key = Math.min(a, b) * vertices + Math.max(a, b);
       if (!open.delete(key)) open.set(key, [a, b]);
     });
-  }
+    if (!(index & OFTEN)) tell(ENDS, index / faces.length);
+  });
   const next = new Map(open.values());
   const rims = [];
   for (const [first] of next) {
@@ -56,15 +88,35 @@ function rimsOf(faces) {
   return rims;
 }
 
+/** The parameter file of those that were dropped: scene.json of a vessel's folder, or the only one. For a mesh alone one
+ * is added. @param {OwnFile[]} files @param {Record<string, any>} wire @param {Tell} tell */
+export function sceneAmong(files, wire, tell) {
+  const all = files.map(({ path }) => path).filter((path) =>
+    path.endsWith(".json") && !/(^|\/)(instruments\/.*|[^/]*anatomy\.json$)/.test(path));
+  const scene = all.find((path) => /(^|\/)scene\.json$/.test(path)) ?? all[0];
+  if (scene) return scene;
+  const mesh = files.find(({ path }) => /\.(obj|stl)$/.test(path));
+  if (!mesh) {
+    throw new Error(`${files.map(({ path }) => path).join(", ")}: neither a parameter file (.json) nor a mesh (.obj, .stl)`);
+  }
+  const made = sceneOf(mesh.path, mesh.bytes, wire, tell);
+  const add = (/** @type {string} */ path, /** @type {object} */ content) =>
+    files.push({ path, bytes: new TextEncoder().encode(JSON.stringify(content)) });
+  add(`${mesh.path}.ends.json`, made.ends);
+  add(`${mesh.path}.json`, made.scene);
+  return `${mesh.path}.json`;
+}
+
 /**
  * Parameters, and ends as `guidewire.py anatomy` writes them.
  * @param {string} path of the mesh @param {Uint8Array} bytes @param {Record<string, any>} wire parameters of a wire
+ * @param {Tell} tell
  */
-export function sceneOf(path, bytes, wire) {
-  const [vertices, faces] = path.endsWith(".obj") ? readObj(new TextDecoder().decode(bytes)) : readStl(bytes);
+export function sceneOf(path, bytes, wire, tell = () => {}) {
+  const [vertices, faces] = (path.endsWith(".obj") ? readObj : readStl)(bytes, tell);
   const middle = (/** @type {Point[]} */ points) => [0, 1, 2].map((axis) =>
     points.reduce((sum, point) => sum + point[axis], 0) / points.length);
-  const ends = rimsOf(faces).map((rim) => {
+  const ends = rimsOf(faces, vertices.length, tell).map((rim) => {
     const points = rim.map((index) => vertices[index]);
     const centre = middle(points);
     const distance = (/** @type {Point} */ point) => Math.hypot(...point.map((value, axis) => value - centre[axis]));

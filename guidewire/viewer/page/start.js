@@ -2,17 +2,15 @@
 /** Where a page without a server begins: its missions as pictures, the scene of the address, and files of one's own. */
 import { bestOf, missionOf, starsOf } from "./missions.js";
 import { byId, make, named } from "./panel.js";
-import { sceneOf } from "./rims.js";
 import { fixed, say } from "./words.js";
 
 /**
  * @typedef {{file: string, title: string, sentence: string, picture: string, meshes: string[],
  *     mission?: import("./missions.js").Mission}} Scene
- * @typedef {{path: string, bytes: Uint8Array}} OwnFile
+ * @typedef {import("./rims.js").OwnFile} OwnFile
  */
 
 const BEHIND = ["header", "main", "aside", "footer"]; // what the gallery covers
-const SLOW = 2_000_000; // bytes of a mesh from which on one waits for it
 
 /**
  * @param {{scenes: Scene[], wire: Record<string, any>}} site @param {import("./live.js").Live} live
@@ -33,6 +31,7 @@ export function offer(site, live, connection) {
   };
   const showGallery = (problem = "") => {
     loading.end();
+    live.closeReport();
     if (live.status && !live.status.isPaused) live.pause(true);
     said.textContent = problem;
     const missions = site.scenes.filter(({ mission }) => mission);
@@ -53,21 +52,15 @@ export function offer(site, live, connection) {
     document.title = "Guidewire";
   };
 
-  const open = (/** @type {string} */ scene, /** @type {OwnFile[]} */ files = []) =>
+  const open = (/** @type {string} */ scene) =>
     live.leave(say("open {0}", say(site.scenes.find(({ file }) => file === scene)?.title ?? scene)), () => {
       loading.show("loading the simulator");
-      connection.send({ do: "open", scene, files });
+      connection.send({ do: "open", scene });
     });
   const take = async (/** @type {() => Promise<OwnFile[]>} */ read) => {
-    try {
-      loading.show("reading your files");
-      const files = await read();
-      const mesh = files.find(({ bytes }) => bytes.length > SLOW);
-      if (mesh) await loading.show(`looking for the open ends of ${mesh.path} (${(mesh.bytes.length / 1e6).toFixed(0)} MB)`);
-      open(sceneAmong(files, site.wire), files);
-    } catch (error) {
-      refuse(/** @type {Error} */ (error).message);
-    }
+    loading.show("reading your files");
+    const files = await read();
+    live.leave(say("open {0}", files[0]?.path ?? ""), () => connection.send({ do: "open", scene: "", files, wire: site.wire }), () => loading.end());
   };
   const refuse = (/** @type {string} */ why) => {
     loading.end();
@@ -84,7 +77,7 @@ export function offer(site, live, connection) {
     if (dataTransfer?.items.length) take(readDropped(dataTransfer));
   });
 
-  connection.onloading = (what, part) => !byId("loading").hidden && loading.show(what, part); // later ones are of no use
+  connection.onloading = (what, part, megabytes) => !byId("loading").hidden && loading.show(what, part, megabytes); // later ones are of no use
   live.onOpened = (scene) => {
     loading.end();
     cover(false);
@@ -140,14 +133,13 @@ class Loading {
     byId("loading").replaceChildren(this._said, this._bar, make("button", { onclick: cancel }, "cancel"));
   }
 
-  /** @param {string} what @param {number} [part] from 0 to 1; none: not known @returns {Promise<void>} when it is seen */
-  show(what, part) {
+  /** @param {string} what @param {number} [part] from 0 to 1; none: not known @param {number} [megabytes] so far */
+  show(what, part, megabytes) {
     byId("loading").hidden = false;
     const said = say(what);
-    this._said.textContent = `${said[0].toUpperCase()}${said.slice(1)}.`;
+    this._said.textContent = `${said[0].toUpperCase()}${said.slice(1)}${megabytes ? `, ${fixed(megabytes, 1)} MB` : ""}.`;
     if (part === undefined) this._bar.removeAttribute("value");
     else this._bar.value = part;
-    return new Promise((done) => setTimeout(done, 50));
   }
 
   end() {
@@ -158,25 +150,6 @@ class Loading {
 /** @param {string} file */
 function nameOf(file) {
   return file.replace(/^.*\//, "").replace(/\.json$/, "");
-}
-
-/** The parameter file of those that were dropped: scene.json of a vessel's folder, or the only one. For a mesh alone one
- * is added. @param {OwnFile[]} files @param {Record<string, any>} wire */
-function sceneAmong(files, wire) {
-  const all = files.map(({ path }) => path).filter((path) =>
-    path.endsWith(".json") && !/(^|\/)(instruments\/.*|[^/]*anatomy\.json$)/.test(path));
-  const scene = all.find((path) => /(^|\/)scene\.json$/.test(path)) ?? all[0];
-  if (scene) return scene;
-  const mesh = files.find(({ path }) => /\.(obj|stl)$/.test(path));
-  if (!mesh) {
-    throw new Error(`${files.map(({ path }) => path).join(", ")}: neither a parameter file (.json) nor a mesh (.obj, .stl)`);
-  }
-  const made = sceneOf(mesh.path, mesh.bytes, wire);
-  const add = (/** @type {string} */ path, /** @type {object} */ content) =>
-    files.push({ path, bytes: new TextEncoder().encode(JSON.stringify(content)) });
-  add(`${mesh.path}.ends.json`, made.ends);
-  add(`${mesh.path}.json`, made.scene);
-  return `${mesh.path}.json`;
 }
 
 /** @param {File} file @param {string} path @returns {Promise<OwnFile>} */

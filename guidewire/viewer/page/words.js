@@ -32,7 +32,7 @@ export async function translate() {
     }
   })();
   const asked = [kept, ...navigator.languages].map((one) => one?.slice(0, 2) ?? "").find((one) => one in LANGUAGES) ?? "en";
-  const packed = /** @type {any} */ (globalThis).guidewireWords?.[`${asked}.json`];
+  const packed = /** @type {any} */ (globalThis).guidewireWords?.[`words/${asked}.json`];
   try {
     if (asked !== "en") words = packed ? JSON.parse(packed) : await (await fetch(`words/${asked}.json`)).json();
     language = asked;

@@ -1,5 +1,6 @@
 // @ts-check
 /** Simulates for a page without a server: the core, compiled for browsers, with the files that a scene names. */
+import { sceneAmong } from "./rims.js";
 import { Refusal, Run } from "./run.js";
 
 /** @param {string} name of a file that is stored packed @param {string} [type] */
@@ -13,14 +14,13 @@ const unpack = async (name, type = "application/octet-stream") => {
 };
 
 /** Bytes that were asked for, and those that came. */
-const loading = { what: "the simulator", size: 0, come: 0, told: 0 };
+const loading = { what: "loading the simulator", size: 0, come: 0, told: 0 };
 const counted = () => new TransformStream({ transform: (chunk, out) => {
   loading.come += chunk.length;
   out.enqueue(chunk);
   if (performance.now() < loading.told + 100) return;
   loading.told = performance.now();
-  postMessage({ loading: `loading ${loading.what}, ${(loading.come / 1e6).toFixed(1)} MB`,
-    part: Math.min(1, loading.come / Math.max(loading.size, loading.come)) });
+  postMessage({ loading: loading.what, megabytes: loading.come / 1e6, part: Math.min(1, loading.come / Math.max(loading.size, loading.come)) });
 } });
 
 /** The interpreter compiles a trace that has run 500 times; without this it waits for 5,000. */
@@ -92,9 +92,13 @@ async function hear(data) {
   }
   const [exports, run] = [await starting, /** @type {Run} */ (await running)];
   if (data.message.do === "open") {
-    for (const { path, bytes } of data.message.files ?? []) exports.Write(`/${path}`, bytes);
+    const { files: own } = data.message;
+    if (own) {
+      data.message.scene = sceneAmong(own, data.message.wire, (what, part) => postMessage({ loading: what, part }));
+      for (const { path, bytes } of own) exports.Write(`/${path}`, bytes);
+    }
     const names = missing[data.message.scene] ?? [];
-    Object.assign(loading, { what: "the vessel", size: 0, come: 0 });
+    Object.assign(loading, { what: "loading the vessel", size: 0, come: 0 });
     const files = await Promise.all(names.map(async (name) => (await unpack(`files/${name}`)).arrayBuffer()));
     files.forEach((bytes, k) => exports.Write(`/${names[k]}`, new Uint8Array(bytes)));
     delete missing[data.message.scene];

@@ -22,6 +22,9 @@ const reveal = async (locator) => {
   });
   return locator;
 };
+// A selector, or a role and a part of a name of the accessibility tree.
+const locate = (page, what) => (typeof what === "string" ? page.locator(what)
+  : page.getByRole(what.role, { name: new RegExp(what.name) }).first());
 const protocols = new WeakMap();
 const protocol = async (page) => {
   if (!protocols.has(page)) protocols.set(page, await page.context().newCDPSession(page));
@@ -39,7 +42,7 @@ const orders = {
   // A finger: where in an element, from 0 to 1 across and down; without a place it is lifted.
   touch: async (page, [selector, across, down]) => {
     const isDown = across !== undefined;
-    const element = page.locator(selector);
+    const element = locate(page, selector);
     let box = isDown && await element.boundingBox();
     for (let k = 0; k < 2400 && box === null; k++) { // it has no place while the page draws it anew
       await page.waitForTimeout(50);
@@ -53,6 +56,14 @@ const orders = {
       await (await protocol(page)).send("Input.dispatchDragEvent",
         { type, x: 100, y: 100, data: { items: [], files, dragOperationsMask: 1 } });
     }
+  },
+  // Waits until the accessibility tree has a text.
+  said: async (page, text) => {
+    for (let k = 0; k < 1200; k++) {
+      if (new RegExp(text, "i").test(await page.locator("body").ariaSnapshot())) return;
+      await page.waitForTimeout(100);
+    }
+    throw new Error(`not within 2 minutes in the accessibility tree: ${text}`);
   },
   see: (page, expression) => page.evaluate(expression),
   back: (page) => page.goBack(),

@@ -4,6 +4,7 @@ import asyncio
 import itertools
 import json
 import os
+import re
 import shutil
 import signal
 import subprocess
@@ -38,7 +39,7 @@ FAINT = """["dark", "light"].flatMap((theme) => {
     if (!one.checkVisibility({ visibilityProperty: true }) || !one.offsetWidth) continue;
     const layers = [];
     let at = one;
-    while (at && !at.matches("main > section") && !(layers[0]?.[3] === 1)) {
+    while (at && !at.matches("main > section:not(#debrief)") && !(layers[0]?.[3] === 1)) {
       layers.unshift(rgba(getComputedStyle(at).backgroundColor));
       at = at.parentElement;
     }
@@ -127,7 +128,7 @@ class Firefox:
                 return json.loads(told["result"].get("value", "null"))
 
             async def key(kind, name):
-                value = {"ArrowRight": "\ue014"}.get(name, name)
+                value = {"ArrowRight": "\ue014", "Enter": "\ue007"}.get(name, name)
                 await ask("input.performActions", context=page, actions=[
                     {"type": "key", "id": "keys", "actions": [{"type": one, "value": value} for one in kind]}])
 
@@ -143,6 +144,14 @@ class Firefox:
                         await asyncio.sleep(0.05)
                     else:
                         raise AssertionError(f"not within 2 minutes: {value}")
+                elif order == "said":
+                    text = re.escape(value)
+                    for _ in range(1200):
+                        if re.search(text, await see("document.body.innerText"), re.IGNORECASE):
+                            break
+                        await asyncio.sleep(0.1)
+                    else:
+                        raise AssertionError(f"not within 2 minutes among the page's texts: {value}")
                 elif order == "choose":
                     await see(f"(one => {{ one.value = '{value[1]}'; one.onchange(); }})"
                               f"(document.querySelector('{value[0]}'))")

@@ -125,7 +125,7 @@ def test_a_paused_wire_and_slow_steps_are_said_beside_the_picture(browse, runner
             ["see", f"{slow}; {text('#note')}"], ["press", " "], PAUSED, ["down", "w"],
             ["see", f"[{text('#note')}, document.getElementById('note').className]"], ["up", "w"],
             ["until", "!document.getElementById('note').className"], ["see", text("#note")],
-            ["see", f"{text('.basis')}"],
+            ["see", f"{text('#gauges .basis')}"],
             ["see", "[...document.querySelectorAll('.gauge')].map((one) => one.getAttribute('aria-valuemax'))"],
             ["see", "for (const one of document.querySelectorAll('details')) one.open = true"],
             *(["see", f"document.querySelector('.gauge').dataset.band = '{band}'; {FAINT}"]

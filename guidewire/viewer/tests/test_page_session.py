@@ -4,6 +4,7 @@ import base64
 import json
 import math
 import random
+import re
 import shutil
 import subprocess
 from types import SimpleNamespace
@@ -16,6 +17,7 @@ from scipy.sparse.csgraph import connected_components
 from guidewire.prepare import ROOT
 from guidewire.sessions.session import Session
 from guidewire.viewer import live
+from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
 from guidewire.viewer.live_frames import LiveFrames
 from guidewire.viewer.parts import PAGE
@@ -60,6 +62,20 @@ class Recorder:
     def ask(self, line):
         self.answers.append(self.host.ask(line))
         return self.answers[-1]
+
+
+def test_the_pages_words_are_there_in_each_language_with_the_same_places_for_values():
+    said = {text.replace('\\"', '"') for path in PAGE.glob("*.js")
+            for text in re.findall(r'\bsay\("((?:[^"\\\n]|\\.)*)"',
+                                   re.sub(r'"\s*\+\s*"', "", path.read_text(encoding="utf-8")))}
+    missions = {text for one in MISSIONS.values() for text in (one.title, one.goal)}
+    for path in (PAGE / "words").glob("*.json"):
+        words = json.loads(path.read_text(encoding="utf-8"))
+        assert (said | missions) - set(words) == set() and len(said) > 60
+        for text, other in words.items():
+            assert other and sorted(re.findall(r"{\d}", text)) == sorted(re.findall(r"{\d}", other)), text
+    first, second = (set(json.loads(path.read_text(encoding="utf-8"))) for path in (PAGE / "words").glob("*.json"))
+    assert first == second
 
 
 CHANNELS = """

@@ -215,6 +215,26 @@ def test_a_first_visitor_wins_a_mission_by_keys_and_finds_the_stars_in_the_galle
     assert seen[0] == seen[3] == seen[6] == []
 
 
+CARD = {"role": "button", "name": "Into the artery"}
+PAD = {"role": "application", "name": "up pushes"}
+MEANS = {    # what is said leads to what is done; nothing here knows the page from inside
+    "keys": [["press", "Enter"], ["said", "Hold W"], ["down", "w"], ["said", "target reached"], ["up", "w"]],
+    "touch": [["touch", [CARD, 0.5, 0.5]], ["touch", [CARD]], ["said", "upper edge of the left pad"],
+              ["touch", [PAD, 0.5, 0.02]], ["said", "target reached"], ["touch", [PAD]]],
+    "gamepad": [["see", GAMEPAD], ["see", "pad.buttons[0].pressed = true"], ["said", "Hold"],
+                ["see", "pad.buttons[0].pressed = false"], ["see", "pad.axes[1] = -1"], ["said", "target reached"]],
+}
+
+
+@LONG
+@pytest.mark.parametrize("browser, means", [*(("browse", means) for means in MEANS), ("firefox", "keys")])
+def test_the_first_mission_is_won_by_the_pages_texts_and_its_accessibility_tree_alone(request, browser, address, means):
+    """At most three clicks: a card, and a pad that is held."""
+    size = {} if browser == "firefox" else {"size": (390, 844) if means == "touch" else (1280, 720)}
+    request.getfixturevalue(browser)(["open", address], ["said", "next for you"], *MEANS[means], ["said", "try again"],
+                                     **size)
+
+
 @LONG
 def test_what_an_address_names_and_is_not_there_is_said_in_the_gallery_and_loading_can_be_cancelled(browse, address):
     said = "document.querySelector('#start [role=alert]')?.textContent"
