@@ -119,7 +119,8 @@ class Firefox:
 
             await ask("session.new", capabilities={})
             await ask("session.subscribe", events=["network.beforeRequestSent", "log.entryAdded"])
-            page = (await ask("browsingContext.getTree"))["contexts"][0]["context"]
+            page = (await ask("browsingContext.create", type="tab"))["context"]    # in that of the start keys press no button
+            await ask("browsingContext.activate", context=page)
 
             async def see(expression):
                 told = await ask("script.evaluate", expression=f"(async () => JSON.stringify(await ({expression})))()",
