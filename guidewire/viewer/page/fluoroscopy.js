@@ -6,6 +6,7 @@ import { BLUR, COMPOSE, COVER, SHOW, STRIP, STRIP_CORNERS } from "./shaders.js";
 /** @typedef {import("./pieces.js").Instrument} Instrument */
 
 const MOST_WEIGHTS = 24;
+const LIGHT_BELOW = 0.46; // brightness from which black and white are as easily told: luminance 0.18, (1.05/0.23 = 0.23/0.05)
 
 /** X-ray pictures by the formula of the core, drawn by a shader. */
 export class Fluoroscopy extends View {
@@ -67,13 +68,15 @@ export class Fluoroscopy extends View {
     return this._maskSeen === this._seen;
   }
 
-  /** Draws. @param {[Instrument, ArrayLike<number>][]} instruments with the points of their centrelines, units */
-  draw(instruments) {
-    this._draw(instruments, null);
+  /** Draws. @param {[Instrument, ArrayLike<number>][]} instruments with the points of their centrelines, units
+   * @param {boolean} isClear whether instruments are light where what is behind them is dark */
+  draw(instruments, isClear = false) {
+    this._draw(instruments, null, isClear);
   }
 
-  /** @param {[Instrument, ArrayLike<number>][]} instruments @param {WebGLFramebuffer | null} mask takes brightness alone */
-  _draw(instruments, mask) {
+  /** @param {[Instrument, ArrayLike<number>][]} instruments @param {WebGLFramebuffer | null} mask takes brightness alone
+   * @param {boolean} isClear */
+  _draw(instruments, mask, isClear = false) {
     const { arm, look, _gl: gl } = this;
     this._setLayer(arm);
     this._pieces.clear();
@@ -92,6 +95,7 @@ export class Fluoroscopy extends View {
     this._bind(this._compose, "mask", 2, (mask ? this._images.first : this._images.mask).texture);
     const isSubtracted = look.isSubtracted && this.hasMask && !mask;
     gl.uniform1f(gl.getUniformLocation(this._compose, "subtracted"), isSubtracted ? look.background : 0);
+    gl.uniform1f(gl.getUniformLocation(this._compose, "clear"), isClear && !isSubtracted ? LIGHT_BELOW : 0);
     gl.uniform2i(gl.getUniformLocation(this._compose, "shift"), look.shift[0], -look.shift[1]);
     this._setNoise(this._compose);
     this._cover(mask ?? (blur > 0 ? this._images.first.frame : null));
@@ -122,11 +126,11 @@ export class Fluoroscopy extends View {
 
   /**
    * Draws and returns the grey levels, row by row from above.
-   * @param {[Instrument, ArrayLike<number>][]} instruments
+   * @param {[Instrument, ArrayLike<number>][]} instruments @param {boolean} isClear as of `draw`
    */
-  grey(instruments) {
+  grey(instruments, isClear = false) {
     const { columns, rows, _gl: gl } = this;
-    this.draw(instruments);
+    this.draw(instruments, isClear);
     const all = new Uint8Array(4 * columns * rows);
     gl.readPixels(0, 0, columns, rows, gl.RGBA, gl.UNSIGNED_BYTE, all);
     return Uint8Array.from({ length: columns * rows }, (_, k) =>

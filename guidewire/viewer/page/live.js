@@ -442,20 +442,20 @@ export class Live {
     byId("goal").textContent = this.mission ? say(this.mission.goal) : target ? say("to {0}", say(placeName(target.name))) : "";
     byId("par").textContent = this.mission ? say("par {0} s", this.mission.par) : "";
     if (!byId("start") || byId("start").hidden) document.title = `${this.title} · Guidewire`;
-    byId("mood").textContent = say(this._mood());
     this._note(rate);
   }
 
   /** Says beside the pictures what an operator may not see elsewhere. @param {number} rate times faster than real time */
   _note(rate) {
-    const { isPaused, isWaiting, pace = 1, hand, outcome, isSteered } = this.status ?? {};
+    const { isPaused, isWaiting, pace = 1, hand, isFree, outcome, isSteered } = this.status ?? {};
     const isReminded = isPaused && performance.now() - this._steeredAt < REMINDED;
     const isSlow = !isPaused && rate < SLOW * Math.min(pace, 1);
     const note = byId("note");
     note.classList.toggle("loud", Boolean(isReminded));
-    note.textContent = isSlow && hand && !outcome && this._back === null ? say("slower than real time: {0} x", brief(rate, 2))
+    byId("mood").textContent = note.textContent = isSlow && hand && !outcome && this._back === null ? say("slower than real time: {0} x", brief(rate, 2))
       : say(this._back !== null ? "looking back" : outcome ? "ended"
-        : !hand ? "" : isWaiting ? "ready: push to begin" : isReminded ? "paused: nothing moves until \"go on\" (space)"
+        : !hand ? (isFree ? "nobody is steering" : "watching: another page is steering")
+        : this.status && this.isGone(this.status) ? "the simulation has ended unexpectedly: start anew" : isWaiting ? "ready: push to begin" : isReminded ? "paused: nothing moves until \"go on\" (space)"
         : isPaused ? "paused" : isSteered ? "" : "moved by the recorded drive");
   }
 
@@ -490,16 +490,6 @@ export class Live {
       copy.textContent = say("copied");
     } }, "copy the command");
     byId("said").append("\n", copy);
-  }
-
-  _mood() {
-    if (!this.status) return "";
-    if (this._back !== null) return "looking back";
-    if (this.status.outcome) return "ended";
-    if (this.isGone(this.status)) return "the simulation has ended unexpectedly: start anew";
-    if (!this.status.hand) return this.status.isFree ? "nobody is steering" : "watching: another page is steering";
-    if (this.status.isPaused) return this.status.isWaiting ? "ready" : "paused";
-    return this.status.isSteered ? "" : "moved by the recorded drive";
   }
 }
 

@@ -16,7 +16,7 @@ export class PlainFluoroscopy extends View {
     this.resize(pixels, pixels);
   }
 
-  /** @param {[Instrument, ArrayLike<number>][]} instruments with the points of their centrelines, units */
+  /** @param {[Instrument, ArrayLike<number>][]} instruments with the points of their centrelines, units; dark always */
   draw(instruments) {
     const { arm, _pen: pen } = this;
     if (this._setBrightness(arm)) {

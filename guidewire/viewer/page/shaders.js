@@ -131,6 +131,7 @@ uniform highp sampler2D mask;
 uniform bool isLast;
 uniform float subtracted; // brightness where nothing has changed; 0: nothing is subtracted
 uniform ivec2 shift;      // of the mask
+uniform float clear;      // brightness below which instruments are light, so that one sees them; 0: nowhere
 out vec4 colour;
 ${GREY}
 void main() {
@@ -138,7 +139,7 @@ void main() {
   ivec2 size = textureSize(layer, 0);
   float through = texelFetch(depth, at, 0).r;
   float brightness = texelFetch(layer, ivec2(at.x, size.y - 1 - at.y), 0).r;
-  if (through > 0.0) brightness *= exp(-through);
+  if (through > 0.0) brightness = brightness < clear ? mix(1.0, brightness, exp(-through)) : brightness * exp(-through);
   if (subtracted > 0.0) {
     brightness *= subtracted / max(texelFetch(mask, clamp(at - shift, ivec2(0), size - 1), 0).r, 1e-4);
   }

@@ -230,7 +230,7 @@ export class Xray {
     look.seed = this._frames++;
     const instruments = this._clearInstruments;
     this.fluoroscopy.moves = recording.moves;
-    this.fluoroscopy.draw(instruments);
+    this.fluoroscopy.draw(instruments, !byId("measured").checked);
     this.cine.take(this.fluoroscopy.canvas);
     this.beam.take(recording.at("time", this._models[0].frame)[0]);
     this.second.draw(this.fluoroscopy, instruments);
