@@ -5,7 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 
 MESHES = (".stl", ".obj", ".ply", ".vtp", ".vtk", ".vtu")
-MASKS = (".nii", ".nii.gz", ".nrrd", ".mha", ".vti")
+MASKS = (".nii", ".nii.gz", ".nrrd", ".nhdr", ".mha", ".mhd", ".vti")
 DICOM = ".dcm"  # a slice; of the files of a series many have no ending
 CENTRELINES = (".csv", ".mrk.json")
 ENDINGS = (*MESHES, *MASKS, DICOM, *CENTRELINES)
@@ -15,8 +15,6 @@ _MAGIC = 128  # bytes before the mark of a DICOM file
 _IMAGE, _MESH = "3D Slicer opens it and saves it as .nrrd", "3D Slicer or ParaView opens it and saves it as .stl"
 _TABLE = "save x, y, z and radius as .csv"
 OTHERS = {
-    ".mhd": "3D Slicer opens it and saves it as .mha, header and voxels in one file",
-    ".nhdr": "3D Slicer opens it and saves it as .nrrd, header and voxels in one file",
     **dict.fromkeys((".hdr", ".img", ".mgz", ".mgh", ".gipl", ".tif", ".tiff", ".raw", ".nia", ".npy"), _IMAGE),
     **dict.fromkeys((".3mf", ".glb", ".gltf", ".off", ".dae", ".x3d", ".wrl", ".usd", ".usda", ".usdc", ".fbx"),
                     _MESH),

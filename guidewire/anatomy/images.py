@@ -83,11 +83,11 @@ def _read(file: Path, kind: str, series: str | None) -> Voxels:
         return read_dicom(file, series)
     if series is not None:
         raise AnatomyError("--series is of a folder of DICOM slices")
-    if kind == ".nrrd":
+    if kind in (".nrrd", ".nhdr"):
         from guidewire.anatomy.nrrd import read_nrrd
 
         return read_nrrd(file)
-    if kind == ".mha":
+    if kind in (".mha", ".mhd"):
         from guidewire.anatomy.metaimage import read_metaimage
 
         return read_metaimage(file)

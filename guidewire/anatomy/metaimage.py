@@ -1,4 +1,4 @@
-"""Voxels of MetaImage files (.mha), as ITK writes them.
+"""Voxels of MetaImage files (.mha, and .mhd with its voxels in another file), as ITK writes them.
 
 The first three numbers of TransformMatrix are where the first index goes, and positions are in LPS, which ITK takes for
 granted. https://itk.org/Wiki/ITK/MetaIO/Documentation
@@ -6,6 +6,7 @@ granted. https://itk.org/Wiki/ITK/MetaIO/Documentation
 
 from __future__ import annotations
 
+import hashlib
 import re
 import zlib
 from pathlib import Path
@@ -13,7 +14,7 @@ from pathlib import Path
 import numpy as np
 
 from guidewire.anatomy.mesh import AnatomyError
-from guidewire.anatomy.voxels import NO_SIZES, Voxels, numbers_of, three_sizes, unpacked, voxels_of
+from guidewire.anatomy.voxels import NO_SIZES, Voxels, numbers_of, three_sizes, unpacked, voxels_beside, voxels_of
 
 _TYPES = {"CHAR": "i1", "UCHAR": "u1", "SHORT": "i2", "USHORT": "u2", "INT": "i4", "UINT": "u4", "LONG": "i4",
           "ULONG": "u4", "LONG_LONG": "i8", "ULONG_LONG": "u8", "FLOAT": "f4", "DOUBLE": "f8"}
@@ -31,9 +32,7 @@ def read_metaimage(file: Path) -> Voxels:
     end = re.search(rb"^[ \t]*ElementDataFile[ \t]*=[ \t]*([^\r\n]*?)[ \t]*\r?\n", data[:_HEAD], re.MULTILINE)
     if end is None:
         raise AnatomyError("not a MetaImage, or its header breaks off: it has no line ElementDataFile")
-    if end[1] != b"LOCAL":
-        raise AnatomyError(f"its voxels are in another file, '{end[1].decode('utf-8', 'replace')[:60]}': a .mha with "
-                           "its own voxels is needed")
+    named = "" if end[1] == b"LOCAL" else end[1].decode("utf-8", "replace")
     fields = {}
     for line in data[:end.start()].decode("utf-8", "replace").splitlines():
         name, _, value = line.partition("=")
@@ -48,7 +47,10 @@ def read_metaimage(file: Path) -> Voxels:
         raise AnatomyError(f"voxels of the type '{said}': numbers are needed")
     is_big = _is_true(fields, "binarydatabyteordermsb") or _is_true(fields, "elementbyteordermsb")
     dtype = np.dtype((">" if is_big else "<") + _TYPES[said.removeprefix("MET_")])
-    voxels = data[end.end():]
+    voxels = voxels_beside(file, named) if named else data[end.end():]
+    skip = int(_numbers(fields, ("headersize",), 1, [0.0])[0])
+    read = hashlib.sha256(data + voxels).hexdigest() if named else ""
+    voxels = voxels[len(voxels) - int(np.prod(three)) * dtype.itemsize if skip == -1 else max(skip, 0):]
     if _is_true(fields, "compresseddata"):
         voxels = unpacked(voxels, zlib.decompress)
     is_binary = fields.get("binarydata", "True").lower() == "true"
@@ -61,7 +63,7 @@ def read_metaimage(file: Path) -> Voxels:
     to_file[:3, :3] = turn[:3, :3].T * np.array(spacing[:3])
     to_file[:3, 3] = origin[:3]
     has_sizes = "elementspacing" in fields or "elementsize" in fields
-    return Voxels(values, to_file, "LPS", notes=() if has_sizes else (NO_SIZES,))
+    return Voxels(values, to_file, "LPS", notes=() if has_sizes else (NO_SIZES,), sha256=read)
 
 
 def _numbers(fields: dict[str, str], names: tuple[str, ...], count: int | None, default: list[float] | None = None

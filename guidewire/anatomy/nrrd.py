@@ -1,8 +1,10 @@
-"""Voxels of NRRD files, those of 3D Slicer's segmentations with their segments among them."""
+"""Voxels of NRRD files, those of 3D Slicer's segmentations with their segments among them. Those of a .nhdr are in
+another file."""
 
 from __future__ import annotations
 
 import bz2
+import hashlib
 import re
 from pathlib import Path
 
@@ -10,7 +12,8 @@ import numpy as np
 
 from guidewire.anatomy.mesh import AnatomyError
 from guidewire.anatomy.voxels import (
-    NO_SIZES, Segment, Voxels, check_count, numbers_of, three_sizes, unpacked, voxels_of,
+    NO_SIZES, Segment, Voxels, check_count, numbers_of, three_sizes, unpacked, voxels_beside,
+    voxels_of,
 )
 
 _MM_OF = {"mm": 1.0, "cm": 10.0, "m": 1e3, "um": 1e-3, "µm": 1e-3, "micron": 1e-3}  # of a length in an NRRD file
@@ -43,9 +46,10 @@ def read_nrrd(file: Path) -> Voxels:
         if colon and not line.startswith("#"):
             is_more = value.startswith("=")    # a key of who wrote the file, not of NRRD
             (more if is_more else fields)[name.strip().lower()] = value[is_more:].strip()
-    if end is None or "data file" in fields or "datafile" in fields:
-        raise AnatomyError("its voxels are in another file, or the header breaks off: an NRRD with its own voxels is "
-                           "needed")
+    named = fields.get("data file", fields.get("datafile", ""))
+    if end is None and not named:
+        raise AnatomyError("the header breaks off: no empty line ends it")
+    packed = voxels_beside(file, named) if named else data[end.end():] if end else b""
     try:
         sizes = [int(word) for word in fields["sizes"].split()]
     except (KeyError, ValueError) as error:
@@ -63,7 +67,7 @@ def read_nrrd(file: Path) -> Voxels:
     if kind is None:
         raise AnatomyError(f"voxels of the type '{fields.get('type', '')}': numbers are needed")
     dtype = np.dtype((">" if fields.get("endian", "little").lower() == "big" else "<") + kind)
-    values = _encoded(data[end.end():], fields, dtype, stored)
+    values = _encoded(packed, fields, dtype, stored)
     if layers:
         values = np.moveaxis(values, kept.index(layers[0]), -1)
     to_file = np.eye(4)
@@ -76,7 +80,8 @@ def read_nrrd(file: Path) -> Voxels:
         raise AnatomyError(f"space units '{units[0]}': one of {', '.join(_MM_OF)} is needed")
     to_file[:3] *= _MM_OF[units[0].lower()]
     has_sizes = "space directions" in fields or "spacings" in fields
-    return Voxels(values, to_file, said, segments=segments, notes=() if has_sizes else (NO_SIZES,))
+    return Voxels(values, to_file, said, segments=segments, notes=() if has_sizes else (NO_SIZES,),
+                  sha256=hashlib.sha256(data + packed).hexdigest() if named else "")
 
 
 def _segments(more: dict[str, str]) -> tuple[Segment, ...]:

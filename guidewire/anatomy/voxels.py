@@ -6,6 +6,7 @@ import gzip
 import zlib
 from collections.abc import Callable
 from dataclasses import dataclass
+from pathlib import Path
 
 import numpy as np
 
@@ -66,6 +67,14 @@ def numbers_of(text: bytes, sizes: list[int]) -> np.ndarray:
     if numbers.size < count:
         raise AnatomyError(f"the file breaks off: of {count} voxels there are {numbers.size}")
     return numbers[:count].reshape(sizes, order="F")
+
+
+def voxels_beside(file: Path, name: str) -> bytes:
+    """Bytes of the file that a header names, from the header's folder; AnatomyError where there is none."""
+    place = file.parent / name
+    if not place.is_file():
+        raise AnatomyError(f"its voxels are in another file, '{name[:60]}', and there is none of this name beside it")
+    return place.read_bytes()
 
 
 def check_count(sizes: list[int]) -> None:

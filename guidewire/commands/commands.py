@@ -218,7 +218,7 @@ def _site(arguments: argparse.Namespace) -> int:
 def _tasks(arguments: argparse.Namespace) -> int:
     from guidewire.env import command
 
-    return command.run(arguments, build_runner)
+    return command.run(arguments, build_runner, lambda done, count: tell_frames(done, count, "episode"))
 
 
 def _anatomy(arguments: argparse.Namespace) -> int:

@@ -60,9 +60,9 @@ def bar_of(name: str) -> Callable[[int, int, int], Bar]:
     return bar
 
 
-def tell_frames(done: int, count: int) -> None:
+def tell_frames(done: int, count: int, what: str = "frame") -> None:
     """On a terminal a line that counts; elsewhere a line now and then."""
     if sys.stderr.isatty():
-        print(f"\rframe {done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
+        print(f"\r{what} {done} of {count}", end="\n" if done == count else "", file=sys.stderr, flush=True)
     elif done % max(1, count // 4) == 0:
-        print(f"frame {done} of {count}", file=sys.stderr, flush=True)
+        print(f"{what} {done} of {count}", file=sys.stderr, flush=True)

@@ -7,6 +7,7 @@ import importlib
 import json
 import sys
 import tempfile
+import threading
 import time
 from collections.abc import Callable
 from concurrent.futures import ThreadPoolExecutor
@@ -26,7 +27,10 @@ from guidewire.sessions.session import SessionError
 _BY_HAND = {"tip_turn": 0.0, "insertion": 0.0}  # as a page begins
 
 
-def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) -> int:
+Tell = Callable[[int, int], None]    # shows how many episodes of how many are done
+
+
+def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]], tell: Tell) -> int:
     """List, or play, or steer, or replay; returns the exit code: 1 where an episode is not as it must be.
 
     Raises
@@ -38,7 +42,7 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) ->
             print(benchmark.table([benchmark.load(file) for file in arguments.submitted]))
             return 0
         if arguments.benchmark:
-            return _benchmark(arguments, arguments.policy or "retry")
+            return _benchmark(arguments, arguments.policy or "retry", tell)
         if arguments.task is None:
             for name, task in all_tasks(None).items():
                 print(f"{name}: {task.summary} ({len(task.targets)} targets, {task.time:g} s, {task.tier})")
@@ -51,16 +55,16 @@ def run(arguments: argparse.Namespace, build_runner: Callable[[], list[str]]) ->
         if arguments.record is not None:
             return _demonstrate(arguments.task, arguments.policy, arguments.record, arguments.episodes,
                                 arguments.seed or 1)
-        return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed or 1, arguments.jobs)
+        return _play(arguments.task, arguments.policy, arguments.episodes, arguments.seed or 1, arguments.jobs, tell)
     except (Error, SessionError) as error:
         raise PreparationError(str(error)) from error
 
 
-def _benchmark(arguments: argparse.Namespace, policy: str) -> int:
+def _benchmark(arguments: argparse.Namespace, policy: str, tell: Tell) -> int:
     seeds = range(benchmark.FIRST_SEED, benchmark.FIRST_SEED + arguments.episodes)
     names = [arguments.task] if arguments.task else list(all_tasks(arguments.tier))
     tier = find_task(arguments.task).tier if arguments.task else arguments.tier
-    played = {name: _played(name, policy, seeds, arguments.jobs) for name in names}
+    played = {name: _played(name, policy, seeds, arguments.jobs, tell) for name in names}
     results = benchmark.results_of(tier, policy, played)
     print(benchmark.table([results]))
     faults = sum(len(one.faults) for episodes in played.values() for one in episodes)
@@ -100,21 +104,28 @@ def _options_of(make: Callable[..., Any], task: str) -> dict[str, Any]:
     return found or {"observation": Observation(parts=parts_of(find_task(task)))}
 
 
-def _played(task: str, policy: str, seeds: range, jobs: int) -> list[score.Played]:
+def _played(task: str, policy: str, seeds: range, jobs: int, tell: Tell) -> list[score.Played]:
     make = _policy_of(policy)
     options = _options_of(make, task)
+    played: list[score.Played] = []
+    lock = threading.Lock()
 
-    def part(k: int) -> list[score.Played]:
+    def part(k: int) -> None:
         with Environment(task, **options) as environment:
-            return [score.play(environment, make(environment, one), one) for one in seeds[k::jobs]]
+            for one in seeds[k::jobs]:
+                found = score.play(environment, make(environment, one), one)
+                with lock:
+                    played.append(found)
+                    tell(len(played), len(seeds))
 
     with ThreadPoolExecutor(jobs) as pool:
-        return sorted((one for own in pool.map(part, range(jobs)) for one in own), key=lambda one: one.seed)
+        list(pool.map(part, range(jobs)))
+    return sorted(played, key=lambda one: one.seed)
 
 
-def _play(task: str, policy: str, episodes: int, seed: int, jobs: int) -> int:
+def _play(task: str, policy: str, episodes: int, seed: int, jobs: int, tell: Tell) -> int:
     began = time.monotonic()
-    played = _played(task, policy, range(seed, seed + episodes), jobs)
+    played = _played(task, policy, range(seed, seed + episodes), jobs, tell)
     print(benchmark.table([benchmark.results_of("", policy, {task: played})]))
     faults = [f"seed {one.seed}: {fault}" for one in played for fault in one.faults]
     for line in faults[:20]:

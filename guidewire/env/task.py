@@ -219,11 +219,17 @@ def find_task(task: str | Path | Task) -> Task:
         raise Error(f"{path}: a task needs vessel.anatomy and target: '{DOOR} anatomy FILE' writes such a scene")
     time_step, steps = (_number(entry, key, 1e-9, 1e9, path) for key in ("timeStep", "maxSimulationSteps"))
     return Task(path.stem, f"{path.name} to end {entry['target']}", str(path),
-                overrides={"timeStep": _STEP / max(1, round(_STEP / time_step))},
+                overrides={"timeStep": _dividing(time_step)},
                 anatomies=(str(path.parent / entry["vessel"]["anatomy"]),), targets=(entry["target"],),
                 frictions=(float(_number({"frictionCoefficient": 0.0, **entry["vessel"]}, "frictionCoefficient",
                                          *LIMITS["friction"], path)),),
                 time=2.0 * steps * time_step + 10.0)
+
+
+def _dividing(time_step: float) -> float:
+    """The time step that divides an action's duration and is nearest to a scene's."""
+    parts = max(1, round(_STEP / time_step))
+    return time_step if abs(parts * time_step - _STEP) < 1e-9 * _STEP else _STEP / parts
 
 
 def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
@@ -281,6 +287,11 @@ def _task(name: str, entry: Mapping[str, Any], file: Path) -> Task:
         given["anatomies"] = [each for one in given["anatomies"] for each in _vessels(one, name, file)]
     if given.get("scene"):
         given["scene"] = _beside(file, given["scene"])
+        if "timeStep" not in entry.get("overrides", {}) and Path(given["scene"]).is_file():
+            scene = _scene(Path(given["scene"]))
+            if "timeStep" in scene:
+                step = _number(scene, "timeStep", 1e-9, 1e9, Path(given["scene"]))
+                given["overrides"] = {**entry.get("overrides", {}), "timeStep": _dividing(step)}
     task = Task(name, **given)
     if not task.anatomies or not task.targets:
         raise Error(f"{file}: task {name} needs anatomies and targets")

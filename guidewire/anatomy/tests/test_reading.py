@@ -46,6 +46,35 @@ def test_formats_hold_the_same_mesh(tmp_path: Path, name: str) -> None:
     assert signed_volume(read) == pytest.approx(signed_volume(mesh), rel=1e-5)
 
 
+def test_of_a_vtu_of_tetrahedra_the_outer_surface_is_read(tmp_path: Path) -> None:
+    """A box of 3 x 3 x 8 cubes, each of six tetrahedra."""
+    from vtkmodules.vtkCommonCore import vtkPoints
+    from vtkmodules.vtkCommonDataModel import VTK_TETRA, vtkUnstructuredGrid
+    from vtkmodules.vtkIOXML import vtkXMLUnstructuredGridWriter
+
+    side, points, grid = np.arange(4), vtkPoints(), vtkUnstructuredGrid()
+    for x, y, z in itertools.product(side, side, range(9)):
+        points.InsertNextPoint(float(x), float(y), float(z))
+    grid.SetPoints(points)
+    at = np.arange(16 * 9).reshape(4, 4, 9)
+    for x, y, z in itertools.product(range(3), range(3), range(8)):
+        for order in itertools.permutations(range(3)):    # six tetrahedra along the diagonal of a cube
+            corner, corners = np.array([x, y, z]), [at[x, y, z]]
+            for axis in order:
+                corner = corner + np.eye(3, dtype=int)[axis]
+                corners.append(at[tuple(corner)])
+            if np.linalg.det(np.eye(3)[list(order)]) < 0.0:    # VTK's sense of a tetrahedron
+                corners[2:] = corners[:1:-1]
+            grid.InsertNextCell(VTK_TETRA, 4, [int(one) for one in corners])
+    writer = vtkXMLUnstructuredGridWriter()
+    writer.SetFileName(str(tmp_path / "a.vtu"))
+    writer.SetInputData(grid)
+    writer.Write()
+    read = weld_exactly(reading.read_mesh(tmp_path / "a.vtu"))
+    assert abs(signed_volume(read)) == pytest.approx(3.0 * 3.0 * 8.0)
+    assert len(read.triangles) == 2 * (2 * 9 + 4 * 24)
+
+
 @pytest.mark.parametrize("kind", ["ascii", "little", "big"])
 def test_a_ply_of_any_kind_holds_the_same_mesh(tmp_path: Path, kind: str) -> None:
     mesh = tube()

@@ -316,6 +316,25 @@ def test_a_metaimage_is_read_as_vtk_reads_it_in_text_or_big_endian_numbers(tmp_p
     assert "the file says no size of its voxels: 1 mm is taken" in read_image(file, ".mha").notes
 
 
+@pytest.mark.parametrize("name", ["a.nhdr", "a.mhd"])
+def test_voxels_beside_their_header_are_those_of_one_file(tmp_path: Path, name: str) -> None:
+    file, kind = tmp_path / name, Path(name).suffix
+    if kind == ".nhdr":
+        head, _, data = scans.write_nrrd(file, SMALL).read_bytes().partition(b"\n\n")
+        file.write_bytes(head + b"\ndata file: Gef\xc3\xa4\xc3\x9f.raw\nbyte skip: -1\n")
+    else:
+        head, _, data = write_metaimage(file, SMALL, packed=False).read_bytes().partition(b"LOCAL\n")
+        file.write_bytes(b"HeaderSize = -1\n" + head + "Gefäß.raw\n".encode())
+    with pytest.raises(AnatomyError, match="its voxels are in another file, 'Gefäß.raw', and there is none"):
+        read_image(file, kind)
+    (tmp_path / "Gefäß.raw").write_bytes(b"of another program" + data)
+    image = read_image(file, kind)
+    np.testing.assert_array_equal(image.values, SMALL.values)
+    np.testing.assert_allclose(image.to_space, SMALL.to_lps, atol=1e-9)
+    (tmp_path / "Gefäß.raw").write_bytes(b"of yet another one" + data)
+    assert read_image(file, kind).sha256 != image.sha256
+
+
 def test_values_of_cells_of_a_vti_lie_in_the_middle_of_the_cells(tmp_path: Path) -> None:
     def content(values: str) -> bytes:
         return (f'<VTKFile type="ImageData" version="0.1"><ImageData WholeExtent="1 3 0 1 0 1" Origin="10 20 30" '
@@ -341,7 +360,7 @@ def test_values_of_cells_of_a_vti_lie_in_the_middle_of_the_cells(tmp_path: Path)
 
 
 @pytest.mark.parametrize("name, way", [
-    ("a.mhd", "saves it as .mha"), ("a.mdl", "the .vtp of the same name"), ("a.glb", "3D Slicer or ParaView"),
+    ("a.mdl", "the .vtp of the same name"), ("a.glb", "3D Slicer or ParaView"),
     ("a.mrb", ".seg.nrrd"),
     ("a.zip", "unpack it"), ("a.step", "CAD"), ("a.xyz", "the name has to end in one of .stl"),
 ])
