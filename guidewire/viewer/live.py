@@ -12,29 +12,35 @@ import base64
 import json
 import math
 import os
+import re
 import time
 import warnings
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 from aiohttp import WSCloseCode, WSMsgType, web
 
+from guidewire.logs.walls import name_walls, soft_walls
 from guidewire.sessions.agent import Agent
 from guidewire.sessions.session import Session, SessionError, State
 from guidewire.sessions.steered import RULES as STEERED
 from guidewire.viewer.cases import title_of
 from guidewire.viewer.held import HeldInstruments
-from guidewire.viewer.live_frames import LiveFrames
-from guidewire.viewer.live_page import MOST_IN_FLIGHT, Page
-from guidewire.viewer.live_session import ENDLESS, REST, refusal, start, step
-from guidewire.viewer.recording import ENERGIES, HUB, ending_of
+from guidewire.viewer.recording import (
+    ENERGIES, HUB, Channel, Recording, ending_of, facts_of, largest_shown, lumen_of, make_channels, radius_of, read_off,
+    sheath_of, units_of,
+)
 
 PUSH_SPEED = 40.0              # units a second of in-game time, as in the Unity scene
 TURN_SPEED = math.radians(180.0)  # rad a second of in-game time
 PACES = (0.01, 0.1, 0.5, 1, 2, 5, 10)  # of in-game time against the clock, where the machine is fast enough
+ENDLESS = {"maxSimulationSteps": 1_000_000_000, "deltaThreshold": 0}
+REST = (0.0, 0.0)
+MOST_IN_FLIGHT = 2    # pictures that a page has not shown yet; of further ones it gets the last
 MOST_INJECTED = 200.0         # ml, and ml/s
 _FRAME = 1.0 / 60.0            # s of in-game time that a picture shows, where the machine is fast enough
 _LONGEST = 0.025               # s of wall time that one request may take, so that keys are answered
@@ -44,6 +50,7 @@ _PATIENCE = 3.0                # s that a start anew waits for a step under way,
 _SMOOTHING = 0.1               # weight of the newest request in the step time shown
 _CHANGED = ("solver", "integrator", "sweepOrder", "elementContact", "constraintSolverSteps", "stretchStiffness",
             "bendStiffness", "collisionStiffness", "damping", "timeStep")  # as in the Unity scene
+_NOT_ALLOWED = re.compile(r"(?:.*: )?(\w+) = .* is not allowed: (needs .*)", re.DOTALL)
 
 
 def rules(choices: Mapping[str, list[str]]) -> dict[str, Any]:
@@ -57,6 +64,153 @@ def rules(choices: Mapping[str, list[str]]) -> dict[str, Any]:
         "smoothing": _SMOOTHING, "endless": ENDLESS, "changed": _CHANGED, "choices": choices, "hub": HUB,
         "energies": ENERGIES, "steered": STEERED,
     }
+
+
+def start(scene: Path, by_hand: bool, named: Mapping[str, str]) -> Session:
+    """Return a session that is steered without end, or the file's own run where that cannot be or is not asked for."""
+    if by_hand:
+        try:
+            return Session(scene, hand=True, native=False, **ENDLESS, **named)
+        except SessionError:
+            pass  # what is wrong with the file itself is said below
+    return Session(scene, hand=False, native=False, **named)
+
+
+def step(session: Session, moves: Sequence[tuple[float, float]], steps: int, hub: int) -> State:
+    """Make steps with this push (units) and turn (rad) of each hub in each; where one hand rests, of the held one."""
+    if all(move == REST for k, move in enumerate(moves) if k != hub):
+        push, turn = moves[hub]
+        return session.step(push * steps, turn * steps, steps, hub)
+    return session.step([push * steps for push, _ in moves], [turn * steps for _, turn in moves], steps)
+
+
+def refusal(key: str, value: Any, message: str) -> str:
+    """Say why a field's new value is refused, for who typed it: which value, and what is allowed.
+
+    Parameters
+    ----------
+    key, value : of the field.
+    message : the runner's line. Where the value does not go with another key, it names that key with its file.
+    """
+    said = _NOT_ALLOWED.fullmatch(message)
+    if said is None:
+        return message.removeprefix("set: ")
+    named, needs = said.groups()
+    asked = f"{key} = {json.dumps(value)}"
+    return f"{asked} is not allowed: {needs}" if named == key else f"{asked} does not go with {named}, which {needs}"
+
+
+class Page:
+    """A page that is open."""
+
+    def __init__(self, socket: web.WebSocketResponse) -> None:
+        self.socket = socket
+        self.on_the_way = 0
+        self.waiting: bytes | None = None    # the newest frame, where too many are on the way
+
+    async def tell(self, text: str) -> None:
+        """Send a message."""
+        await _send(self.socket.send_str(text))
+
+    async def show(self, frame: bytes) -> None:
+        """Send a frame, or the newest of several when the page has shown others."""
+        if self.on_the_way < MOST_IN_FLIGHT:
+            self.on_the_way += 1
+            await _send(self.socket.send_bytes(frame))
+        else:
+            self.waiting = frame
+
+    async def has_shown(self) -> None:
+        """The page is ready for one more."""
+        self.on_the_way = max(0, self.on_the_way - 1)
+        frame, self.waiting = self.waiting, None
+        if frame is not None:
+            await self.show(frame)
+
+    async def say_goodbye(self) -> None:
+        """Close it, as the server ends."""
+        await self.socket.close(code=WSCloseCode.GOING_AWAY, message=b"the server has ended")
+
+
+async def _send(sending: Awaitable[None]) -> None:
+    try:
+        await sending
+    except (ConnectionError, RuntimeError):
+        pass  # the page has been closed; its own loop reports that
+
+
+class LiveFrames:
+    """Recording and frames of a session, from its state of now on.
+
+    Attributes
+    ----------
+    described : as of `Session.describe`.
+    """
+
+    def __init__(self, session: Session, title: str, warnings: Sequence[str] = ()) -> None:
+        self._session = session
+        self._title = title
+        self._warnings = list(warnings)
+        self._walls = session.walls()
+        self.described = session.describe()
+        self._sheath = sheath_of(session.parameters, self._numbers(session.state, 0.0))
+        self.begin()
+
+    def begin(self) -> None:
+        """The state of now is the first one that is shown."""
+        self._begun = self._session.state
+        self._largest = largest_shown(self._channels(0.0, self._begun))
+
+    def exchange(self) -> None:
+        """The same, of other instruments in a run that goes on."""
+        before = self._largest
+        self.described = self._session.describe()
+        self.begin()
+        self._largest = np.maximum(before, self._largest)
+
+    def record(self, cost: float) -> Recording:
+        """Return the session as it is now and as it began, with its walls.
+
+        Parameters
+        ----------
+        cost : wall time of a step, s; 0 where it is not known.
+        """
+        session, state = self._session, self._session.state
+        states = [state] if self._begun.step == state.step else [self._begun, state]
+        return Recording(
+            self._title, "", self._warnings, facts_of(session.parameters, None), radius_of(session.parameters),
+            self._channels(cost, *states), name_walls(session.parameters, self._walls), self._sheath, self._largest,
+            self.described, soft_walls(session.parameters),
+        )
+
+    def frame(self, state: State, cost: float, *head: float) -> bytes:
+        """Return a state as doubles: a head, the largest size of each channel so far, and all channels."""
+        channels = self._channels(cost, state)
+        self._largest = np.maximum(self._largest, largest_shown(channels))
+        numbers = np.concatenate([head, self._largest, *(channel.values.ravel() for channel in channels)])
+        return numbers.astype("<f8").tobytes()
+
+    def _channels(self, cost: float, *states: State) -> list[Channel]:
+        numbers = [self._numbers(state, cost) for state in states]
+        together = {name: None if values is None else np.concatenate([one[name] for one in numbers])
+                    for name, values in numbers[0].items()}
+        return make_channels(units_of(self._session.parameters), together)
+
+    def _numbers(self, state: State, cost: float) -> dict[str, Any]:
+        walls = bool(self._walls)
+        real_time = float(self._session.parameters["timeStep"]) / cost if cost > 0.0 else math.nan
+        return {
+            "step": np.array([state.step]), "time": np.array([state.time]), "positions": state.positions[None],
+            "orientations": state.orientations[None], "contact_forces": state.contact_forces[None] if walls else None,
+            **{f"positions{k + 1}": one.positions[None] for k, one in enumerate(state.catheters)},
+            **{f"contact_forces{k + 1}": one.contact_forces[None] for k, one in enumerate(state.catheters) if walls},
+            **{f"wall_displacements{k or ''}": own[None] for k, own in enumerate(state.drawn[1])},
+            "step_time": np.array([1e3 * cost]), "real_time": np.array([real_time]),
+            **{name: None if values is None else values[None]
+               for name, values in (("curvature", state.curvature), ("force", state.force), ("couple", state.couple),
+                                    ("reaction", state.reaction))},
+            "lumen": lumen_of([state.place]), **read_off(state),
+        }
 
 
 class LiveRun:

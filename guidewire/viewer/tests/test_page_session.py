@@ -19,7 +19,7 @@ from guidewire.sessions.session import Session
 from guidewire.viewer import live
 from guidewire.viewer.cases import MISSIONS
 from guidewire.viewer.held import HeldInstruments
-from guidewire.viewer.live_frames import LiveFrames
+from guidewire.viewer.live import LiveFrames
 from guidewire.viewer.parts import PAGE
 from guidewire.viewer.recording import facts_of, largest_shown, radius_of
 from guidewire.sessions.steered import RULES, exact_push, exact_turn
