@@ -48,18 +48,24 @@ namespace Guidewire.Core
         /// <param name="to">Where it ends.</param>
         public void AddPart(Vector3d[] from, Vector3d[] to)
         {
+            for (int w = 0; w < _walls.Length; w++)
+            {
+                AddPart(w, from, to);
+            }
+        }
+
+        /// <summary>The same of wall w, as it sees these positions.</summary>
+        public void AddPart(int w, Vector3d[] from, Vector3d[] to)
+        {
             int n = _elements;
             for (int j = 0; j < n; j++)
             {
                 double motion = Math.Max(Vector3d.Distance(from[j], to[j]), Vector3d.Distance(from[j + 1], to[j + 1]));
-                for (int w = 0; w < _walls.Length; w++)
+                ref int hint = ref _hint[w * n + j];
+                if (motion >= _bounds.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref hint)
+                    && _walls[w].MayMeet(from[j], from[j + 1], to[j], to[j + 1], _clearance, ref hint))
                 {
-                    ref int hint = ref _hint[w * n + j];
-                    if (motion >= _bounds.ClearanceOf(w, j) && !_walls[w].Holds(to[j], to[j + 1], ref hint)
-                        && _walls[w].MayMeet(from[j], from[j + 1], to[j], to[j + 1], _clearance, ref hint))
-                    {
-                        MarkElement(w, from, to, j);
-                    }
+                    MarkElement(w, from, to, j);
                 }
             }
         }
@@ -73,10 +79,21 @@ namespace Guidewire.Core
         /// <summary>Counts those of the whole step, from x_k to x_{k+1} in units.</summary>
         public void EndStep(Vector3d[] from, Vector3d[] to)
         {
-            int points = PointsOf(_elements);
-            for (int at = Array.IndexOf(_left, true); at >= 0; at = Array.IndexOf(_left, true, at + 1))
+            for (int w = 0; w < _walls.Length; w++)
             {
-                ContactShape wall = _walls[at / points];
+                EndStep(w, from, to);
+            }
+        }
+
+        /// <summary>The same of wall w, as it sees these positions.</summary>
+        public void EndStep(int w, Vector3d[] from, Vector3d[] to)
+        {
+            int points = PointsOf(_elements);
+            int end = (w + 1) * points;
+            for (int at = Array.IndexOf(_left, true, w * points, points); at >= 0;
+                at = Array.IndexOf(_left, true, at + 1, end - at - 1))
+            {
+                ContactShape wall = _walls[w];
                 if (wall.Contains(Point(from, at % points)) && !wall.Contains(Point(to, at % points))
                     && !LeadsOut(wall, to))
                 {

@@ -23,6 +23,9 @@ namespace Guidewire.Core
         /// <summary>How the wall gives way; null where it is rigid.</summary>
         public WallSoftness? Softness { get; set; }
 
+        /// <summary>How the wall moves; null where it stands still. The shape is that at rest.</summary>
+        public WallMotion? Motion { get; set; }
+
         /// <summary>The point where segment a b comes nearest to the wall, if that is no farther than <paramref
         /// name="range"/>; a = b for a sphere's centre.</summary>
         /// <param name="a">First end of the segment.</param>
@@ -128,6 +131,7 @@ namespace Guidewire.Core
             {
                 _outward.FrictionCoefficient = FrictionCoefficient;
                 _outward.Softness = Softness;
+                _outward.Motion = Motion;
             }
             return _outward;
         }

@@ -58,6 +58,9 @@ namespace Guidewire.Core
         /// <summary>What T may be over the energy put in.</summary>
         public double Allowance { get; set; } = MinAllowance;
 
+        /// <summary>The most that moving walls have put in, J.</summary>
+        public double WallWork { get; set; }
+
         /// <summary>Takes the wire after a step that the loads acted in as they are now; one line where it has blown
         /// up, else null.</summary>
         public string? Blowup()
@@ -70,7 +73,7 @@ namespace Guidewire.Core
             _loadWork += _terms.LoadWork(_before, _shape);
             _before.CopyFrom(_shape);
             double motion = Motion();
-            double putIn = _start + _loadWork + _ends.MaxWork;
+            double putIn = _start + _loadWork + _ends.MaxWork + WallWork;
             // A NaN fails every comparison, so the conditions state the good case.
             if (!(motion <= double.MaxValue))
             {

@@ -30,7 +30,7 @@ namespace Guidewire.Core
             double units = 1.0 / scene.Metres;
             foreach (ContactShape wall in scene.Walls)
             {
-                for (int j = 0; j < scene.Rod.ElementCount && wall.Softness == null; j++)
+                for (int j = 0; j < scene.Rod.ElementCount && wall.Softness == null && wall.Motion == null; j++)
                 {
                     double radius = units * scene.Rod.Radius[j];
                     int hint = -1;
@@ -75,8 +75,13 @@ namespace Guidewire.Core
             {
                 foreach (ContactShape wall in scene.Walls)
                 {
+                    if (wall.Motion != null && scene.IsReached)
+                    {
+                        continue;    // it was elsewhere then
+                    }
                     double radius = units * (scene.Rod.Radius[j] - (wall.Softness?.MaxOf(scene.Rod.Radius[j]) ?? 0.0));
-                    if (!WireStart.IsFree(wall, scene.IsReached, x, j, fraction * radius, out double distance))
+                    Vector3d[] onWall = wall.Motion == null ? x : OnWall(x, new WallField(wall.Motion));
+                    if (!WireStart.IsFree(wall, scene.IsReached, onWall, j, fraction * radius, out double distance))
                     {
                         return name + Text(j, x[j], x[j + 1], radius, distance, wall);
                     }
@@ -84,6 +89,9 @@ namespace Guidewire.Core
             }
             return null;
         }
+
+        private static Vector3d[] OnWall(Vector3d[] x, WallField field) =>
+            System.Array.ConvertAll(x, node => field.AtRest(node));
 
         private static string Text(int j, in Vector3d a, in Vector3d b, double radius, double distance,
             ContactShape wall)

@@ -205,7 +205,7 @@ namespace Guidewire.Core
                 return false;
             }
             Failure = _scene.Joints.FindLost(Shape, Time);
-            SteadyState = _rest.FindRest(Time);
+            SteadyState = Terms.Walls()?.Barrier.Fields.Carrier >= 0 ? null : _rest.FindRest(Time);
             PredictionError = Vector3d.Distance(_free, Shape.X[Shape.ElementCount]) / _scene.Metres;
             Failure = Failure == null ? null : Failure + _texts.Advice;
             if (Contacts != null)
@@ -235,6 +235,7 @@ namespace Guidewire.Core
 
         private bool HasBlownUp()
         {
+            _energy.WallWork = _monitor?.MaxWork ?? 0.0;
             string? divergence = _energy.Blowup();
             Divergence = divergence == null ? null : divergence + "; lower timeStep, or take another integrator";
             return Divergence != null;
@@ -316,9 +317,10 @@ namespace Guidewire.Core
             {
                 _extremes.TakeHub(Terms.HubForce(Shape), _dynamics.Reactions.HubTorque, Time, Drag);
             }
-            if (Terms.Walls()!.Barrier.Lag != null)
+            BarrierEnergy barrier = Terms.Walls()!.Barrier;
+            if (barrier.Lag != null || barrier.Fields.Carrier >= 0)
             {
-                _extremes.WallWork = 0.0 - Terms.Walls()!.Barrier.Lag!.Dissipated;
+                _extremes.WallWork = _monitor!.Work - (barrier.Lag?.Dissipated ?? 0.0);
             }
             if (Terms.Walls()!.HasFriction)
             {
@@ -458,6 +460,7 @@ namespace Guidewire.Core
         public void Serialize(Snapshot snapshot)
         {
             _dynamics.Serialize(snapshot);
+            SerializeWalls(snapshot);
             if (!snapshot.IsWritten)
             {
                 FollowEnds();
@@ -485,6 +488,7 @@ namespace Guidewire.Core
             _extremes.SerializeDisplacements(snapshot);
             _spinLoss?.Serialize(snapshot);
             _monitor?.Serialize(snapshot);
+            _monitor?.SerializeWork(snapshot);
             _slips?.Serialize(snapshot);
             snapshot.Serialize(ref _hasSlipped);
             snapshot.Serialize(ref _hubWork);
@@ -530,6 +534,23 @@ namespace Guidewire.Core
             _ends.SerializeWork(snapshot);
             _rest.Serialize(snapshot);
             _dynamics.SerializeHistory(snapshot, _timeStep);
+        }
+
+        // Where walls are that move; a reader without the writer's ones goes to this time.
+        private void SerializeWalls(Snapshot snapshot)
+        {
+            BarrierEnergy? barrier = Terms.Walls()?.Barrier;
+            if (!snapshot.IsWritten)
+            {
+                barrier?.SetTime(Time);
+            }
+            snapshot.OptionalSection(barrier?.Fields.Key ?? "", !(barrier?.Fields.Carrier >= 0) ? null
+                : (Action<Snapshot>)(part =>
+                {
+                    barrier!.Fields.Serialize(part, Time);
+                    barrier.WallsMoved();
+                    _monitor!.SerializeWork(part);
+                }));
         }
 
         private void SerializeSlips(Snapshot snapshot)

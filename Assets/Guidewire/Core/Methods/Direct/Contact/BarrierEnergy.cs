@@ -14,6 +14,9 @@ namespace Guidewire.Core
     /// Walls do not act in a sheath: for them the nodes in it are at its exit, and the element that leaves it begins
     /// there.
     ///
+    /// A wall that moves is met where it is at rest (<see cref="WallImages"/>). Its gaps are distances there, which
+    /// differ from those in space by the strain across the gap; an element is straight in space and not there.
+    ///
     /// Walls are in units, all else in metres. Elements far from walls are skipped (<see cref="NeighbourList"/>); that
     /// changes no value. The result for one shape is cached until another is evaluated.</remarks>
     internal sealed class BarrierEnergy : EnergyTerm
@@ -34,8 +37,9 @@ namespace Guidewire.Core
         private readonly NeighbourList _near;
         private readonly SheathedNodes _nodes;
         private int _inside;                      // nodes in the sheath in the current shape
-        private readonly Vector3d[] _x;           // of the current shape, units
-        private readonly Vector3d[] _to;          // where its nodes move to, units
+        private readonly WallImages _now;         // nodes of the current shape
+        private readonly WallImages _next;        // where they move to
+        private readonly Vector3d[][] _x;         // of the current shape, by wall, units
         private double _maxGap;                   // the least range of all barriers, m
         private readonly double[] _nodeGap;       // by wall and node, m, no more than the barrier's distance
         private readonly double[] _edgeGap;      // by wall and element, between its nodes
@@ -67,9 +71,11 @@ namespace Guidewire.Core
             _laws = WallLaw.Of(rod, walls, _units, barrier);
             walls = Array.ConvertAll(_laws, law => law.Wall);
             _walls = walls;
-            _nodes = new SheathedNodes(sheath, walls, metresPerUnit);
-            _x = new Vector3d[n + 1];
-            _to = new Vector3d[n + 1];
+            Fields = new WallFields(walls);
+            _nodes = new SheathedNodes(sheath, walls, metresPerUnit, Fields);
+            _now = new WallImages(Fields, n + 1);
+            _next = new WallImages(Fields, n + 1);
+            _x = _now.OnWall;
             _range = new double[n];
             // Lists of features of points grow with the square of the skin, all others hardly grow.
             double skin = Array.Exists(walls, wall => wall.IsSurface)
@@ -78,7 +84,7 @@ namespace Guidewire.Core
             _near = new NeighbourList(walls, _range, _units * skin);
             _nodeGap = new double[walls.Length * (n + 1)];
             _edgeGap = new double[walls.Length * n];
-            _motion = new GapMotion(rod, _laws, _near, (_x, _to), (_nodeGap, _edgeGap), _units);
+            _motion = new GapMotion(rod, _laws, _near, (_x, _next.OnWall), (_nodeGap, _edgeGap), _units);
             _sums = new ContactSums(n, walls.Length);
             _resultant = new Vector3d[walls.Length];
             _lag = WallLag.Of(_laws, rod);
@@ -127,6 +133,25 @@ namespace Guidewire.Core
         /// <summary>The nodes as walls meet them.</summary>
         public SheathedNodes Nodes => _nodes;
 
+        /// <summary>Where walls that move are.</summary>
+        public WallFields Fields { get; }
+
+        /// <summary>Walls are where they are at this time, s.</summary>
+        public override void SetTime(double time)
+        {
+            if (Fields.SetTime(time))
+            {
+                WallsMoved();
+            }
+        }
+
+        /// <summary>Walls are elsewhere than when the shape was evaluated last.</summary>
+        public void WallsMoved()
+        {
+            _isKnown = false;
+            _nodes.WallsMoved();
+        }
+
         /// <summary>Estimates of the contact forces in the shape last evaluated.</summary>
         public ContactMultipliers Multipliers => _sums.Multipliers;
 
@@ -159,9 +184,9 @@ namespace Guidewire.Core
         /// <inheritdoc/>
         public override void BeginStep(RodShape shape, double dt)
         {
-            foreach (WallLaw law in _laws)
+            for (int w = 0; w < _laws.Length; w++)
             {
-                _isKnown &= !law.FollowRegions(shape);
+                _isKnown &= !_laws[w].FollowRegions(shape, w, Fields);
             }
             if (_lag != null)
             {
@@ -174,11 +199,12 @@ namespace Guidewire.Core
         /// <param name="free">Where the nodes would be with the velocities v^, m.</param>
         /// <param name="velocities">v^, m/s.</param>
         /// <param name="h">The stage's length, s.</param>
-        public void BeginStage(Vector3d[] free, Vector3d[] velocities, double h)
+        /// <param name="around">Velocities of moving walls at the nodes, m/s; null where none moves.</param>
+        public void BeginStage(Vector3d[] free, Vector3d[] velocities, double h, Vector3d[]? around = null)
         {
             if (_lag != null)
             {
-                _lag.BeginStage(free, velocities, h);
+                _lag.BeginStage(free, velocities, h, around);
                 Evaluate(_lag.Reference);
                 _lag.TakeReference();
             }
@@ -241,7 +267,13 @@ namespace Guidewire.Core
             double tried = 1.0;
             for (int k = 0; k < MaxCuts; k++)
             {
-                double fraction = _motion.MaxStep(_nodes.Move(shape, direction, tried * step, _x, _to), _minGap);
+                double longest = _nodes.Move(shape, direction, tried * step, _now.InSpace, _next.InSpace);
+                if (Fields.Carrier >= 0)
+                {
+                    _next.Map(_rod.ElementCount + 1);
+                    longest = Math.Max(longest, _now.LongestTo(_next, _rod.ElementCount + 1));
+                }
+                double fraction = _motion.MaxStep(longest, _minGap);
                 if (!_nodes.LeavesLumen && (fraction == 1.0 || !_nodes.LeavesSheath))
                 {
                     return tried * fraction;
@@ -257,9 +289,33 @@ namespace Guidewire.Core
         public NeighbourList Near(RodShape shape, RodShape other)
         {
             Update(other);
-            _nodes.Set(shape, _to);
-            _near.Follow(_to);
+            _nodes.Set(shape, _next.InSpace);
+            _next.Map(_rod.ElementCount + 1, true);
+            _near.Follow(_next.OnWall);
             return _near;
+        }
+
+        /// <summary>The nodes of a shape as wall w sees them, units; until another is evaluated.</summary>
+        public Vector3d[] ImagesOf(RodShape shape, int w)
+        {
+            Update(shape);
+            return _x[w];
+        }
+
+        /// <summary>A point of the wire, units, as wall w sees it.</summary>
+        public Vector3d OnWall(int w, in Vector3d x) => Fields.AtRest(w, x);
+
+        /// <summary>The way in space by which a point of the wire comes off wall w the fastest, for a unit of distance
+        /// along the normal of the wall at rest.</summary>
+        public Vector3d Away(int w, in Vector3d x, in Vector3d normal)
+        {
+            if (Fields.Of[w] == null || normal == Vector3d.Zero)
+            {
+                return normal;
+            }
+            Fields.Of[w]!.AtRest(x, out Matrix3 gradient);
+            Vector3d away = gradient.TransposeTimes(normal);
+            return (1.0 / away.LengthSquared) * away;
         }
 
         /// <summary>Gives the gap between node i and wall w in the shape last evaluated, m, no more than the barrier's
@@ -299,13 +355,14 @@ namespace Guidewire.Core
         {
             double radius = _laws[w].RadiusOfNode(i);
             _contactPoints.Clear();
-            _walls[w].FindContactPoints(_x[i], _units * (radius + gap), _near.FeaturesOfNode(w, i, _x[i]),
-                _contactPoints);
+            Vector3d x = _x[w][i];
+            _walls[w].FindContactPoints(x, _units * (radius + gap), _near.FeaturesOfNode(w, i, x), _contactPoints);
             _walls[w].TurnToWire(_contactPoints);
             for (int k = 0; k < _contactPoints.Count; k++)
             {
                 SurfaceContact contact = _contactPoints[k].Contact;
-                Move(shape, i, Lacking(gap, contact.Distance, radius) * contact.Normal);
+                Move(shape, i, Lacking(gap, contact.Distance, radius)
+                    * Away(w, _now.InSpace[i], contact.Normal));
             }
         }
 
@@ -313,8 +370,9 @@ namespace Guidewire.Core
         {
             double radius = _laws[w].RadiusOf(j);
             _edgeContacts.Clear();
-            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + gap),
-                _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
+            Vector3d[] x = _x[w];
+            _walls[w].FindEdgeContacts(x[j], x[j + 1], _units * (radius + gap),
+                _near.FeaturesOf(w, j, x[j], x[j + 1]), _edgeContacts);
             for (int k = 0; k < _edgeContacts.Count; k++)
             {
                 EdgeContact edge = _edgeContacts[k];
@@ -324,7 +382,8 @@ namespace Guidewire.Core
                 double sum = first * (1.0 - edge.Position) + second * second;
                 if (sum > 0.0)
                 {
-                    Vector3d move = Lacking(gap, edge.Distance, radius) / sum * edge.Normal;
+                    Vector3d move = Lacking(gap, edge.Distance, radius) / sum
+                        * Away(w, _now.InSpace[j], edge.Normal);
                     Move(shape, j, first * move);
                     Move(shape, j + 1, second * move);
                 }
@@ -342,7 +401,11 @@ namespace Guidewire.Core
         private void Move(RodShape shape, int node, in Vector3d move)
         {
             shape.X[node] += move;
-            _x[node] = _units * shape.X[node];
+            _now.InSpace[node] = _units * shape.X[node];
+            for (int w = 0; w < _walls.Length && Fields.Carrier >= 0; w++)
+            {
+                _x[w][node] = Fields.AtRest(w, _now.InSpace[node]);
+            }
         }
 
         private void Update(RodShape shape) => Update(shape, 0, _rod.ElementCount + 1);
@@ -354,14 +417,15 @@ namespace Guidewire.Core
             bool isSame = _isKnown && _near.IsCurrent && inside == _inside;
             for (int i = from; i < to && isSame; i++)
             {
-                isSame = _nodes.Place(shape.X[i], i < inside) == _x[i];
+                isSame = _nodes.Place(shape.X[i], i < inside) == _now.InSpace[i];
             }
             if (isSame)
             {
                 return;
             }
             _sums.Clear();
-            _inside = _nodes.Set(shape, _x);
+            _inside = _nodes.Set(shape, _now.InSpace);
+            _now.Map(_rod.ElementCount + 1, true);
             Array.Clear(_resultant, 0, _resultant.Length);
             SeesBehind = false;
             _isKnown = true;
@@ -380,11 +444,11 @@ namespace Guidewire.Core
             int n = _rod.ElementCount;
             for (int j = Math.Max(_inside - 1, 0); j <= n; j++)
             {
-                if (j >= _inside && _near.NodeMayBeInRange(w, j, _x))
+                if (j >= _inside && _near.NodeMayBeInRange(w, j, _x[w]))
                 {
                     AddNode(w, j);
                 }
-                if (j < n && _near.MayBeInRange(w, j, _x))
+                if (j < n && _near.MayBeInRange(w, j, _x[w]))
                 {
                     AddElement(w, j);
                 }
@@ -399,12 +463,13 @@ namespace Guidewire.Core
         {
             double radius = _laws[w].RadiusOfNode(i);
             ref readonly Barrier barrier = ref _laws[w].OfNode(i);
+            Vector3d x = _x[w][i];
             _contactPoints.Clear();
             double distance = _walls[w].FindContactPoints(
-                _x[i], _units * (radius + barrier.Distance), _near.FeaturesOfNode(w, i, _x[i]), _contactPoints);
+                x, _units * (radius + barrier.Distance), _near.FeaturesOfNode(w, i, x), _contactPoints);
             if (_contactPoints.Count == 0)
             {
-                _near.SetDistanceOfNode(w, i, _x[i], distance);
+                _near.SetDistanceOfNode(w, i, x, distance);
                 return;
             }
             SeesBehind |= _walls[w].TurnToWire(_contactPoints);
@@ -451,6 +516,11 @@ namespace Guidewire.Core
             {
                 return;
             }
+            if (_now.GradientOf(w) is Matrix3[] map)
+            {
+                gradient = map[i].TransposeTimes(gradient);
+                second = map[i].Congruent(second);
+            }
             _resultant[w] -= gradient;
             Symmetric3 positive = second.PositivePart();
             _sums.AddNode(w, i, gradient, positive, second + (-1.0) * positive, nearest, felt,
@@ -463,8 +533,10 @@ namespace Guidewire.Core
             double range = _laws[w].DistanceOf(j);
             _edgeContacts.Clear();
             ref double nearest = ref _edgeGap[w * _rod.ElementCount + j];
-            _walls[w].FindEdgeContacts(_x[j], _x[j + 1], _units * (radius + range),
-                _near.FeaturesOf(w, j, _x[j], _x[j + 1]), _edgeContacts);
+            Vector3d[] x = _x[w];
+            _walls[w].FindEdgeContacts(x[j], x[j + 1], _units * (radius + range),
+                _near.FeaturesOf(w, j, x[j], x[j + 1]), _edgeContacts);
+            Matrix3[]? map = _now.GradientOf(w);
             int first = _sums.Contacts.Count;
             double stiffness = 0.0;
             for (int k = 0; k < _edgeContacts.Count; k++)
@@ -486,8 +558,8 @@ namespace Guidewire.Core
                 }
                 _value += edge.Weight * value;
                 stiffness += edge.Weight * curvature;
-                _resultant[w] -= _sums.AddEdgeContact(w, j, edge, _x[j + 1] - _x[j], _units, value, slope, curvature,
-                    _laws[w].DisplacementAt(gap, range));
+                _resultant[w] -= _sums.AddEdgeContact(w, j, edge, x[j + 1] - x[j], _units, value, slope, curvature,
+                    _laws[w].DisplacementAt(gap, range), map);
             }
             _sums.EndElement(w, j, first, stiffness, nearest, _laws[w].BarrierOf(j));
         }

@@ -98,11 +98,23 @@ namespace Guidewire.Core
         /// <param name="slope">b', N.</param>
         /// <param name="curvature">b'', N/m.</param>
         /// <param name="displacement">Of the wall, m.</param>
+        /// <param name="map">G by node, where a wall moves; null where it stands still.</param>
         /// <returns>The sum of the gradients, N.</returns>
         public Vector3d AddEdgeContact(int w, int j, in EdgeContact edge, in Vector3d chord, double units, double value,
-            double slope, double curvature, double displacement)
+            double slope, double curvature, double displacement, Matrix3[]? map = null)
         {
             double s = edge.Position;
+            if (map != null)
+            {
+                var others = new PairSums(this, j);
+                PairSums.Clear(this, j);
+                AddEdgeContact(w, j, edge, chord, units, value, slope, curvature, displacement);
+                new PairSums(this, j).AddMapped(this, j, map[j], map[j + 1], others);
+                Vector3d one = edge.Weight * slope * edge.Normal;
+                Contacts[Contacts.Count - 1] = new WallContact(w, j, s, -(1.0 - s) * map[j].TransposeTimes(one)
+                    - s * map[j + 1].TransposeTimes(one), false, displacement);
+                return _gradient[j] - others.First + (_gradient[j + 1] - others.Second);
+            }
             double r = 1.0 - s;
             Vector3d force = (edge.Weight * slope) * edge.Normal;
             Vector3d first = r * force + (value * units) * edge.WeightAlongA;
@@ -232,6 +244,56 @@ namespace Guidewire.Core
             _ownBending[j + 1] += Symmetric3.Pair(weight, cNext, dNext);
             _couplingBending[j] += Symmetric3.Pair(0.5 * weight, cNext, d) + Symmetric3.Pair(0.5 * weight, dNext, c);
             _couplingTurn[j] -= (0.5 * weight) * (Vector3d.Cross(cNext, d) + Vector3d.Cross(dNext, c));
+        }
+
+        /// <summary>The sums of the two nodes of an element and between them.</summary>
+        private readonly struct PairSums
+        {
+            public readonly Vector3d First;     // gradients
+            public readonly Vector3d Second;
+            private readonly Symmetric3 _ownFirst;
+            private readonly Symmetric3 _ownSecond;
+            private readonly Symmetric3 _bendingFirst;
+            private readonly Symmetric3 _bendingSecond;
+            private readonly Symmetric3 _coupling;
+            private readonly Symmetric3 _couplingBending;
+            private readonly Vector3d _turn;
+
+            public PairSums(ContactSums of, int j)
+            {
+                (First, Second) = (of._gradient[j], of._gradient[j + 1]);
+                (_ownFirst, _ownSecond) = (of._own[j], of._own[j + 1]);
+                (_bendingFirst, _bendingSecond) = (of._ownBending[j], of._ownBending[j + 1]);
+                (_coupling, _couplingBending, _turn) = (of._coupling[j], of._couplingBending[j], of._couplingTurn[j]);
+            }
+
+            public static void Clear(ContactSums of, int j) => default(PairSums).Set(of, j);
+
+            /// <summary>Adds others to these as they are in space: G^T g, G^T H G.</summary>
+            public void AddMapped(ContactSums of, int j, in Matrix3 first, in Matrix3 second, in PairSums others)
+            {
+                Vector3d turn = Vector3d.Zero;
+                Symmetric3 coupling = second.Congruent(_coupling, first, ref turn);
+                Vector3d bending = _turn;
+                Symmetric3 couplingBending = second.Congruent(_couplingBending, first, ref bending);
+                of._gradient[j] = others.First + first.TransposeTimes(First);
+                of._gradient[j + 1] = others.Second + second.TransposeTimes(Second);
+                of._own[j] = others._ownFirst + first.Congruent(_ownFirst);
+                of._own[j + 1] = others._ownSecond + second.Congruent(_ownSecond);
+                of._ownBending[j] = others._bendingFirst + first.Congruent(_bendingFirst);
+                of._ownBending[j + 1] = others._bendingSecond + second.Congruent(_bendingSecond);
+                of._coupling[j] = others._coupling + coupling;
+                of._couplingBending[j] = others._couplingBending + couplingBending;
+                of._couplingTurn[j] = others._turn + turn + bending;
+            }
+
+            private void Set(ContactSums of, int j)
+            {
+                (of._gradient[j], of._gradient[j + 1]) = (First, Second);
+                (of._own[j], of._own[j + 1]) = (_ownFirst, _ownSecond);
+                (of._ownBending[j], of._ownBending[j + 1]) = (_bendingFirst, _bendingSecond);
+                (of._coupling[j], of._couplingBending[j], of._couplingTurn[j]) = (_coupling, _couplingBending, _turn);
+            }
         }
     }
 }

@@ -24,5 +24,11 @@ namespace Guidewire.Core
 
         /// <summary>d at the step's start, m, along the wall.</summary>
         public Vector3d Start;
+
+        /// <summary>Where the element's nodes were at the step's start, carried with the wall since, m.</summary>
+        public (Vector3d First, Vector3d Second) From;
+
+        /// <summary>The element's frame at the step's start, turned with the wall since.</summary>
+        public Quaterniond Frame;
     }
 }

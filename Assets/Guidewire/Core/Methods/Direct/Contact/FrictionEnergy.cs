@@ -29,6 +29,8 @@ namespace Guidewire.Core
         private readonly double[] _limitSum;          // sum of the limits by anchor, N
         private readonly Vector3d[] _start;       // x_0, m
         private readonly Quaterniond[] _frames;   // q_0
+        private readonly Vector3d[]?[] _onWall;   // of moving walls: where they saw the nodes at the start, units
+        private readonly Quaterniond[]?[] _wallTurn;   // turn of these walls at the elements at the start
         private readonly double[] _coefficient;   // of elements with one of their own on all walls; else NaN
         private int _elements;
 
@@ -44,6 +46,8 @@ namespace Guidewire.Core
             _start = new Vector3d[capacity + 1];
             _frames = new Quaterniond[capacity];
             Array.Fill(_frames, Quaterniond.Identity);
+            _onWall = Array.ConvertAll(barrier.Fields.Of, field => field == null ? null : new Vector3d[capacity + 1]);
+            _wallTurn = Array.ConvertAll(barrier.Fields.Of, field => field == null ? null : new Quaterniond[capacity]);
             _coefficient = new double[capacity];
             Array.Fill(_coefficient, double.NaN);
             Anchors = new FrictionAnchors(barrier.Walls.Length, elementCount, capacity);
@@ -94,6 +98,43 @@ namespace Guidewire.Core
         {
             Array.Copy(shape.X, _start, _elements + 1);
             Array.Copy(shape.Q, _frames, _elements);
+            for (int w = 0; w < _onWall.Length; w++)
+            {
+                if (_onWall[w] is Vector3d[] nodes)
+                {
+                    Array.Copy(_barrier.ImagesOf(shape, w), nodes, _elements + 1);
+                    for (int j = 0; j < _elements; j++)
+                    {
+                        _wallTurn[w]![j] = TurnOfWall(w, 0.5 * (shape.X[j] + shape.X[j + 1]));
+                    }
+                }
+            }
+            for (int k = 0; k < _contacts.Count; k++)
+            {
+                ref FrictionContact contact = ref _contacts[k];
+                contact.From = (_start[contact.Element], _start[contact.Element + 1]);
+                contact.Frame = _frames[contact.Element];
+            }
+        }
+
+        private Quaterniond TurnOfWall(int w, in Vector3d x) =>
+            _barrier.Fields.Of[w]!.TurnAt(_barrier.UnitsPerMetre * x);
+
+        // Since the step's start, at element j; where its nodes were is carried along.
+        private Quaterniond Carry(int w, int j, ref FrictionContact contact)
+        {
+            contact.From = (_start[j], _start[j + 1]);
+            contact.Frame = _frames[j];
+            if (!(_barrier.Fields.Of[w] is WallField field))
+            {
+                return Quaterniond.Identity;
+            }
+            double metres = 1.0 / _barrier.UnitsPerMetre;
+            contact.From = (metres * field.Moved(_onWall[w]![j]), metres * field.Moved(_onWall[w]![j + 1]));
+            Quaterniond turn = TurnOfWall(w, 0.5 * (contact.From.First + contact.From.Second))
+                * _wallTurn[w]![j].Conjugate;
+            contact.Frame = turn * contact.Frame;
+            return turn;
         }
 
         /// <summary>Takes over normal forces and normals from a shape.</summary>
@@ -113,11 +154,15 @@ namespace Guidewire.Core
                 {
                     int index = Anchors.IndexOf(contact);
                     _limitSum[index] += limit;
-                    _contacts.Add(new FrictionContact
+                    var sliding = new FrictionContact
                     {
                         Index = index, Element = contact.Element, Position = contact.Position,
                         Normal = contact.Normal, Limit = limit,
-                    });
+                    };
+                    Quaterniond turn = Carry(contact.Wall, contact.Element, ref sliding);
+                    sliding.Start = turn == Quaterniond.Identity ? Anchors[index].Force
+                        : Quaterniond.Rotate(turn, Anchors[index].Force);
+                    _contacts.Add(sliding);
                 }
             }
             for (int k = 0; k < _contacts.Count; k++)
@@ -127,7 +172,7 @@ namespace Guidewire.Core
                 double limitSum = _limitSum[contact.Index];
                 double stiffness = Math.Max(anchor.Stiffness, limitSum / ElasticSlip);
                 contact.Stiffness = contact.Limit / limitSum * stiffness;
-                contact.Start = Turned((1.0 / stiffness) * anchor.Force, contact.Normal);
+                contact.Start = Turned((1.0 / stiffness) * contact.Start, contact.Normal);
             }
         }
 
@@ -253,9 +298,9 @@ namespace Guidewire.Core
             int j = contact.Element;
             double s = contact.Position;
             Vector3d n = contact.Normal;
-            turn = RotationVector.Log(_frames[j].Conjugate * shape.Q[j]);
-            Vector3d move = (1.0 - s) * (shape.X[j] - _start[j]) + s * (shape.X[j + 1] - _start[j + 1])
-                + _barrier.RadiusOf(j) * Vector3d.Cross(n, Quaterniond.Rotate(_frames[j], turn));
+            turn = RotationVector.Log(contact.Frame.Conjugate * shape.Q[j]);
+            Vector3d move = (1.0 - s) * (shape.X[j] - contact.From.First) + s * (shape.X[j + 1] - contact.From.Second)
+                + _barrier.RadiusOf(j) * Vector3d.Cross(n, Quaterniond.Rotate(contact.Frame, turn));
             return move - Vector3d.Dot(move, n) * n;
         }
 
@@ -265,7 +310,7 @@ namespace Guidewire.Core
             Vector3d force = StiffnessAt(contact, z) * z;
             gradient[j].AddX((1.0 - contact.Position) * force);
             gradient[j + 1].AddX(contact.Position * force);
-            Vector3d couple = Quaterniond.Rotate(_frames[j].Conjugate,
+            Vector3d couple = Quaterniond.Rotate(contact.Frame.Conjugate,
                 _barrier.RadiusOf(j) * Vector3d.Cross(force, contact.Normal));
             couple = InverseTangent(-turn, couple);
             gradient[j].AddT(couple);
@@ -302,7 +347,7 @@ namespace Guidewire.Core
         {
             int j = contact.Element;
             return _barrier.RadiusOf(j)
-                * Vector3d.Cross(contact.Normal, Quaterniond.Rotate(_frames[j], InverseTangent(turn, e)));
+                * Vector3d.Cross(contact.Normal, Quaterniond.Rotate(contact.Frame, InverseTangent(turn, e)));
         }
 
         // J^-1(phi) v: how phi changes with a turn v along the element's own axes; the transpose with -phi.

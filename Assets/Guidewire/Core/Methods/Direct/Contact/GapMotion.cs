@@ -10,15 +10,15 @@ namespace Guidewire.Core
 
         private readonly WallLaw[] _laws;         // by wall
         private readonly NeighbourList _near;
-        private readonly Vector3d[] _x;           // where the nodes are, units
-        private readonly Vector3d[] _to;          // where they move to, units
+        private readonly Vector3d[][] _x;         // where the nodes are, by wall, units
+        private readonly Vector3d[][] _to;        // where they move to, by wall, units
         private readonly double[] _nodeGap;       // by wall and node, m
         private readonly double[] _edgeGap;       // by wall and element, m
         private readonly double _units;           // per metre
         private readonly MaterialRod _rod;
 
         /// <summary>Of a wire whose places and gaps are kept elsewhere.</summary>
-        public GapMotion(MaterialRod rod, WallLaw[] laws, NeighbourList near, (Vector3d[] Now, Vector3d[] Next) nodes,
+        public GapMotion(MaterialRod rod, WallLaw[] laws, NeighbourList near, (Vector3d[][] Now, Vector3d[][] Next) nodes,
             (double[] OfNodes, double[] OfElements) gaps, double units)
         {
             _laws = laws;
@@ -82,11 +82,11 @@ namespace Guidewire.Core
         {
             int n = _rod.ElementCount;
             double motion = fraction * Math.Sqrt(
-                Math.Max((_to[j] - _x[j]).LengthSquared, (_to[j + 1] - _x[j + 1]).LengthSquared));
+                Math.Max((_to[w][j] - _x[w][j]).LengthSquared, (_to[w][j + 1] - _x[w][j + 1]).LengthSquared));
             gap = Math.Min(Math.Min(_nodeGap[w * (n + 1) + j], _nodeGap[w * (n + 1) + j + 1]),
                 _edgeGap[w * n + j]) * _units;
             double most = motion + _laws[w].MaxClearance(j);
-            bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x, most);
+            bool isFar = motion < QuickFraction * gap || !_near.MayBeInRange(w, j, _x[w], most);
             gap = isFar ? 0.0 : gap;
             return !isFar;
         }
@@ -97,7 +97,7 @@ namespace Guidewire.Core
             double free = MaxStepOf(w, j, fraction, radius, gap, hint);
             if (free == 0.0)
             {
-                _laws[w].Wall.Nearest(_x[j], _x[j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
+                _laws[w].Wall.Nearest(_x[w][j], _x[w][j + 1], double.PositiveInfinity, ref hint, out SurfaceContact contact);
                 gap = _laws[w].Wall.UnsignedDistance(contact.Distance) - radius;
                 free = MaxStepOf(w, j, fraction, radius, gap, hint);
             }
@@ -108,20 +108,20 @@ namespace Guidewire.Core
         {
             double left = _laws[w].LeftOf(j, gap);
             double resolution = WallLaw.Resolution(radius, gap, left);
-            return gap > 0.0 ? _laws[w].Wall.ConservativeTimeOfImpact(_x[j], _x[j + 1], _to[j], _to[j + 1],
-                radius + left, resolution, hint, _near.FeaturesAlong(w, j, _x, _to, fraction), fraction) : 0.0;
+            return gap > 0.0 ? _laws[w].Wall.ConservativeTimeOfImpact(_x[w][j], _x[w][j + 1], _to[w][j], _to[w][j + 1],
+                radius + left, resolution, hint, _near.FeaturesAlong(w, j, _x[w], _to[w], fraction), fraction) : 0.0;
         }
 
         private double MaxStepOfNode(int w, int i, double fraction, double radius, double gap, double left)
         {
             double distance = _units * (_laws[w].RadiusOfNode(i) + _nodeGap[w * (_rod.ElementCount + 1) + i]);
             double clearance = radius + left;
-            if (fraction * Vector3d.Distance(_x[i], _to[i]) <= QuickFraction * (distance - clearance))
+            if (fraction * Vector3d.Distance(_x[w][i], _to[w][i]) <= QuickFraction * (distance - clearance))
             {
                 return fraction;
             }
-            return gap > 0.0 ? _laws[w].Wall.ConservativeTimeOfImpact(_x[i], _x[i], _to[i], _to[i], clearance,
-                WallLaw.Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x, _to, fraction), fraction)
+            return gap > 0.0 ? _laws[w].Wall.ConservativeTimeOfImpact(_x[w][i], _x[w][i], _to[w][i], _to[w][i], clearance,
+                WallLaw.Resolution(radius, gap, left), -1, _near.FeaturesAlongNode(w, i, _x[w], _to[w], fraction), fraction)
                 : 0.0;
         }
     }

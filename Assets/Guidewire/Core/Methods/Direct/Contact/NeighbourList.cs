@@ -120,8 +120,8 @@ namespace Guidewire.Core
         }
 
         /// <summary>Repeats the queries of nodes and elements that have moved farther than the skin.</summary>
-        /// <param name="x">The wire's n + 1 nodes.</param>
-        public void Follow(Vector3d[] x)
+        /// <param name="nodes">The wire's n + 1 nodes, as each wall sees them.</param>
+        public void Follow(Vector3d[][] nodes)
         {
             if (_features.Count > _maxFeatures)
             {
@@ -133,6 +133,7 @@ namespace Guidewire.Core
             int n = _count;
             for (int w = 0; w < _walls.Length; w++)
             {
+                Vector3d[] x = nodes[w];
                 FollowNodes(w, x);
                 for (int j = 0; j < n; j++)
                 {
@@ -249,13 +250,13 @@ namespace Guidewire.Core
         public ref int HintOf(int w, int j) => ref _hint[w * _count + j];
 
         /// <summary>Lower bound of the distance of element j from all walls.</summary>
-        /// <param name="x">Nodes of the wire.</param>
-        public double ClearanceOf(Vector3d[] x, int j)
+        /// <param name="x">Nodes of the wire, as each wall sees them.</param>
+        public double ClearanceOf(Vector3d[][] x, int j)
         {
             double clearance = double.PositiveInfinity;
             for (int w = 0; w < _walls.Length; w++)
             {
-                clearance = Math.Min(clearance, ClearanceOf(w, x, j));
+                clearance = Math.Min(clearance, ClearanceOf(w, x[w], j));
             }
             return clearance;
         }

@@ -17,11 +17,14 @@ namespace Guidewire.Core
         private readonly double _metres;     // per unit of the walls
         private readonly double _units;      // per metre
         private double _clearance;           // of the exit, m
+        private readonly WallFields? _fields;
 
         /// <param name="sheath">Null: no node is in one.</param>
         /// <param name="metres">Of a unit of the walls.</param>
-        public SheathedNodes(SheathEnd? sheath, ContactShape[] walls, double metres)
+        /// <param name="fields">Where walls are that move; null: none does.</param>
+        public SheathedNodes(SheathEnd? sheath, ContactShape[] walls, double metres, WallFields? fields = null)
         {
+            _fields = fields;
             _sheath = sheath;
             _walls = walls;
             _metres = metres;
@@ -29,10 +32,14 @@ namespace Guidewire.Core
             Remesh();
         }
 
+        /// <summary>Walls are elsewhere.</summary>
+        public void WallsMoved() =>
+            _clearance = _sheath == null ? 0.0 : _metres * ClearanceAt(_units * _sheath.Exit);
+
         /// <summary>The wire has other elements, and walls may be where they were not.</summary>
         public void Remesh()
         {
-            _clearance = _sheath == null ? 0.0 : _metres * ClearanceAt(_units * _sheath.Exit);
+            WallsMoved();
             (LeavesLumen, LeavesSheath, HasBuckled) = (false, false, false);
         }
 
@@ -101,10 +108,11 @@ namespace Guidewire.Core
         private double ClearanceAt(in Vector3d exit)
         {
             double clearance = Range;
-            foreach (ContactShape wall in _walls)
+            for (int w = 0; w < _walls.Length; w++)
             {
                 int hint = -1;
-                if (wall.Nearest(exit, exit, Range, ref hint, out SurfaceContact contact))
+                Vector3d x = _fields?.AtRest(w, exit) ?? exit;
+                if (_walls[w].Nearest(x, x, Range, ref hint, out SurfaceContact contact))
                 {
                     clearance = Math.Min(clearance, contact.Distance);
                 }
@@ -119,9 +127,9 @@ namespace Guidewire.Core
             {
                 return false;
             }
-            foreach (ContactShape wall in _walls)
+            for (int w = 0; w < _walls.Length; w++)
             {
-                if (!wall.Contains(_units * atExit))
+                if (!_walls[w].Contains(_fields?.AtRest(w, _units * atExit) ?? _units * atExit))
                 {
                     return true;
                 }

@@ -63,12 +63,13 @@ namespace Guidewire.Core
             _step = dt;
         }
 
-        /// <summary>A stage begins, see <see cref="BarrierEnergy.BeginStage"/>; sets the reference.</summary>
-        public void BeginStage(Vector3d[] free, Vector3d[] velocities, double h)
+        /// <summary>A stage begins, see <see cref="BarrierEnergy.BeginStage"/>; sets the reference, which goes with moving
+        /// walls.</summary>
+        public void BeginStage(Vector3d[] free, Vector3d[] velocities, double h, Vector3d[]? around)
         {
             for (int i = 0; i < _nodes; i++)
             {
-                Reference.X[i] = free[i] - h * velocities[i];
+                Reference.X[i] = free[i] - h * (around == null ? velocities[i] : velocities[i] - around[i]);
             }
             _stage = h;
         }

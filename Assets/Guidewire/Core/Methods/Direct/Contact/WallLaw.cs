@@ -184,12 +184,14 @@ namespace Guidewire.Core
             Math.Min(Resolved * (radius + left), ResolvedOfGap * (gap - left));
 
         /// <summary>Takes the stiffness of the wall where the nodes are: it stays that for a step.</summary>
+        /// <param name="w">Which wall it is.</param>
+        /// <param name="fields">Where walls are that move.</param>
         /// <returns>Whether the wall has regions.</returns>
-        public bool FollowRegions(RodShape shape)
+        public bool FollowRegions(RodShape shape, int w, WallFields fields)
         {
             for (int i = 0; i <= _rod.ElementCount && _regions != null; i++)
             {
-                _factor[i] = _regions.StiffnessAt(_units * shape.X[i]) / _stiffness;
+                _factor[i] = _regions.StiffnessAt(fields.AtRest(w, _units * shape.X[i])) / _stiffness;
                 _current[i] = _node[i].Times(_factor[i]);
             }
             return _regions != null;

@@ -110,6 +110,10 @@ namespace Guidewire.Core
             Friction?.Anchors.Serialize(snapshot);
             SelfFriction?.SerializeAnchors(snapshot);
             Barrier.Lag?.Serialize(snapshot);
+            if (Barrier.Fields.Carrier >= 0)
+            {
+                Barrier.SetTime(snapshot.Serialize(Barrier.Fields.Time));
+            }
         }
 
         /// <summary>The spring; without effect where nothing holds node 0.</summary>

@@ -31,6 +31,7 @@ namespace Guidewire.Core
         private readonly WallStage? _walls;       // solves where there are walls
         private double _loads;                    // sum of their magnitudes in the stage, N
         private bool _hasPast;
+        private bool _isEuler;                    // the stage is a step of implicit Euler
 
         /// <summary>For a rod, which stages move from then on.</summary>
         /// <param name="stageCount">Of the scheme, an explicit one counted.</param>
@@ -136,8 +137,8 @@ namespace Guidewire.Core
         public void BeginStage(double[] row, double dt)
         {
             _inertia.StageLength = row[row.Length - 1] * dt;
+            _isEuler = row.Length == 1;
             Rates.Prepare(_inertia, row, dt, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory);
-            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, _inertia.StageLength);
             Damping?.BeginStage(row, dt);
             Inner.BeginStage(row, dt);
         }
@@ -147,18 +148,21 @@ namespace Guidewire.Core
         {
             double h = history.Prepare(_inertia, _startPositions, _motion.Velocities, _motion.Spins, _velocityHistory,
                 dt);
-            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h);
             Damping?.BeginStage(history.IsComplete, h);
+            _isEuler = !history.IsComplete;
             Inner.BeginStage(history.IsComplete);
         }
 
         /// <summary>Rates from the forces of this time are asked for, at the start of a step of length h, s.</summary>
         public void BeginRates(double time, double h)
         {
+            _walls?.Take(_shape);
             _terms.SetTime(_schedule, time);
             BeginDamping(time);
             Damping?.TakeMoment(h);
-            _terms.Walls()?.Barrier.BeginStage(_shape.X, _motion.Velocities, h);
+            Vector3d[]? around = _walls?.Around();
+            _terms.Walls()?.Barrier.BeginStage(_shape.X, _motion.Velocities, h, around);
+            Damping?.SetSurrounding(around);
         }
 
         /// <summary>The velocities in the last stage are those at the step's end.</summary>
@@ -196,7 +200,11 @@ namespace Guidewire.Core
             double h = _inertia.StageLength;
             double before = Math.Min(time, jump);
             _inertia.BeginStage();
+            _walls?.Take(_shape);
             _terms.SetTime(_schedule, before);
+            Vector3d[]? around = _walls?.Carry(_shape, _isEuler ? h : 0.0);
+            _terms.Walls()?.Barrier.BeginStage(_inertia.FreePositions, _velocityHistory, h, around);
+            Damping?.SetSurrounding(around);
             _loads = _schedule.Loads.SumAt(before, _terms.Mass.Total) + _terms.Followers.Force.Force.Length;
             string? failure = Frames.Turn(_shape, time, out bool inParts);
             if (failure != null)

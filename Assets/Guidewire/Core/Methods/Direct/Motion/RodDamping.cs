@@ -27,6 +27,7 @@ namespace Guidewire.Core
         private readonly Measures _history;   // y^
         private readonly Measures[] _rate;    // y' by stage
         private double _perStage;             // 1/h, 1/s; 0 before the first stage
+        private Vector3d[]? _around;          // velocities of what drag acts against, m/s
         private bool _hasBegun;
         private bool _hasBefore;
 
@@ -143,6 +144,10 @@ namespace Guidewire.Core
             SetSprings(1.0 / h);
         }
 
+        /// <summary>Drag acts against what is around the nodes; null: it is at rest.</summary>
+        /// <param name="velocities">Of that, m/s, in this stage.</param>
+        public void SetSurrounding(Vector3d[]? velocities) => _around = velocities;
+
         /// <summary>A stage has been solved in this shape.</summary>
         public void EndStage(int stage, RodShape shape)
         {
@@ -170,7 +175,7 @@ namespace Guidewire.Core
             if (_ofMass > 0.0)
             {
                 double scale = _ofMass * _perStage;
-                Vector3d next = shape.X[0] - _history.Position[0];
+                Vector3d next = Dragged(shape, 0);
                 int n = shape.ElementCount;
                 for (int i = 0; i <= n; i++)
                 {
@@ -178,7 +183,7 @@ namespace Guidewire.Core
                     sum += 0.5 * scale * _mass.Diagonal[i] * d.LengthSquared;
                     if (i < n)
                     {
-                        next = shape.X[i + 1] - _history.Position[i + 1];
+                        next = Dragged(shape, i + 1);
                         sum += scale * _mass.Coupling[i] * Vector3d.Dot(d, next);
                     }
                 }
@@ -262,16 +267,23 @@ namespace Guidewire.Core
             }
         }
 
+        // h times the velocity against what is around, m.
+        private Vector3d Dragged(RodShape shape, int i)
+        {
+            Vector3d moved = shape.X[i] - _history.Position[i];
+            return _around == null ? moved : moved - (1.0 / _perStage) * _around[i];
+        }
+
         private void AddDrag(RodShape shape, RodVector[] gradient, int from, int to)
         {
             double scale = _ofMass * _perStage;
             int last = Math.Min(to, _mass.ElementCount);
-            Vector3d moved = shape.X[from] - _history.Position[from];
+            Vector3d moved = Dragged(shape, from);
             Vector3d sum = gradient[from].X;
             for (int i = from; i < last; i++)
             {
                 Vector3d d = scale * moved;
-                moved = shape.X[i + 1] - _history.Position[i + 1];
+                moved = Dragged(shape, i + 1);
                 sum = sum + _mass.Diagonal[i] * d + (scale * _mass.Coupling[i]) * moved;
                 gradient[i].X = sum;
                 sum = gradient[i + 1].X + _mass.Coupling[i] * d;

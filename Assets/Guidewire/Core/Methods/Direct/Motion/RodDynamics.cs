@@ -160,6 +160,7 @@ namespace Guidewire.Core
                     string? failure = _stepper.Step(interval);
                     _work.Take(Newton.Iterations - before);
                     Time = interval.End;
+                    _terms.Walls()?.Barrier.SetTime(Time);    // the last stage's time has another rounding
                     failure ??= FindLost?.Invoke();
                     if (Clock.Accepts(interval, failure))
                     {

@@ -16,7 +16,8 @@ namespace Guidewire.Core
             WallTerms walls = dynamics.Terms.Walls()!;
             double start = dynamics.Time;
             double end = start + dt;
-            double move = Vector3d.Distance(schedule.Hub.PositionAt(end) - walls.Spring.LagOf(dynamics.Shape),
+            bool isCarried = walls.Barrier.Fields.Carrier >= 0 && !walls.HoldsStart;
+            double move = isCarried ? 0.0 : Vector3d.Distance(schedule.Hub.PositionAt(end) - walls.Spring.LagOf(dynamics.Shape),
                 dynamics.Shape.X[0]);
             move = Math.Max(move, schedule.InnerMove(dt));
             double turn = Math.Abs(schedule.Hub.FrameTurnAt(end) - dynamics.ProximalTurn)

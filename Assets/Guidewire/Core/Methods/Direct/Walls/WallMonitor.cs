@@ -7,6 +7,8 @@ namespace Guidewire.Core
     /// forces.</summary>
     internal sealed class WallMonitor : IWallClearance
     {
+        private const double Wide = 1.5;       // of the radius: strain and bend may bring a moving wall nearer
+
         private readonly MaterialRod _rod;
         private readonly WallTerms _walls;
         private readonly BarrierEnergy _barrier;
@@ -15,9 +17,13 @@ namespace Guidewire.Core
         private readonly double[] _radius;     // of elements, units
         private readonly int[] _hint;
         private readonly PassageCount _passages;
-        private readonly Vector3d[] _start;    // of the step, units
-        private readonly Vector3d[] _from;     // of the current part
-        private readonly Vector3d[] _to;
+        private readonly WallImages _start;    // of the step
+        private readonly WallImages _from;     // of the current part
+        private readonly WallImages _to;
+        private readonly Vector3d[] _forces;   // of the walls where the part begins, N; empty where none moves
+        private readonly Vector3d[] _ways;     // of the walls, units
+        private double _partBegan;             // s
+        private bool _hasForces;               // those of the part that comes next
         private readonly double[] _clearance;  // of elements from all walls at least, where a part begins, units
 
         /// <summary>A monitor of a rod between walls.</summary>
@@ -31,9 +37,11 @@ namespace Guidewire.Core
             _units = 1.0 / metresPerUnit;
             _radius = new double[n];
             _hint = new int[n * barrier.Walls.Length];
-            _start = new Vector3d[n + 1];
-            _from = new Vector3d[n + 1];
-            _to = new Vector3d[n + 1];
+            _start = new WallImages(barrier.Fields, n + 1);
+            _from = new WallImages(barrier.Fields, n + 1);
+            _to = new WallImages(barrier.Fields, n + 1);
+            _forces = new Vector3d[barrier.Fields.Carrier >= 0 ? n + 1 : 0];
+            _ways = new Vector3d[_forces.Length];
             _clearance = new double[n];
             _gradient = new RodVector[n + 2];
             _passages = new PassageCount(this, n);
@@ -50,8 +58,16 @@ namespace Guidewire.Core
                 Radius = Math.Min(Radius, _radius[j]);
             }
             Array.Fill(_hint, -1);
+            _hasForces = false;
             _passages.Remesh(_rod.ElementCount);
         }
+
+        /// <summary>Work that moving walls have done on the wire so far, J: the mean of their forces where a part of a
+        /// step begins and ends, times the ways of the wall at these nodes.</summary>
+        public double Work { get; private set; }
+
+        /// <summary>The most that <see cref="Work"/> has been, J.</summary>
+        public double MaxWork { get; private set; }
 
         /// <inheritdoc/>
         public ContactShape[] Walls => _barrier.Walls;
@@ -67,17 +83,59 @@ namespace Guidewire.Core
         {
             _passages.BeginStep();
             SetUnits(shape, _start);
-            Array.Copy(_start, _from, _rod.ElementCount + 1);
+            _from.CopyFrom(_start, _rod.ElementCount + 1);
             SetClearances(shape);
+            if (!_hasForces)
+            {
+                BeginWork(shape);
+            }
         }
 
         /// <summary>Takes the shape at the end of a part of the step.</summary>
         public void AddPart(RodShape shape)
         {
             SetUnits(shape, _to);
-            _passages.AddPart(_from, _to);
-            Array.Copy(_to, _from, _rod.ElementCount + 1);
+            for (int w = 0; w < Walls.Length; w++)
+            {
+                _passages.AddPart(w, _from.OnWall[w], _to.OnWall[w]);
+            }
+            AddWork(_from, _partBegan, _barrier.Fields.Time);
+            _from.CopyFrom(_to, _rod.ElementCount + 1);
+            double began = _partBegan;
             SetClearances(shape);
+            BeginWork(shape);
+            AddWork(_to, began, _partBegan);
+        }
+
+        private void BeginWork(RodShape shape)
+        {
+            if (_forces.Length > 0)
+            {
+                _hasForces = true;
+                _partBegan = _barrier.Fields.Time;
+                SetGradient(shape);
+                for (int i = 0; i <= _rod.ElementCount; i++)
+                {
+                    _forces[i] = -_gradient[i].X;
+                }
+            }
+        }
+
+        // Half of the work of the forces on these nodes while walls move between two times.
+        private void AddWork(WallImages nodes, double from, double to)
+        {
+            int w = _barrier.Fields.Carrier;
+            int count = _rod.ElementCount + 1;
+            if (w >= 0 && from != to)
+            {
+                Array.Copy(_forces, _ways, count);
+                _barrier.Fields.SetWays(w, nodes.OnWall[w], count, from, to, _ways);
+                for (int i = 0; i < count; i++)
+                {
+                    Work += 0.5 / _units * Vector3d.Dot(_forces[i], _ways[i]);
+                }
+                MaxWork = Math.Max(MaxWork, Work);
+            }
         }
 
         /// <summary>Why the step does not count, where after its parts an element of a wire that left a vessel by an
@@ -90,12 +148,13 @@ namespace Guidewire.Core
             int n = _rod.ElementCount;
             for (int w = 0; w < Walls.Length; w++)
             {
+                Vector3d[] x = _from.OnWall[w];
                 bool isInside = !Walls[w].IsSurface
-                    || (!_barrier.SeesBehind && Walls[w].Contains(_from[0]) && Walls[w].Contains(_from[n]));
+                    || (!_barrier.SeesBehind && Walls[w].Contains(x[0]) && Walls[w].Contains(x[n]));
                 for (int j = 0; j < n && !isInside; j++)
                 {
                     double radius = _units * _barrier.LawOf(w).RadiusOf(j);
-                    if (Walls[w].Nearest(_from[j], _from[j + 1], radius, ref _hint[w * n + j],
+                    if (Walls[w].Nearest(x[j], x[j + 1], radius, ref _hint[w * n + j],
                         out SurfaceContact contact) && Math.Abs(contact.Distance) < radius)
                     {
                         return string.Format(CultureInfo.InvariantCulture, "at t = {0:G6} s the wire, which left the "
@@ -120,7 +179,10 @@ namespace Guidewire.Core
         /// <summary>The step ends in this shape.</summary>
         public void EndStep(RodShape shape, ContactRecord record)
         {
-            _passages.EndStep(_start, _from);
+            for (int w = 0; w < Walls.Length; w++)
+            {
+                _passages.EndStep(w, _start.OnWall[w], _from.OnWall[w]);
+            }
             record.Passages = _passages.Total;
             double deepest = record.MaxPenetration;
             for (int w = 0; w < Walls.Length; w++)
@@ -129,8 +191,14 @@ namespace Guidewire.Core
                 {
                     ref int hint = ref _hint[w * _rod.ElementCount + j];
                     double radius = _units * _barrier.LawOf(w).RadiusOf(j);
+                    if (_barrier.Fields.Of[w] is WallField field)
+                    {
+                        deepest = Math.Max(deepest, DepthInSpace(w, j, field, radius, ref hint));
+                        continue;
+                    }
+                    Vector3d[] x = _from.InSpace;
                     if (_clearance[j] < radius
-                        && Walls[w].Nearest(_from[j], _from[j + 1], radius, ref hint, out SurfaceContact contact))
+                        && Walls[w].Nearest(x[j], x[j + 1], radius, ref hint, out SurfaceContact contact))
                     {
                         double distance = Walls[w].IsSurface ? Math.Abs(contact.Distance) : contact.Distance;
                         deepest = Math.Max(deepest, radius - distance);
@@ -141,14 +209,43 @@ namespace Guidewire.Core
             TakeForces(shape, record);
         }
 
+        // How deep the straight element is in a wall that moves, by distances in space: those at rest over the length of
+        // their gradient, at the points of the element that may be nearest.
+        private double DepthInSpace(int w, int j, WallField field, double radius, ref int hint)
+        {
+            const int Pieces = 4;
+            double deepest = 0.0;
+            for (int k = 0; k <= Pieces && _clearance[j] < Wide * radius; k++)
+            {
+                Vector3d x = Vector3d.Lerp(_from.InSpace[j], _from.InSpace[j + 1], (double)k / Pieces);
+                Vector3d image = field.AtRest(x, out Matrix3 gradient);
+                if (Walls[w].Nearest(image, image, Wide * radius, ref hint, out SurfaceContact contact))
+                {
+                    double distance = Walls[w].IsSurface ? Math.Abs(contact.Distance) : contact.Distance;
+                    deepest = Math.Max(deepest,
+                        radius - distance / gradient.TransposeTimes(contact.Normal).Length);
+                }
+            }
+            return deepest;
+        }
+
         /// <summary>Writes or restores the passages so far.</summary>
         public void Serialize(Snapshot snapshot) => _passages.Serialize(snapshot);
+
+        /// <summary>Writes or restores the work of moving walls.</summary>
+        public void SerializeWork(Snapshot snapshot)
+        {
+            Work = snapshot.Serialize(Work);
+            MaxWork = snapshot.Serialize(MaxWork);
+            snapshot.Serialize(ref _partBegan);
+            snapshot.Serialize(ref _hasForces);
+            snapshot.Serialize(_forces, _rod.ElementCount + 1);
+        }
 
         private void TakeForces(RodShape shape, ContactRecord record)
         {
             Vector3d total = Vector3d.Zero;
-            Array.Clear(_gradient, 0, _rod.ElementCount + 2);
-            _walls.AddWallGradient(shape, _gradient);
+            SetGradient(shape);
             for (int i = 0; i <= _rod.ElementCount; i++)
             {
                 RodVector g = _gradient[i];
@@ -159,6 +256,16 @@ namespace Guidewire.Core
             record.WallForces = _barrier.Resultants;
         }
 
-        private void SetUnits(RodShape shape, Vector3d[] x) => _barrier.Nodes.Set(shape, x);
+        private void SetGradient(RodShape shape)
+        {
+            Array.Clear(_gradient, 0, _rod.ElementCount + 2);
+            _walls.AddWallGradient(shape, _gradient);
+        }
+
+        private void SetUnits(RodShape shape, WallImages x)
+        {
+            _barrier.Nodes.Set(shape, x.InSpace);
+            x.Map(_rod.ElementCount + 1);
+        }
     }
 }

@@ -32,6 +32,7 @@ namespace Guidewire.Core
         private readonly double[] _slideBefore;   // a stage before
         private Vector3d _start;
         private bool _isHeld;
+        private bool _hasLengths;
         private double _travel;                     // p, m
 
         /// <summary>For a rod under terms that hold walls.</summary>
@@ -68,6 +69,17 @@ namespace Guidewire.Core
             }
         }
 
+        /// <summary>Elements are to have the lengths that they have in this shape, before walls carry it
+        /// along.</summary>
+        public void TakeLengths(RodShape shape)
+        {
+            _hasLengths = true;
+            for (int i = 1; i <= shape.ElementCount; i++)
+            {
+                _length[i] = Vector3d.Distance(shape.X[i - 1], shape.X[i]);
+            }
+        }
+
         /// <summary>Takes a shape from which predictions start.</summary>
         /// <param name="shape">Where the wire is.</param>
         /// <param name="start">Where node 0 is to be, m.</param>
@@ -80,8 +92,12 @@ namespace Guidewire.Core
             {
                 _before[i] = shape.X[i];
                 _past[i] = 2.0 * shape.X[i] - _inertia.FreePositions[i];
-                _length[i] = i == 0 ? 0.0 : Vector3d.Distance(shape.X[i - 1], shape.X[i]);
             }
+            if (!_hasLengths)
+            {
+                TakeLengths(shape);
+            }
+            _hasLengths = false;
             Vector3d along = shape.Q[0].Director3;
             _isHeld = _supports.Proximal != ProximalEnd.Free;
             _start = start;
@@ -263,7 +279,7 @@ namespace Guidewire.Core
         }
 
         // The shortest turn from one direction to another.
-        private static Quaterniond ShortestRotation(in Vector3d from, in Vector3d to)
+        internal static Quaterniond ShortestRotation(in Vector3d from, in Vector3d to)
         {
             Vector3d across = Vector3d.Cross(from, to);
             double along = Vector3d.Dot(from, to) + from.Length * to.Length;

@@ -62,7 +62,7 @@ namespace Guidewire.Core
             double nearest = !touched ? asked
                 : Math.Min(Pulled * distance, distance + Pulled * _barrier.Barrier.Distance);
             _contactPoints.Clear();
-            Vector3d point = _units * x;
+            Vector3d point = _barrier.OnWall(w, _units * x);
             double range = _units * (radius + nearest);
             if (near.NodeMayBeInRange(w, i, point, range))
             {
@@ -83,7 +83,7 @@ namespace Guidewire.Core
                     normal = _contactPoints[k].Contact.Normal;
                 }
             }
-            x += (asked - nearest) * normal;
+            x += (asked - nearest) * _barrier.Away(w, _units * x, normal);
         }
 
         private void ProjectElement(int w, int j, NeighbourList near, RodShape shape, int last)
@@ -91,8 +91,8 @@ namespace Guidewire.Core
             double radius = _barrier.LawOf(w).RadiusOf(j);
             double asked = Math.Min(_barrier.EdgeGap(w, j), ProjectedTo * _barrier.LawOf(w).DistanceOf(j));
             _edgeContacts.Clear();
-            Vector3d start = _units * shape.X[j];
-            Vector3d end = _units * shape.X[j + 1];
+            Vector3d start = _barrier.OnWall(w, _units * shape.X[j]);
+            Vector3d end = _barrier.OnWall(w, _units * shape.X[j + 1]);
             _barrier.Walls[w].FindEdgeContacts(
                 start, end, _units * (radius + asked), near.FeaturesOf(w, j, start, end), _edgeContacts);
             for (int k = 0; k < _edgeContacts.Count; k++)
@@ -104,8 +104,9 @@ namespace Guidewire.Core
                     double a = j > 0 ? 1.0 - edgeContact.Position : 0.0;
                     double b = j < last ? edgeContact.Position : 0.0;
                     double fraction = (asked - gap) / Math.Max(a * a + b * b, MinLever);
-                    shape.X[j] += fraction * a * edgeContact.Normal;
-                    shape.X[j + 1] += fraction * b * edgeContact.Normal;
+                    Vector3d normal = _barrier.Away(w, _units * shape.X[j], edgeContact.Normal);
+                    shape.X[j] += fraction * a * normal;
+                    shape.X[j + 1] += fraction * b * normal;
                     return;
                 }
             }

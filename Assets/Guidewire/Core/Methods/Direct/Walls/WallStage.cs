@@ -6,12 +6,17 @@ namespace Guidewire.Core
     /// the prediction as the walls allow.</summary>
     internal sealed class WallStage
     {
+        private const double LeastFraction = 1e-6;
+
         private readonly RodTerms _terms;
         private readonly RodSupports _supports;
         private readonly WallPrediction _prediction;
         private readonly RodShape _predicted;
         private readonly RodVector[] _direction;
         private readonly EnergyTerm[] _all;
+        private readonly WallCarrier _carrier;
+        private readonly RodShape _start;
+        private Vector3d? _lag;                // of node 0 behind its support, before walls moved, m
 
         /// <summary>For a rod under terms that hold walls.</summary>
         /// <param name="all">Those and the terms of its motion.</param>
@@ -23,7 +28,26 @@ namespace Guidewire.Core
             _predicted = new RodShape(terms.Rod.ElementCount, terms.Supports.InnerCount, terms.Rod.Capacity);
             _direction = new RodVector[terms.VectorCapacity];
             _all = all;
+            _carrier = new WallCarrier(terms.Walls()!.Barrier, terms.Rod.Capacity);
+            _start = new RodShape(terms.Rod.ElementCount, terms.Supports.InnerCount, terms.Rod.Capacity);
         }
+
+        /// <summary>Takes where the wire is, before walls go to where they are in this stage.</summary>
+        public void Take(RodShape shape)
+        {
+            _lag = null;
+            if (_carrier.Take(shape))
+            {
+                _prediction.TakeLengths(shape);
+                _lag = _terms.Walls()!.Spring.LagOf(shape);
+            }
+        }
+
+        /// <summary>See <see cref="WallCarrier.Around"/>.</summary>
+        public Vector3d[]? Around() => _carrier.Around(0.0);
+
+        /// <summary>Carries the wire along with walls that have moved; see <see cref="WallCarrier.Carry"/>.</summary>
+        public Vector3d[]? Carry(RodShape shape, double since) => _carrier.Carry(shape, since);
 
         /// <summary>The rod has other elements.</summary>
         public void Remesh()
@@ -41,7 +65,7 @@ namespace Guidewire.Core
         public string? Begin(RodShape shape, Quaterniond[] orientations, in Vector3d start, in Vector3d end)
         {
             SupportSpring spring = _terms.Walls()!.Spring;
-            Vector3d lag = spring.LagOf(shape);
+            Vector3d lag = _lag ?? spring.LagOf(shape);
             spring.Position = start;
             spring.ReleaseForce = _terms.Release?.SheathForceAtStart ?? 0.0;
             _terms.Walls()!.Lag(shape);
@@ -57,13 +81,32 @@ namespace Guidewire.Core
                 {
                     return "the wire's surface touches a wall or itself at the start of the step";
                 }
-                RodStep.ApplyStraight(shape, _direction, fraction, shape);
+                fraction = Advance(shape, fraction);
                 if (fraction < 1.0)
                 {
                     break;
                 }
             }
             return null;
+        }
+
+        // Straight paths of nodes are not straight as a moving wall sees them: what ends in it is halved.
+        private double Advance(RodShape shape, double fraction)
+        {
+            BarrierEnergy barrier = _terms.Walls()!.Barrier;
+            if (barrier.Fields.Carrier < 0)
+            {
+                RodStep.ApplyStraight(shape, _direction, fraction, shape);
+                return fraction;
+            }
+            _start.CopyFrom(shape);
+            RodStep.ApplyStraight(shape, _direction, fraction, shape);
+            while (!(barrier.LeastGap(shape) > 0.0) && fraction > 0.0)
+            {
+                fraction = fraction > LeastFraction ? 0.5 * fraction : 0.0;
+                RodStep.ApplyStraight(_start, _direction, fraction, shape);
+            }
+            return fraction;
         }
 
         // A held last node is where its support is.

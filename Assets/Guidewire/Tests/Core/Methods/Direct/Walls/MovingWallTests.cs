@@ -1,0 +1,244 @@
+using System;
+using System.Linq;
+using NUnit.Framework;
+
+namespace Guidewire.Core.Tests
+{
+    /// <summary>Wires between walls that move as it is prescribed.</summary>
+    public sealed class MovingWallTests
+    {
+        private const double Weight = 6.298234e-4;    // N, of 100 mm of nitinol, r = 0.178 mm, under 9.81 m/s^2
+        private const double Mass = Weight / 9.81;
+
+        private static readonly Integrator[] Integrators =
+            { Integrator.ImplicitEuler, Integrator.Bdf2, Integrator.Trbdf2, Integrator.Esdirk3 };
+
+        /// <summary>A wire that lies on a floor goes up and down with it: N = m (g - A w^2 sin w t).</summary>
+        [Test]
+        public void OnARisingFloor_TheWallBearsWeightLessAcceleration(
+            [ValueSource(nameof(Integrators))] Integrator integrator, [Values(1.0, 5.0)] double frequency)
+        {
+            double period = 1.0 / frequency;
+            SimulationParameters parameters = Lying(MotionCycle.Sine(period, 0.0, new Vector3d(0.0, 5.0, 0.0),
+                Vector3d.Zero, Vector3d.Zero), period);
+            parameters.Method.Integrator = integrator;
+            parameters.Method.TimeStep = period / 200.0;
+            Simulation simulation = Simulation.Create(parameters);
+            double amplitude = 5e-3 * Math.Pow(2.0 * Math.PI * frequency, 2.0);
+            Go(simulation, 450);
+            Assert.That(simulation.Contacts!.Total.Y, Is.EqualTo(Weight - Mass * amplitude).Within(1e-3 * Weight),
+                "at the top");
+            Go(simulation, 100);
+            if (frequency == 1.0)
+            {
+                Assert.That(simulation.Contacts.Total.Y, Is.EqualTo(Weight + Mass * amplitude).Within(1e-3 * Weight),
+                    "at the bottom");
+            }
+            Assert.That(simulation.Contacts.Passages, Is.EqualTo(0));
+            Assert.That(simulation.Contacts.MaxPenetration, Is.EqualTo(0.0));
+        }
+
+        [Test]
+        public void OnAFloorThatMovesAlongItself_TheWireSticksOrStays([Values(0.1, 0.0)] double friction)
+        {
+            SimulationParameters parameters = Lying(MotionCycle.Sine(1.0, 0.0, new Vector3d(0.0, 0.0, 5.0),
+                Vector3d.Zero, Vector3d.Zero), 1.0);
+            parameters.Scene.Walls[0].FrictionCoefficient = friction;
+            parameters.Material.MassDamping = 0.0;
+            parameters.Method.TimeStep = 0.01;
+            Simulation simulation = Simulation.Create(parameters);
+            var field = new WallField(parameters.Scene.Walls[0].Motion!);
+            Go(simulation, 10);    // it settles
+            field.SetTime(simulation.Time);
+            Vector3d start = field.AtRest(simulation.State.Positions[7]);
+            start = friction > 0.0 ? start : simulation.State.Positions[7];
+            for (int k = 0; k < 300; k++)
+            {
+                simulation.Step();
+                field.SetTime(simulation.Time);
+                Vector3d now = simulation.State.Positions[7];
+                Vector3d moved = friction > 0.0 ? field.Moved(start) : start;
+                Assert.That(Math.Abs(now.Z - moved.Z), Is.LessThan(1e-3),
+                    "in mm, at " + simulation.Time);
+            }
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running), simulation.Reason);
+        }
+
+        [Test]
+        public void WithoutAmplitude_ForcesAreThoseOfAWallAtRest([Values] bool isRigid)
+        {
+            SimulationParameters moving = WallScenes.Arch(60, 0.05, 20.0, 60.0);
+            moving.Scene.Walls[0].FrictionCoefficient = 0.1;
+            moving.Method.SolverTolerance = 1e-9;
+            SimulationParameters still = moving.Copy();
+            moving.Scene.Walls = new ContactShape[] { WallScenes.ArchTube(40) };
+            moving.Scene.Walls[0].FrictionCoefficient = 0.1;
+            moving.Scene.Walls[0].Motion = isRigid ? new WallMotion(new[] { MotionCycle.Sine(1.0, 0.0, Vector3d.Zero,
+                Vector3d.Zero, new Vector3d(1.0, 2.0, 3.0)) }, Array.Empty<Vector3d[]>(), 1.0, 0.2)
+                : Bent(_ => Vector3d.Zero);
+            Simulation one = Simulation.Create(moving);
+            Simulation other = Simulation.Create(still);
+            for (int k = 0; k < 60; k++)
+            {
+                one.Step();
+                other.Step();
+                double largest = other.Contacts!.Forces.Max(force => force.Length);
+                for (int i = 0; i < other.State.SphereCount; i++)
+                {
+                    Assert.That(Vector3d.Distance(one.Contacts!.Forces[i], other.Contacts.Forces[i]),
+                        Is.LessThanOrEqualTo(1e-9 * largest), "step " + k + ", node " + i);
+                }
+            }
+        }
+
+        /// <summary>The derivative of the energy of an arch that is bent and turned is that of its values.</summary>
+        [Test]
+        public void Gradient_IsTheDifferenceOfTheEnergy([ValueSource(typeof(TestShapes), nameof(TestShapes.Names))]
+            string name)
+        {
+            int tried = 0;
+            for (int seed = 0; seed < 3000 && tried < 6; seed++)
+            {
+                ContactShape wall = TestShapes.Make(name);
+                wall.Motion = Wavy();
+                MaterialRod rod = MaterialRod.Round(6, 1.2, 0.3, 1e6, 1e6, 1e3);
+                var energy = new BarrierEnergy(rod, new[] { wall }, 1.0, new Barrier(0.1, 10.0));
+                energy.SetTime(0.37);
+                var random = new RandomGeometry(seed);
+                var shape = new RodShape(6);
+                Vector3d x = random.Point();
+                Vector3d step = 0.2 * random.Direction();
+                for (int i = 0; i <= 6; i++, x += step + 0.05 * random.Point())
+                {
+                    shape.X[i] = x;
+                }
+                Array.Fill(shape.Q, Quaterniond.Identity);
+                double value = energy.Value(shape);
+                if (!(value > 0.0) || !(value < 1e3))
+                {
+                    continue;
+                }
+                tried++;
+                var gradient = new RodVector[8];
+                var measured = default(GradientMeasures);
+                energy.AddGradient(shape, gradient, 0, 7, ref measured);
+                for (int i = 0; i <= 6; i++)
+                {
+                    foreach (Vector3d along in new[] { Vector3d.UnitX, Vector3d.UnitY, Vector3d.UnitZ })
+                    {
+                        Vector3d at = shape.X[i];
+                        shape.X[i] = at + 1e-7 * along;
+                        double above = energy.Value(shape);
+                        shape.X[i] = at - 1e-7 * along;
+                        double below = energy.Value(shape);
+                        shape.X[i] = at;
+                        Assert.That(Vector3d.Dot(gradient[i].X, along), Is.EqualTo((above - below) / 2e-7)
+                            .Within(1e-4 * measured.LargestForce), name + ", seed " + seed + ", node " + i);
+                    }
+                }
+            }
+            Assert.That(tried, Is.GreaterThanOrEqualTo(2));
+        }
+
+        [Test]
+        public void Field_IsInvertedByItsInverse_AndMovesItsCentreline()
+        {
+            WallMotion motion = Wavy();
+            var field = new WallField(motion);
+            field.SetTime(0.37);
+            var random = new RandomGeometry(5);
+            for (int k = 0; k < 200; k++)
+            {
+                Vector3d rest = random.Point();
+                Assert.That(Vector3d.Distance(field.AtRest(field.Moved(rest)), rest), Is.LessThan(1e-12));
+                Vector3d x = field.Moved(rest);
+                field.AtRest(x, out Matrix3 gradient);
+                Vector3d along = random.Direction();
+                Vector3d slope = (0.5 / 1e-6) * (field.AtRest(x + 1e-6 * along) - field.AtRest(x - 1e-6 * along));
+                Assert.That(Vector3d.Distance(gradient * along, slope), Is.LessThan(1e-8));
+            }
+        }
+
+        [Test]
+        public void Restored_ItGoesOnWithTheSameBits()
+        {
+            SimulationParameters parameters = InBeatingArch(0.1);
+            Simulation simulation = Simulation.Create(parameters);
+            Go(simulation, 17);
+            Simulation restored = Simulation.Restore(parameters, simulation.Save());
+            Simulation continued = simulation.Continue(parameters);
+            Go(simulation, 13);
+            Go(restored, 13);
+            Go(continued, 13);
+            Assert.That(restored.State.Positions, Is.EqualTo(simulation.State.Positions));
+            Assert.That(continued.State.Positions, Is.EqualTo(simulation.State.Positions));
+            Assert.That(restored.Save(), Is.EqualTo(simulation.Save()));
+        }
+
+        private static SimulationParameters InBeatingArch(double friction)
+        {
+            SimulationParameters parameters = WallScenes.Arch(60, 0.05, 20.0, 100.0);
+            parameters.Scene.Walls[0].FrictionCoefficient = friction;
+            parameters.Scene.Walls[0].Motion = Bent(x => (x.Z > 0.0 ? x.Z / 30.0 : 0.0) * new Vector3d(4.0, 3.0, 0.0));
+            return parameters;
+        }
+
+        // The centreline of the arch, displaced in a cycle of 1 s.
+        private static WallMotion Bent(Func<Vector3d, Vector3d> amplitude)
+        {
+            const double spacing = 3.0;
+            var points = Enumerable.Range(0, 107).Select(k => new Vector3d(0.0, 0.0, spacing * (k - 107)))
+                .Concat(Enumerable.Range(0, 32).Select(k => Math.PI * k / 31.0).Select(angle => new Vector3d(0.0,
+                    30.0 * (1.0 - Math.Cos(angle)), 30.0 * Math.Sin(angle))))
+                .Concat(Enumerable.Range(1, 66).Select(k => new Vector3d(0.0, 60.0, -spacing * k))).ToArray();
+            return Beating(points, spacing, amplitude, 1.0);
+        }
+
+        private static WallMotion Wavy()
+        {
+            Vector3d[] points = Enumerable.Range(0, 13).Select(k => new Vector3d(0.0, 0.3 * Math.Sin(0.5 * k),
+                0.4 * (k - 6))).ToArray();
+            WallMotion beat = Beating(points, 0.4, x => new Vector3d(0.2 * Math.Sin(x.Z), 0.1 * x.Z, 0.1), 1.0);
+            return new WallMotion(beat.Cycles.Append(MotionCycle.Sine(2.0, 0.1, new Vector3d(0.0, 0.2, 0.1),
+                new Vector3d(0.3, 0.1, 0.4), new Vector3d(0.5, 0.0, 0.0))).ToArray(), beat.Branches, 0.4, 0.1);
+        }
+
+        private static WallMotion Beating(Vector3d[] points, double spacing, Func<Vector3d, Vector3d> amplitude,
+            double period)
+        {
+            double[] phases = Enumerable.Range(0, 12).Select(k => k / 12.0).ToArray();
+            double[][] rows = Array.ConvertAll(phases, phase => points.SelectMany(x =>
+            {
+                Vector3d moved = Math.Sin(2.0 * Math.PI * phase) * amplitude(x);
+                return new[] { moved.X, moved.Y, moved.Z, 0.0, 0.0, 0.0, 0.0 };
+            }).ToArray());
+            return new WallMotion(new[] { MotionCycle.Table(period, 0.0, phases, rows, null) }, new[] { points },
+                spacing, 0.25 * period);
+        }
+
+        private static SimulationParameters Lying(MotionCycle cycle, double ramp)
+        {
+            SimulationParameters parameters = WallScenes.Wire(40, 0.178e-3);
+            parameters.Scene.GuidewireLength = 100.0;
+            parameters.Scene.GuidewireOffset = 0.0;
+            parameters.Scene.ProximalEnd = ProximalEnd.Free;
+            parameters.Scene.Gravity = new Vector3d(0.0, -9.81, 0.0);
+            parameters.Scene.Walls = WallScenes.Floor(-0.19);
+            parameters.Scene.Walls[0].Motion = new WallMotion(new[] { cycle }, Array.Empty<Vector3d[]>(), 1.0, ramp);
+            parameters.Drive.Kind = Drive.Hold;
+            parameters.Drive.Displacement = 0.0;
+            parameters.Material.MassDamping = 50.0;
+            parameters.Method.MaxSimulationSteps = 10000;
+            return parameters;
+        }
+
+        private static void Go(Simulation simulation, int steps)
+        {
+            for (int k = 0; k < steps; k++)
+            {
+                simulation.Step();
+            }
+            Assert.That(simulation.Outcome, Is.EqualTo(Outcome.Running), simulation.Reason);
+        }
+    }
+}
