@@ -148,6 +148,9 @@ namespace Guidewire.Core
                 p => p.HasDistalClamp || !p.Scene.DistalMotion!.Turns, "rotations of 0 where the end is only held"),
             OfSheath(p => p.Scene.ProximalMotion == null, "no proximalMotionFile"),
             new Rule("hubForceLimit", p => p.Drive.HubForceLimit > 0.0 && !p.HasWalls, NoSlipWithoutWalls),
+            new Rule("vessel.motion", p => !p.Traits.HasBarriers
+                && Array.Exists(p.Scene.Walls, wall => wall.Motion != null),
+                "solver direct: with the others walls stand still"),
             OfSheath(p => p.HasWalls, "a vessel"),
             OfSheath(p => p.IsClamped, "proximalEnd \"clamped\""),
             OfSheath(p => p.Drive.Steering != null || p.Drive.Kind == Drive.Displace || p.Drive.Kind == Drive.Hold,

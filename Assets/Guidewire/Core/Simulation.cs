@@ -32,7 +32,7 @@ namespace Guidewire.Core
             _lengths = LengthsOf(parameters);
             State = start.State;
             _stepper = start.Stepper;
-            _warnings = new RunWarnings(parameters, _stepper.IsTipCovered);
+            _warnings = new RunWarnings(parameters, _stepper);
             _stopRule = new StopRule(
                 parameters.Drive.Steering == null ? parameters.Method.MaxSimulationSteps : int.MaxValue);
             _clock = new StepClock(parameters.Method.TimeStep);
@@ -87,6 +87,10 @@ namespace Guidewire.Core
         /// <summary>What contact with walls came to, and the force at the first sphere; null in a scene without walls
         /// whose parameters do not ask for reactions.</summary>
         public ContactRecord? Contacts => _stepper.Contacts;
+
+        /// <summary>Where a wall is now; null where it stands still. Its time is not to be set.</summary>
+        /// <param name="wall">0 the vessel, if there is one.</param>
+        public WallField? FieldOf(int wall) => _stepper.FieldOf(wall);
 
         /// <summary>Builds the wire and chooses every part of the method, once.</summary>
         /// <exception cref="ArgumentException">A value out of the range that the rod allows, one that the method does

@@ -1,5 +1,3 @@
-using System;
-
 namespace Guidewire.Core
 {
     /// <summary>Detects when the tip of a wire leaves a vessel by an open rim or end, beyond which no wall is near:
@@ -8,7 +6,7 @@ namespace Guidewire.Core
     internal sealed class RimMonitor
     {
         private readonly ContactShape[] _walls;
-        private readonly Func<ContactShape, bool> _isCovered;    // by what is not outside
+        private readonly TimeStepper _stepper;
         private readonly bool[] _isInside;    // the tip, by wall
         private long _passages;
         private bool _hasLeft;
@@ -16,10 +14,11 @@ namespace Guidewire.Core
         private double _time;                 // s
 
         /// <summary>A monitor of these walls; <see cref="Begin"/> says where the tip is.</summary>
-        /// <param name="isCovered">Whether the tip is in a sheath, or in a catheter with its tip within a wall.</param>
-        public RimMonitor(ContactShape[] walls, Func<ContactShape, bool> isCovered)
+        /// <param name="stepper">Says whether the tip is in a sheath, or in a catheter with its tip within a wall; and
+        /// where walls are that move.</param>
+        public RimMonitor(ContactShape[] walls, TimeStepper stepper)
         {
-            _isCovered = isCovered;
+            _stepper = stepper;
             _walls = walls;
             _isInside = new bool[walls.Length];
         }
@@ -34,7 +33,7 @@ namespace Guidewire.Core
             Vector3d tip = state.Positions[state.ElementCount];
             for (int w = 0; w < _walls.Length; w++)
             {
-                _isInside[w] = _walls[w].IsWithin(tip);
+                _isInside[w] = IsWithin(w, tip);
             }
         }
 
@@ -47,7 +46,8 @@ namespace Guidewire.Core
             for (int w = 0; w < _walls.Length && !_hasLeft; w++)
             {
                 bool wasInside = _isInside[w];
-                _isInside[w] = _walls[w].IsWithin(tip) || wasInside && _isCovered(_walls[w]);
+                _isInside[w] = IsWithin(w, tip)
+                    || wasInside && _stepper.IsTipCovered(_walls[w], _stepper.FieldOf(w));
                 if (wasInside && !_isInside[w] && passages == _passages && tip.IsFinite)
                 {
                     _hasLeft = true;
@@ -57,6 +57,9 @@ namespace Guidewire.Core
             }
             _passages = passages;
         }
+
+        private bool IsWithin(int w, in Vector3d tip) =>
+            _walls[w].IsWithin(_stepper.FieldOf(w)?.AtRest(tip) ?? tip);
 
         /// <summary>Writes or restores what was seen.</summary>
         /// <param name="state">Where the wire is.</param>

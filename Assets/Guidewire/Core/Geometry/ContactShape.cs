@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -25,6 +26,10 @@ namespace Guidewire.Core
 
         /// <summary>How the wall moves; null where it stands still. The shape is that at rest.</summary>
         public WallMotion? Motion { get; set; }
+
+        /// <summary>Points of the wall all over it, at most some thousand, units; none of a shape without
+        /// bounds.</summary>
+        public virtual IEnumerable<Vector3d> SurfacePoints() => Array.Empty<Vector3d>();
 
         /// <summary>The point where segment a b comes nearest to the wall, if that is no farther than <paramref
         /// name="range"/>; a = b for a sphere's centre.</summary>

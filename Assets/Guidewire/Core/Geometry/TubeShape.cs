@@ -1,4 +1,5 @@
 using System;
+using System.Collections.Generic;
 
 namespace Guidewire.Core
 {
@@ -64,6 +65,20 @@ namespace Guidewire.Core
             _tree = new TubeTree(_knots, _radii, 1e-12 * (length + widest));
             FirstKnot = shift;
             LastKnot = shift + count - 1;
+        }
+
+        /// <inheritdoc/>
+        public override IEnumerable<Vector3d> SurfacePoints()
+        {
+            for (int i = FirstKnot; i <= LastKnot; i++)
+            {
+                for (int side = -1; side <= 1; side += 2)
+                {
+                    yield return _knots[i] + (side * _radii[i]) * Vector3d.UnitX;
+                    yield return _knots[i] + (side * _radii[i]) * Vector3d.UnitY;
+                    yield return _knots[i] + (side * _radii[i]) * Vector3d.UnitZ;
+                }
+            }
         }
 
         /// <summary>The first knot that was given: 1 behind an open start, else 0.</summary>

@@ -61,18 +61,23 @@ namespace Guidewire.Core
 
         /// <summary>Whether the wire's tip is in its sheath, or in a catheter whose own tip is within a wall and whose
         /// axis the wire's does not follow.</summary>
-        public bool IsTipCovered(ContactShape wall) =>
-            Hub()?.SpheresInBody == 0 || Coaxial() is CoaxialRecord outer && IsIn(outer, wall, out _);
+        /// <param name="field">Where the wall is, if it moves.</param>
+        public bool IsTipCovered(ContactShape wall, WallField? field) =>
+            Hub()?.SpheresInBody == 0 || Coaxial() is CoaxialRecord outer && IsIn(outer, wall, field, out _);
 
         // Whether the wire's tip is in this catheter or one inside it, and how far beyond this one, m.
-        private static bool IsIn(CoaxialRecord catheter, ContactShape wall, out double beyond)
+        private static bool IsIn(CoaxialRecord catheter, ContactShape wall, WallField? field, out double beyond)
         {
             double beyondInner = 0.0;
-            bool isInInner = catheter.Inside != null && IsIn(catheter.Inside, wall, out beyondInner);
+            bool isInInner = catheter.Inside != null && IsIn(catheter.Inside, wall, field, out beyondInner);
             beyond = catheter.Extension + beyondInner;
-            return isInInner
-                || (beyond <= 0.0 && wall.IsWithin(catheter.Positions[catheter.Positions.Length - 1]));
+            Vector3d tip = catheter.Positions[catheter.Positions.Length - 1];
+            return isInInner || (beyond <= 0.0 && wall.IsWithin(field?.AtRest(tip) ?? tip));
         }
+
+        /// <summary>Where a wall is now, of which the wire's scene has this number; null where it stands
+        /// still.</summary>
+        public virtual WallField? FieldOf(int wall) => null;
 
         /// <summary>Advances the state by one step.</summary>
         public abstract void Advance(RodState state);

@@ -3,7 +3,7 @@ using System;
 namespace Guidewire.Core
 {
     /// <summary>Cubic splines of several columns over one argument: natural at their ends, or periodic.</summary>
-    internal sealed class CubicSpline
+    public sealed class CubicSpline
     {
         private readonly double[] _at;
         private readonly double[][] _rows;

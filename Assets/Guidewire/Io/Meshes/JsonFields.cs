@@ -57,6 +57,13 @@ namespace Guidewire.Io
                 : throw Wrong(name, "a text in double quotes");
         }
 
+        /// <summary>Whether a field holds a text.</summary>
+        public bool IsText(string name) => _object[name]?.Type == JTokenType.String;
+
+        /// <summary>The object in a field.</summary>
+        public JsonFields Object(string name) => _object[name] is JObject own
+            ? new JsonFields(_sourceOf, _key + "." + name, own) : throw Wrong(name, "an object");
+
         /// <summary>true or false, or what counts where it is missing.</summary>
         public bool Switch(string name, bool missing)
         {

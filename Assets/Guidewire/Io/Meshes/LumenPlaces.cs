@@ -29,14 +29,16 @@ namespace Guidewire.Io
         }
 
         /// <summary>Where an instrument with these points, from its hub to its tip, is.</summary>
-        public LumenPlace Of(Vector3d[] points)
+        /// <param name="field">Where the vessel is, if it moves.</param>
+        public LumenPlace Of(Vector3d[] points, WallField? field)
         {
+            points = field == null ? points : Array.ConvertAll(points, point => field.AtRest(point));
             int last = points.Length - 1;
             bool isInside = _vessel.IsWithin(points[last]) && !MayHaveLeft(points);
             int front = isInside ? last : Front(points, out isInside);
             Vector3d place = front < 0 ? _path.Inlet.Centre : points[front];
             int near = front < 0 ? _path.Inlet.Point : _path.Locate(place);
-            return new LumenPlace(isInside, place, near, _path.BranchOf(near), _path.DistanceOf(place, near),
+            return new LumenPlace(isInside, field?.Moved(place) ?? place, near, _path.BranchOf(near), _path.DistanceOf(place, near),
                 _path.LeftFrom(place, near), front >= 0 && _path.IsAtTarget(near));
         }
 

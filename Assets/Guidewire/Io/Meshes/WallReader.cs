@@ -33,6 +33,7 @@ namespace Guidewire.Io
                 vessel.FrictionCoefficient = Friction(fields);
                 vessel.Softness = SoftnessReader.Read(fields);
                 SoftnessReader.ReadRegions(fields, vessel.Softness, values.Anatomy);
+                vessel.Motion = MotionReader.Read(fields, values, sourceOf, vessel, null);
                 walls.Add(vessel);
                 values.Places = values.Path == null ? null
                     : new LumenPlaces(values.Path, values.Anatomy!.Ends, vessel);
@@ -45,6 +46,8 @@ namespace Guidewire.Io
                 ContactShape obstacle = Obstacle(fields);
                 obstacle.FrictionCoefficient = Friction(fields);
                 obstacle.Softness = SoftnessReader.Read(fields);
+                obstacle.Motion = MotionReader.Read(fields, values, sourceOf, obstacle,
+                    values.Vessel == null ? null : walls[0].Motion);
                 walls.Add(obstacle);
             }
             return walls.ToArray();
@@ -91,7 +94,7 @@ namespace Guidewire.Io
 
         private static void Allow(JsonFields fields, params string[] own)
         {
-            var names = new List<string> { "shape", "frictionCoefficient" };
+            var names = new List<string> { "shape", "frictionCoefficient", MotionReader.Key };
             names.AddRange(own);
             names.AddRange(SoftnessReader.Keys);
             fields.Allow(names.ToArray());

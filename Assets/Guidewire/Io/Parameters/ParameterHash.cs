@@ -32,6 +32,11 @@ namespace Guidewire.Io
                 text.Append("start=").Append(File.ReadAllText(values.StartFile)).Append('\n');
             }
             text.Append(LoadTableReader.Content(values.LoadTables));
+            text.Append(MotionReader.Content(values.Vessel));
+            foreach (JToken obstacle in values.Obstacles ?? new JArray())
+            {
+                text.Append(MotionReader.Content(obstacle));
+            }
             AppendFile(text, "drive=", values.DriveFile);
             AppendFile(text, "proximalMotion=", values.ProximalMotionFile);
             AppendFile(text, "distalMotion=", values.DistalMotionFile);
@@ -61,6 +66,7 @@ namespace Guidewire.Io
                 string anatomy = (string?)vessel["anatomy"] ?? "";
                 vessel.Remove("file");
                 vessel.Remove("anatomy");
+                MotionReader.RemoveFiles(vessel);
                 vessel.Remove(WallReader.Sha256);
                 text.Append("vessel=").Append(NumberText.Write(vessel)).Append('\n');
                 text.Append(Convert.ToBase64String(Bytes(mesh)));

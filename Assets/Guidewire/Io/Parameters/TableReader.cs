@@ -28,7 +28,7 @@ namespace Guidewire.Io
                 throw new ParameterException(where + error.Message);
             }
             List<double>[] read = Array.ConvertAll(columns, _ => new List<double>());
-            int[] order = Enumerable.Range(0, columns.Length).ToArray();
+            int[] order = Enumerable.Range(0, columns.Count(column => !column.Missing.HasValue)).ToArray();
             double[] sizes = Array.ConvertAll(columns, _ => 1.0);
             bool mayBeHead = true;
             for (int i = 0; i < lines.Length; i++)
@@ -39,13 +39,20 @@ namespace Guidewire.Io
                     continue;
                 }
                 string[] cells = Array.ConvertAll(line.Split(','), cell => cell.Trim().Trim('"').Trim());
-                string? problem = mayBeHead && IsHead(cells) ? FindProblemOfHead(cells, columns, order, sizes)
+                string? problem = mayBeHead && IsHead(cells) ? FindProblemOfHead(cells, columns, ref order, sizes)
                     : FindProblemOfRow(cells, columns, order, sizes, read);
                 if (problem != null)
                 {
                     throw new ParameterException(where + file + ": line " + (i + 1) + " " + problem);
                 }
                 mayBeHead = false;
+            }
+            for (int c = 0; c < columns.Length; c++)
+            {
+                if (columns[c].Missing is double missing && Array.IndexOf(order, c) < 0)
+                {
+                    read[c].AddRange(Enumerable.Repeat(missing, read[order[0]].Count));
+                }
             }
             return read;
         }
@@ -68,7 +75,7 @@ namespace Guidewire.Io
                             + "decimal point");
                 }
             }
-            if (row.Length != columns.Length)
+            if (row.Length != order.Length)
             {
                 return "needs " + Needed(columns) + "; it has " + row.Length + " numbers"
                     + (row.Length > columns.Length ? ": numbers have a decimal point, not a comma" : "");
@@ -81,8 +88,10 @@ namespace Guidewire.Io
         }
 
         // Where the columns are, and the size of their units in SI.
-        private static string? FindProblemOfHead(string[] cells, TableColumn[] columns, int[] order, double[] sizes)
+        private static string? FindProblemOfHead(string[] cells, TableColumn[] columns, ref int[] order,
+            double[] sizes)
         {
+            order = cells.Length <= columns.Length ? new int[cells.Length] : order;
             var found = new HashSet<int>();
             for (int c = 0; c < cells.Length; c++)
             {
@@ -110,8 +119,9 @@ namespace Guidewire.Io
                     (order[c], sizes[c]) = (column, size);
                 }
             }
-            int missing = Enumerable.Range(0, columns.Length).FirstOrDefault(k => !found.Contains(k));
-            return found.Count == columns.Length ? null
+            int missing = Array.FindIndex(columns,
+                one => !one.Missing.HasValue && !found.Contains(Array.IndexOf(columns, one)));
+            return missing < 0 ? null
                 : "has no column '" + columns[missing].Name + "': needed are " + Names(columns);
         }
 

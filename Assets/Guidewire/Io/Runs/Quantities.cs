@@ -130,6 +130,14 @@ namespace Guidewire.Io
                 "displacement of soft walls at each element, of the contact where it is largest",
                 QuantitySwitch.Contacts, m => Moment.Of(m.Contacts?.Displacements))
                 .Json("contact.displacement", QuantityForm.Nonzero).InAnswer(StatePart.Motion),
+            Number("vesselPhase", "1", "phase of the first cycle of a vessel that moves, 0 to 1", QuantitySwitch.Always,
+                m => m.Of(m.Simulation.FieldOf(0)?.PhaseOf(0))).Json("vesselPhase")
+                .InAnswer(StatePart.Instruments),
+            Vectors("vesselDisplacement", QuantityPlace.Run, "units",
+                "displacement of a vessel that moves, at the wire's tip", QuantitySwitch.Always,
+                m => m.Simulation.FieldOf(0) is WallField field ? m.Of(m.State.Positions[m.State.ElementCount]
+                    - field.AtRest(m.State.Positions[m.State.ElementCount])) : default)
+                .Json("vesselDisplacement").InAnswer(StatePart.Instruments),
         };
 
         /// <summary>Those of a catheter, in the order of its array in an answer.</summary>

@@ -161,7 +161,7 @@ namespace Guidewire.Io
         {
             if (simulation.HasStateOfStep)
             {
-                _target?.Update(simulation.State.Positions, simulation.Time);
+                _target?.Update(simulation.State.Positions, simulation.Time, simulation.FieldOf(0));
             }
         }
 

@@ -75,7 +75,7 @@ namespace Guidewire.Io
 
         /// <summary>Where an instrument is in its vessel now; null where the run has no inlet.</summary>
         /// <param name="points">Of its spheres, from the hub on, units.</param>
-        public LumenPlace? PlaceOf(Vector3d[] points) => _handler.Values.Places?.Of(points);
+        public LumenPlace? PlaceOf(Vector3d[] points) => _handler.Values.Places?.Of(points, Simulation.FieldOf(0));
 
         /// <summary>The centreline from the inlet to the target, as <see cref="CentrelinePath.RouteToTarget"/> has it;
         /// null where the run has no target.</summary>

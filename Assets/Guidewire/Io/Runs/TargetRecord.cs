@@ -21,9 +21,10 @@ namespace Guidewire.Io
         /// <summary>Takes the wire's position.</summary>
         /// <param name="points">Of its spheres, units.</param>
         /// <param name="time">s.</param>
-        public void Update(Vector3d[] points, double time)
+        /// <param name="field">Where the vessel is, if it moves.</param>
+        public void Update(Vector3d[] points, double time, WallField? field)
         {
-            _place = _places.Of(points);
+            _place = _places.Of(points, field);
             _farthest = System.Math.Max(_farthest, _place.Distance);
             if (double.IsNaN(_reachedAt) && _place.IsAtTarget)
             {

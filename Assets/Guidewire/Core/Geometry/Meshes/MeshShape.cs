@@ -56,6 +56,17 @@ namespace Guidewire.Core
             (_unplaced, _placement) = (other._unplaced, other._placement);
         }
 
+        /// <inheritdoc/>
+        public override IEnumerable<Vector3d> SurfacePoints()
+        {
+            const int Most = 2000;
+            int corners = _wall.Corners.Length;
+            for (int k = 0; k < corners; k += 1 + corners / Most)
+            {
+                yield return _wall.Corners[k];
+            }
+        }
+
         /// <summary>What was found in the mesh and repaired.</summary>
         public MeshReport Report => _mesh.Report;
 

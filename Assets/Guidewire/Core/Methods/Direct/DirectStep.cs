@@ -46,6 +46,13 @@ namespace Guidewire.Core
         public RodDynamics Dynamics => Rod.Dynamics;
 
         /// <inheritdoc/>
+        public override WallField? FieldOf(int wall)
+        {
+            WallField?[]? fields = Dynamics.Terms.Walls()?.Barrier.Fields.Of;
+            return wall < fields?.Length ? fields![wall] : null;
+        }
+
+        /// <inheritdoc/>
         public override ContactRecord? Contacts => Rod.Contacts;
 
         /// <inheritdoc/>

@@ -1,0 +1,234 @@
+"""How a vessel moves: the `motion` of a parameter file, its tables, and the map of points at rest to where they are.
+
+A point x of space is at X = psi(x) of the vessel at rest, the mean of maps of the points of the centreline,
+
+    p_k(x) = c_k + A_k v + b_k (t'_k . v)^2,   v = x - c'_k,   weights exp(-|v|^2/(2 s^2)),
+
+with c, t, kappa position, tangent and curvature at rest, the same with ' now, s the points' spacing,
+A_k = R_k^T (1/scale across t', 1/stretch along t'), R_k the shortest turn from t to t' after what the table adds, and
+2 b_k = kappa_k/stretch^2 - A_k kappa'_k. The runner evaluates the same map for contact.
+"""
+
+from __future__ import annotations
+
+import csv
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+from scipy.interpolate import CubicSpline
+from scipy.spatial.transform import Rotation
+
+_SIZES = {"m": 1.0, "cm": 1e-2, "mm": 1e-3, "um": 1e-6, "deg": np.pi / 180.0, "rad": 1.0}
+_STEPS = 30  # of Newton's method
+_SPACING = 2e-3  # m
+_CHUNK = 4000  # points at once
+
+
+def write_centreline(file: Path, rest: list[np.ndarray], displaced: np.ndarray | list[np.ndarray],
+                     phases: np.ndarray) -> None:
+    """Write the table of a `centreline`, in mm.
+
+    rest : (k, 3) of each branch; displaced : (phases, k, 3) of each branch, displacements; phases : from 0 to below 1.
+    """
+    with open(file, "w", encoding="utf-8", newline="\n") as out:
+        out.write("branch,station_mm,phase,x_mm,y_mm,z_mm,dx_mm,dy_mm,dz_mm\n")
+        for branch, (points, moved) in enumerate(zip(rest, displaced)):
+            stations = np.r_[0.0, np.cumsum(np.linalg.norm(np.diff(points, axis=0), axis=1))]
+            for phase, rows in zip(phases, moved):
+                for station, x, d in zip(stations, points, rows):
+                    numbers = [station, phase, *x, *d]
+                    out.write(f"{branch}," + ",".join(f"{number:.6g}" for number in numbers) + "\n")
+
+
+@dataclass(frozen=True)
+class _Cycle:
+    """period (s), phase at time 0; values : phase -> (6,) of a rigid cycle, or (points, 7)."""
+
+    period: float
+    phase: float
+    about: np.ndarray | None
+    values: Any
+
+
+class VesselMotion:
+    """Where a vessel is in time. Lengths in units of the scene.
+
+    motion : the object of the parameters of a run, whose files have whole names
+    metres_per_unit : m
+    place : the vessel's placement, of points (n, 3); None: none
+    """
+
+    def __init__(self, motion: dict[str, Any], metres_per_unit: float, place: Any = None) -> None:
+        self._metres = metres_per_unit
+        self._place = place if place is not None else lambda points: points
+        self._spacing = float(motion.get("spacing", _SPACING)) / metres_per_unit
+        self._branches: list[np.ndarray] = []
+        own = [motion] + ([motion["breathing"]] if "breathing" in motion else [])
+        self._cycles = [self._cycle(one) for one in own]
+        self._ramp = float(motion.get("rampTime", 0.25 * self._cycles[0].period))
+        self._rest = np.concatenate(self._branches) if self._branches else np.zeros((1, 3))
+        self.set_time(0.0)
+
+    @property
+    def period(self) -> float:
+        """Of the first cycle, s."""
+        return self._cycles[0].period
+
+    def set_time(self, time: float) -> None:
+        """Go to a time, s."""
+        u = min(1.0, max(0.0, time / self._ramp)) if self._ramp > 0.0 else 1.0
+        ramp = u**3 * (10.0 - u * (15.0 - 6.0 * u))
+        values = [ramp * cycle.values((cycle.phase + time / cycle.period) % 1.0) for cycle in self._cycles]
+        now = self._rest.copy()
+        turn = Rotation.identity(len(now))
+        scale = np.ones(len(now))
+        for cycle, value in zip(self._cycles, values):
+            if cycle.about is None:
+                now = now + value[:, :3]
+                turn = Rotation.from_rotvec(value[:, 3:6]) * turn
+                scale = scale * (1.0 + value[:, 6])
+        before, after = _Curve(self._rest, self._branches), _Curve(now, self._branches)
+        stretch = np.where(before.length > 0.0, after.length / np.maximum(before.length, 1e-300), 1.0)
+        turn = turn * _shortest(before.tangent, after.tangent)
+        tangent = after.tangent
+        maps = _maps(turn, tangent, scale, stretch)
+        self._bend = 0.5 * (before.curvature / stretch[:, None]**2 - np.einsum("kij,kj->ki", maps, after.curvature))
+        for cycle, value in zip(self._cycles, values):
+            if cycle.about is not None:
+                one = Rotation.from_rotvec(value[3:])
+                now = cycle.about + one.apply(now - cycle.about) + value[:3]
+                tangent = one.apply(tangent)
+                turn = one * turn
+        self._now, self._tangent, self._maps = now, tangent, _maps(turn, tangent, scale, stretch)
+
+    def at_rest(self, points: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        """Where points (n, 3) are on the vessel at rest, and the derivatives (n, 3, 3)."""
+        parts = [self._at_rest(points[k:k + _CHUNK]) for k in range(0, len(points), _CHUNK)]
+        return np.concatenate([part[0] for part in parts]), np.concatenate([part[1] for part in parts])
+
+    def moved(self, points: np.ndarray) -> np.ndarray:
+        """Where points (n, 3) of the vessel at rest are now."""
+        if len(points) > _CHUNK:
+            return np.concatenate([self.moved(points[k:k + _CHUNK]) for k in range(0, len(points), _CHUNK)])
+        near = np.argmin(np.linalg.norm(points[:, None] - self._rest, axis=2), axis=1)
+        x = self._now[near] + np.linalg.solve(self._maps[near], (points - self._rest[near])[..., None])[..., 0]
+        for _ in range(_STEPS):
+            rest, slope = self.at_rest(x)
+            step = np.linalg.solve(slope, (points - rest)[..., None])[..., 0]
+            x = x + step
+            if np.abs(step).max() < 1e-11 * (1.0 + np.abs(x).max()):
+                break
+        return x
+
+    def _at_rest(self, x: np.ndarray) -> tuple[np.ndarray, np.ndarray]:
+        v = x[:, None] - self._now
+        exponent = 0.5 * (v**2).sum(axis=2) / self._spacing**2
+        weights = np.exp(exponent.min(axis=1, keepdims=True) - exponent)
+        weights /= weights.sum(axis=1, keepdims=True)
+        along = np.einsum("nkj,kj->nk", v, self._tangent)
+        images = self._rest + np.einsum("kij,nkj->nki", self._maps, v) + along[..., None]**2 * self._bend
+        rest = np.einsum("nk,nki->ni", weights, images)
+        slope = np.einsum("nk,kij->nij", weights, self._maps) \
+            + 2.0 * np.einsum("nk,ki,kj->nij", weights * along, self._bend, self._tangent)
+        rate = -weights[..., None] * v / self._spacing**2
+        rate -= weights[..., None] * rate.sum(axis=1, keepdims=True)
+        return rest, slope + np.einsum("nki,nkj->nij", images - rest[:, None], rate)
+
+    def _cycle(self, own: dict[str, Any]) -> _Cycle:
+        period = float(own["period"]) if "period" in own else 60.0 / float(own["heartRate"])
+        phase = float(own.get("phase", 0.0))
+        if "centreline" in own:
+            return _Cycle(period, phase, None, self._centreline(Path(own["centreline"])))
+        rigid = own["rigid"]
+        if isinstance(rigid, str):
+            table = _read(Path(rigid), {})
+            size = np.array([1.0 / self._metres] * 3 + [1.0] * 3)
+            rows = np.stack([table.get(name, 0.0 * table["phase"]) for name in "x y z rx ry rz".split()], axis=1)
+            return _Cycle(period, phase, np.zeros(3), _periodic(table["phase"], rows * size))
+        amplitude = np.r_[rigid.get("translation", [0, 0, 0]), np.deg2rad(rigid.get("rotation", [0, 0, 0]))]
+        return _Cycle(period, phase, np.array(rigid.get("about", [0, 0, 0]), dtype=float),
+                      lambda at: np.sin(2.0 * np.pi * at) * amplitude)
+
+    def _centreline(self, file: Path) -> Any:
+        table = _read(file, {"branch": 0.0, "dx": 0.0, "dy": 0.0, "dz": 0.0, "rx": 0.0, "ry": 0.0, "rz": 0.0,
+                             "scale": 1.0})
+        phases = np.unique(table["phase"])
+        moved = []
+        for branch in np.unique(table["branch"]):
+            rows = table["branch"] == branch
+            stations = np.unique(table["station"][rows])
+            order = np.lexsort((table["station"][rows], table["phase"][rows]))
+
+            def grid(*names: str) -> np.ndarray:
+                columns = np.stack([table[name][rows][order] for name in names], axis=1)
+                return columns.reshape(len(phases), len(stations), len(names))
+
+            count = max(2, round((stations[-1] - stations[0]) / self._metres / self._spacing) + 1)
+            at = stations[0] + (stations[-1] - stations[0]) * np.arange(count) / (count - 1)
+            rest = self._place(grid("x", "y", "z")[0].reshape(-1, 3) / self._metres)
+            self._branches.append(CubicSpline(stations, rest, bc_type="natural")(at))
+            values = np.concatenate([grid("dx", "dy", "dz") / self._metres, grid("rx", "ry", "rz"),
+                                     grid("scale") - 1.0], axis=2)
+            moved.append(CubicSpline(stations, values, axis=1, bc_type="natural")(at))
+        return _periodic(phases, np.concatenate(moved, axis=1))
+
+
+class _Curve:
+    """Tangents, curvatures and lengths of the pieces beside each point, branch by branch, by parabolas."""
+
+    def __init__(self, points: np.ndarray, branches: list[np.ndarray]) -> None:
+        self.tangent = np.zeros_like(points)
+        self.curvature = np.zeros_like(points)
+        self.length = np.zeros(len(points))
+        first = 0
+        for branch in branches:
+            own = slice(first, first + len(branch))
+            self.tangent[own], self.curvature[own], self.length[own] = _parabolas(points[own])
+            first += len(branch)
+
+
+def _parabolas(x: np.ndarray) -> tuple[np.ndarray, np.ndarray, np.ndarray]:
+    steps = np.diff(x, axis=0)
+    size = np.linalg.norm(steps, axis=1)
+    along = steps / size[:, None]
+    if len(x) == 2:
+        return np.repeat(along, 2, axis=0), np.zeros_like(x), np.repeat(size, 2)
+    both = size[:-1] + size[1:]
+    curvature = 2.0 * np.diff(along, axis=0) / both[:, None]
+    middle = along[:-1] * size[1:, None] + along[1:] * size[:-1, None]
+    first = along[0] - 0.5 * size[0] * curvature[0]
+    last = along[-1] + 0.5 * size[-1] * curvature[-1]
+    tangent = np.concatenate([first[None], middle, last[None]])
+    tangent /= np.linalg.norm(tangent, axis=1)[:, None]
+    return tangent, np.concatenate([curvature[:1], curvature, curvature[-1:]]), np.r_[both[0], both, both[-1]]
+
+
+def _shortest(one: np.ndarray, two: np.ndarray) -> Rotation:
+    real = 1.0 + np.einsum("ki,ki->k", one, two)
+    real = np.where((one**2).sum(axis=1) > 0.0, real, 1.0)
+    return Rotation.from_quat(np.concatenate([np.cross(one, two), real[:, None]], axis=1))
+
+
+def _maps(turn: Rotation, tangent: np.ndarray, scale: np.ndarray, stretch: np.ndarray) -> np.ndarray:
+    back = turn.inv().as_matrix()
+    across = (1.0 / scale)[:, None, None]
+    along = (1.0 / stretch)[:, None, None] - across
+    return across * back + along * np.einsum("kij,kj,kl->kil", back, tangent, tangent)
+
+
+def _periodic(phases: np.ndarray, rows: np.ndarray) -> Any:
+    spline = CubicSpline(np.r_[phases, phases[0] + 1.0], np.concatenate([rows, rows[:1]]), bc_type="periodic")
+    return lambda at: spline(phases[0] + (at - phases[0]) % 1.0)
+
+
+def _read(file: Path, missing: dict[str, float]) -> dict[str, np.ndarray]:
+    with open(file, encoding="utf-8-sig", newline="") as text:
+        lines = [row for row in csv.reader(text) if row and not row[0].lstrip().startswith("#")]
+    table: dict[str, np.ndarray] = {}
+    for head, column in zip(lines[0], zip(*lines[1:])):
+        name, _, unit = head.strip().partition("_")
+        table[name] = _SIZES.get(unit, 1.0) * np.array(column, dtype=float)
+    count = len(lines) - 1
+    return {**{name: np.full(count, value) for name, value in missing.items()}, **table}
